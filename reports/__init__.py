@@ -1,0 +1,1 @@
+"""The report engine: files, tables and people around the solver `kshm`."""

@@ -1,0 +1,177 @@
+"""From the input file in user units to the solver's engine in SI."""
+
+from __future__ import annotations
+
+from kshm.engine import (
+    Crankshaft,
+    DirectMasses,
+    EndMass,
+    Engine,
+    Gas,
+    Geometry,
+    Masses,
+    PolytropicGas,
+    RodMasses,
+    TabulatedGas,
+    Throw,
+    Web,
+)
+from reports.inputs.model import GasSection, GeometrySection, InputFile, TableGasSection
+from reports.inputs.model_crankshaft import ArmsSection, CrankshaftSection, WebSection
+from reports.units import DEG, KG, KW, MM, MPA, RPM
+
+BDC_DEG = 540.0
+FIRING_TDC_DEG = 360.0
+
+
+def to_engine(model: InputFile) -> Engine:
+    """Return the engine in SI units; the input must have passed `reports.inputs.load`."""
+    regime = model.regime
+    shaft = model.crankshaft
+    power = regime.indicated_power_kw
+    forces = shaft.force_offsets_deg
+    return Engine(
+        geometry=Geometry(
+            bore=MM.to_si(model.geometry.bore_mm),
+            crank_radius=MM.to_si(crank_radius_mm(model.geometry)),
+            rod_length=MM.to_si(rod_length_mm(model.geometry)),
+            compression_ratio=float(model.geometry.compression_ratio),
+        ),
+        omega=RPM.to_si(regime.speed_rpm),
+        gas=_gas(model.gas),
+        masses=_masses(model),
+        crankshaft=_crankshaft(shaft),
+        firing_offsets=tuple(DEG.to_si(value) for value in shaft.firing_offsets_deg),
+        strokes=model.engine.strokes,
+        method=model.calculation.method,
+        step_deg=model.calculation.step_deg,
+        rays=model.calculation.wear_rays,
+        mechanical_efficiency=float(regime.mechanical_efficiency),
+        indicated_power=None if power is None else KW.to_si(power),
+        fullness=float(regime.fullness),
+        force_offsets=None if forces is None else tuple(DEG.to_si(value) for value in forces),
+        name=model.engine.name,
+    )
+
+
+def crank_radius_mm(geometry: GeometrySection) -> float:
+    """Return r [mm] from r, S = 2r, or λ and L."""
+    if geometry.crank_radius_mm is not None:
+        return float(geometry.crank_radius_mm)
+    if geometry.stroke_mm is not None:
+        return geometry.stroke_mm / 2
+    if geometry.lambda_ is None or geometry.rod_length_mm is None:
+        msg = "geometry does not fix the crank radius"
+        raise ValueError(msg)
+    return geometry.lambda_ * geometry.rod_length_mm
+
+
+def rod_length_mm(geometry: GeometrySection) -> float:
+    """Return L [mm] as given, or from r and λ."""
+    if geometry.rod_length_mm is not None:
+        return float(geometry.rod_length_mm)
+    if geometry.lambda_ is None:
+        msg = "geometry does not fix the rod length"
+        raise ValueError(msg)
+    return crank_radius_mm(geometry) / geometry.lambda_
+
+
+def _gas(gas: GasSection) -> Gas:
+    p_ambient = MPA.to_si(gas.ambient_pressure_mpa)
+    if isinstance(gas, TableGasSection):
+        return TabulatedGas(
+            p_ambient=p_ambient,
+            angles=tuple(DEG.to_si(angle) for angle, _ in gas.points),
+            pressures=tuple(MPA.to_si(pressure) for _, pressure in gas.points),
+        )
+    start = gas.combustion_start_deg
+    if start is None:
+        start = FIRING_TDC_DEG - gas.injection_advance_deg + gas.ignition_delay_deg
+    return PolytropicGas(
+        p_ambient=p_ambient,
+        p_intake=MPA.to_si(gas.intake_pressure_mpa),
+        p_residual=MPA.to_si(gas.residual_pressure_mpa),
+        p_max=MPA.to_si(gas.max_pressure_mpa),
+        n_compression=float(gas.compression_exponent),
+        n_expansion=float(gas.expansion_exponent),
+        rho=float(gas.preexpansion_ratio),
+        combustion_start=DEG.to_si(start),
+        ignition_advance=DEG.to_si(gas.injection_advance_deg),
+        exhaust_open=DEG.to_si(BDC_DEG - gas.exhaust_start_before_bdc_deg),
+        exhaust_close=DEG.to_si(BDC_DEG + gas.exhaust_end_after_bdc_deg),
+    )
+
+
+def _masses(model: InputFile) -> Masses:
+    masses = model.masses
+    if masses.reciprocating_kg is not None and masses.rod_big_end_kg is not None:
+        return DirectMasses(
+            reciprocating=KG.to_si(masses.reciprocating_kg),
+            rod_big_end=KG.to_si(masses.rod_big_end_kg),
+        )
+    if masses.piston_group_kg is None or masses.rod_kg is None:
+        msg = "masses are incomplete"
+        raise ValueError(msg)
+    if masses.rod_centre_mm is not None:
+        centre = MM.to_si(masses.rod_centre_mm)
+    elif masses.rod_small_end_share is not None:
+        # m_1 / m = (L - l_1) / L, Gots (20)
+        centre = (1 - masses.rod_small_end_share) * MM.to_si(rod_length_mm(model.geometry))
+    else:
+        msg = "masses do not fix the rod's centre of mass"
+        raise ValueError(msg)
+    return RodMasses(
+        piston_group=KG.to_si(masses.piston_group_kg),
+        rod=KG.to_si(masses.rod_kg),
+        centre=centre,
+    )
+
+
+def _crankshaft(shaft: CrankshaftSection) -> Crankshaft:
+    return Crankshaft(
+        throws=tuple(
+            _throw(shaft, angle, arms, shaft.webs[2 * index], shaft.webs[2 * index + 1])
+            for index, (angle, arms) in enumerate(
+                zip(shaft.throw_angles_deg, shaft.arms, strict=True)
+            )
+        ),
+        nose=EndMass(
+            mass=KG.to_si(shaft.nose_mass_kg),
+            angle=DEG.to_si(shaft.nose_angle_deg),
+            arm=MM.to_si(shaft.nose_arm_mm),
+        ),
+        rear=EndMass(
+            mass=KG.to_si(shaft.rear_mass_kg),
+            angle=DEG.to_si(shaft.rear_angle_deg),
+            arm=MM.to_si(shaft.rear_arm_mm),
+        ),
+        pin_diameter=MM.to_si(shaft.pin_diameter_mm),
+        pin_length=MM.to_si(shaft.pin_length_mm),
+        main_diameter=MM.to_si(shaft.main_diameter_mm),
+        main_lengths=tuple(MM.to_si(length) for length in shaft.main_lengths_mm),
+    )
+
+
+def _throw(
+    shaft: CrankshaftSection, angle: float, arms: ArmsSection, left: WebSection, right: WebSection
+) -> Throw:
+    lengths = (arms.l1_mm, arms.l2_mm, arms.l3_mm, arms.l4_mm, arms.l5_mm, arms.l6_mm)
+    l1, l2, l3, l4, l5, l6 = (MM.to_si(length) for length in lengths)
+    return Throw(
+        angle=DEG.to_si(angle),
+        arms=(l1, l2, l3, l4, l5, l6),
+        left_web=_web(left),
+        right_web=_web(right),
+        pin_mass=KG.to_si(shaft.pin_mass_kg),
+        left_web_thickness=MM.to_si(arms.left_web_mm),
+        right_web_thickness=MM.to_si(arms.right_web_mm),
+    )
+
+
+def _web(web: WebSection) -> Web:
+    return Web(
+        mass=KG.to_si(web.mass_kg),
+        angle=DEG.to_si(web.angle_deg),
+        counterweight_mass=KG.to_si(web.counterweight_kg),
+        counterweight_angle=DEG.to_si(web.counterweight_angle_deg),
+    )

@@ -1,0 +1,201 @@
+"""A validated input as a flat list of fields, with the names of the workbook's cells.
+
+Naming (the workbook's formulas use these names).  `path` holds TOML keys and
+0-based list indices, `name` 1-based numbers:
+
+====================================  ==========================================
+path                                  name
+====================================  ==========================================
+(section, key)                        ``<section>_<key>``: ``geometry_bore_mm``,
+                                      ``geometry_lambda``, ``regime_speed_rpm``,
+                                      ``crankshaft_pin_mass_kg``
+crankshaft.firing_offsets_deg, i      ``firing_offset_<i+1>_deg``
+crankshaft.throw_angles_deg, i        ``throw_angle_<i+1>_deg``
+crankshaft.force_offsets_deg, i       ``force_offset_<i+1>_deg``
+crankshaft.main_lengths_mm, i         ``main_length_<i+1>_mm``
+crankshaft.webs, i, key               ``web_<i+1>_<key>``: ``web_3_mass_kg``
+crankshaft.arms, i, key               ``throw_<i+1>_<key>``: ``throw_1_l1_mm``,
+                                      ``throw_1_left_web_mm``
+gas.points, i, 0 and 1                ``gas_point_<i+1>_deg``, ``gas_point_<i+1>_mpa``
+====================================  ==========================================
+
+Every name is Latin, holds an underscore (so it is neither a cell address nor
+an R1C1 token) and is unique without regard to case.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import BaseModel
+
+from reports.inputs.meta import Meta, find_meta, hints, submodel
+from reports.inputs.model import InputFile
+
+Path = tuple[str | int, ...]
+Value = str | int | float
+
+SECTIONS = {
+    "report": "Сведения о работе",
+    "engine": "Двигатель",
+    "calculation": "Расчет",
+    "geometry": "Геометрия",
+    "regime": "Режим",
+    "gas": "Газы",
+    "masses": "Массы",
+    "crankshaft": "Коленчатый вал",
+}
+_LIST_SECTIONS = {
+    ("gas", "points"): "Индикаторная диаграмма по точкам",
+    ("crankshaft", "firing_offsets_deg"): "Начало рабочих ходов",
+    ("crankshaft", "throw_angles_deg"): "Углы колен",
+    ("crankshaft", "force_offsets_deg"): "Фазы сил",
+    ("crankshaft", "main_lengths_mm"): "Коренные шейки",
+    ("crankshaft", "webs"): "Щеки и противовесы",
+    ("crankshaft", "arms"): "Плечи колен",
+}
+_LIST_NAMES = {
+    "firing_offsets_deg": "firing_offset_{n}_deg",
+    "throw_angles_deg": "throw_angle_{n}_deg",
+    "force_offsets_deg": "force_offset_{n}_deg",
+    "main_lengths_mm": "main_length_{n}_mm",
+    "webs": "web_{n}_{key}",
+    "arms": "throw_{n}_{key}",
+    "points": "gas_point_{n}_{key}",
+}
+_POINT_KEYS = ("deg", "mpa")
+
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """One input value.
+
+    Attributes:
+        path: Keys and 0-based indices, as `load_mapping` finds the value.
+        name: The defined name of its cell.
+        section: Russian title of its group.
+        title: Russian title.
+        symbol: Symbol; a subscript follows the underscore.
+        unit: Russian unit label, empty for a pure number.
+        value: The value in user units.
+        minimum: Smallest allowed value, if it is a number.
+        maximum: Largest allowed value, if it is a number.
+        choices: Allowed values (as text) and their Russian labels, or None.
+        structural: A change of the value changes the shape of the workbook.
+        optional: The key may be left out of the file.
+    """
+
+    path: Path
+    name: str
+    section: str
+    title: str
+    symbol: str
+    unit: str
+    value: Value
+    minimum: float | None
+    maximum: float | None
+    choices: dict[str, str] | None
+    structural: bool
+    optional: bool
+
+
+def cell_name(path: Path) -> str:
+    """Return the defined name that belongs to a path (see the module's table)."""
+    if len(path) == 2:
+        return f"{path[0]}_{path[1]}"
+    key = path[3] if len(path) > 3 else ""
+    if path[1] == "points":
+        key = _POINT_KEYS[int(path[3])]
+    return _LIST_NAMES[str(path[1])].format(n=int(path[2]) + 1, key=key)
+
+
+def key_text(path: Path) -> str:
+    """Return the path as messages show it: ``crankshaft.webs[3].mass_kg``, lists from 1."""
+    text = ""
+    for part in path:
+        text += f"[{part + 1}]" if isinstance(part, int) else f".{part}" if text else part
+    return text
+
+
+def iter_fields(model: InputFile) -> Iterator[Field]:
+    """Yield the fields that are given or defaulted, in the order of the file."""
+    for section, title in SECTIONS.items():
+        part: BaseModel = getattr(model, section)
+        yield from _fields_of(part, (section,), title, number=None)
+
+
+def structure(model: InputFile) -> tuple[tuple[str, Value | None], ...]:
+    """Return what fixes the shape of the workbook.
+
+    Two inputs of equal structure have the same cells: the same names in the
+    same order, and the same values of the structural fields.
+    """
+    return tuple(
+        (field.name, field.value if field.structural else None) for field in iter_fields(model)
+    )
+
+
+def to_mapping(model: InputFile) -> dict[str, Any]:
+    """Return the nested mapping `load_mapping` reads back to an equal model."""
+    return model.model_dump(by_alias=True, exclude_none=True, mode="json")
+
+
+def set_value(raw: dict[str, Any], path: Path, value: object) -> None:
+    """Put a value into a nested mapping of `to_mapping` at `path`."""
+    target: Any = raw
+    for part in path[:-1]:
+        target = target[part]
+    target[path[-1]] = value
+
+
+def _fields_of(part: BaseModel, path: Path, section: str, number: int | None) -> Iterator[Field]:
+    names = {info.alias or name: name for name, info in type(part).model_fields.items()}
+    for key, annotation in hints(type(part)).items():
+        value = getattr(part, names[key])
+        if value is None:
+            continue
+        here = (*path, key)
+        optional = not type(part).model_fields[names[key]].is_required()
+        if isinstance(value, tuple):
+            list_section = _LIST_SECTIONS[(str(path[0]), key)]
+            yield from _entries(value, annotation, here, list_section, optional)
+            continue
+        meta = find_meta(annotation)[0]
+        if number is not None:
+            meta = meta.numbered(number)
+        yield _field(here, section, meta, value, optional)
+
+
+def _entries(
+    values: tuple[Any, ...], annotation: object, path: Path, section: str, optional: bool
+) -> Iterator[Field]:
+    is_models = submodel(annotation) is not None
+    metas = find_meta(annotation)
+    for index, value in enumerate(values):
+        here = (*path, index)
+        if is_models:
+            yield from _fields_of(value, here, section, index + 1)
+        elif isinstance(value, tuple):
+            for column, (meta, item) in enumerate(zip(metas, value, strict=True)):
+                yield _field((*here, column), section, meta.numbered(index + 1), item, optional)
+        else:
+            yield _field(here, section, metas[0].numbered(index + 1), value, optional)
+
+
+def _field(path: Path, section: str, meta: Meta, value: Value, optional: bool) -> Field:
+    return Field(
+        path=path,
+        name=cell_name(path),
+        section=section,
+        title=meta.title,
+        symbol=meta.symbol,
+        unit=meta.unit.label,
+        value=value,
+        minimum=meta.minimum,
+        maximum=meta.maximum,
+        choices=dict(meta.choices) if meta.choices is not None else None,
+        structural=meta.structural,
+        optional=optional,
+    )

@@ -1,0 +1,293 @@
+"""Read an input file, or the cells of an edited workbook, and check all of it at once.
+
+`load_toml`, `load_text` and `load_mapping` return `Loaded`: the model, and
+warnings about what is allowed but odd.  Errors come together in one
+`InputError`, a `Problem` each.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path as FilePath
+from typing import Any, cast
+
+from pydantic import ValidationError
+
+from reports.errors import InputError, Problem, one_line
+from reports.inputs import cells, checks, messages
+from reports.inputs.fields import SECTIONS, Path, key_text
+from reports.inputs.meta import Strictly, hints, submodel
+from reports.inputs.model import (
+    SOURCES,
+    Calculation,
+    EngineSection,
+    GeometrySection,
+    InputFile,
+    MassesSection,
+    PolytropicGasSection,
+    Regime,
+    Report,
+    TableGasSection,
+)
+from reports.inputs.model_crankshaft import CrankshaftSection
+
+MAX_BYTES = 2_000_000
+MAX_PROBLEMS = 200
+
+Locate = Callable[[Path], str]
+
+_MODELS: dict[str, type[Strictly]] = {
+    "report": Report,
+    "engine": EngineSection,
+    "calculation": Calculation,
+    "geometry": GeometrySection,
+    "regime": Regime,
+    "masses": MassesSection,
+    "crankshaft": CrankshaftSection,
+}
+_OPTIONAL_SECTIONS = ("report", "calculation")
+_GASES: dict[str, type[Strictly]] = {"polytropic": PolytropicGasSection, "table": TableGasSection}
+
+
+@dataclass(frozen=True, slots=True)
+class Loaded:
+    """A checked input and what is odd about it."""
+
+    model: InputFile
+    warnings: tuple[Problem, ...]
+
+
+def load_toml(path: FilePath | str) -> Loaded:
+    """Read and check an input file.
+
+    Raises:
+        InputError: With everything that is wrong with the file.
+    """
+    file = FilePath(path)
+    return load_text(_read(file), source=file.name)
+
+
+def load_text(text: str, *, source: str) -> Loaded:
+    """Check the text of an input file; `source` names it in messages."""
+    try:
+        raw = tomllib.loads(text)
+    except RecursionError:
+        raise _refused(source, "слишком глубокая вложенность", "уберите лишние скобки") from None
+    except ValueError as error:  # TOMLDecodeError, or an integer of thousands of digits
+        what, hint = messages.toml_error(error, text)
+        raise _refused(source, what, hint) from None
+    if not raw:
+        raise _refused(source, "файл пуст", "заготовку даст команда «kshm new»")
+    return load_mapping(raw, source=source)
+
+
+def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None = None) -> Loaded:
+    """Check a nested mapping of the input file's shape.
+
+    Args:
+        raw: Sections, keys and values in user units.
+        source: Name of the file in messages.
+        locate: For the cells of a workbook: maps a path to "лист!ячейка".  Then
+            whole numbers read as floats, labels of choices and numbers in
+            text cells are accepted, and an empty cell is an error.
+
+    Raises:
+        InputError: With everything that is wrong.
+    """
+    reader = _Reader(source, locate)
+    data = dict(raw)
+    if locate is not None:
+        data = reader.from_cells(data)
+    models = reader.sections(data)
+    for finding in checks.check(reader.values):
+        problem = reader.problem(finding.path, finding.what, finding.hint)
+        (reader.warnings if finding.warning else reader.problems).append(problem)
+    if reader.problems:
+        raise InputError(_capped(source, reader.problems))
+    parts = cast(dict[str, Any], models)
+    return Loaded(InputFile(**parts), tuple(reader.warnings))
+
+
+class _Reader:
+    """Collects the problems of one file, section by section."""
+
+    def __init__(self, source: str, locate: Locate | None) -> None:
+        self.source = one_line(source, 120)
+        self.locate = locate
+        self.problems: list[Problem] = []
+        self.warnings: list[Problem] = []
+        self.values = checks.Values()
+        self.empty: set[Path] = set()
+
+    def problem(self, path: Path, what: str, hint: str = "") -> Problem:
+        key = one_line(key_text(path), 100)
+        cell = self.locate(path) if self.locate is not None and path else ""
+        place = f"{cell} ({key})" if cell else key
+        return Problem(": ".join(part for part in (self.source, place) if part), what, hint)
+
+    def from_cells(self, data: dict[str, Any]) -> dict[str, Any]:
+        source = str(data["gas"].get("source")) if isinstance(data.get("gas"), dict) else ""
+        source = next((key for key, label in SOURCES.items() if source == label), source)
+        known = {**_MODELS, "gas": _GASES.get(source, PolytropicGasSection)}
+        result, empty = cells.from_cells(data, known)
+        self.problems += [self.problem(path, "ячейка пуста", "впишите значение") for path in empty]
+        self.empty = set(empty)
+        self.values.broken |= {(str(path[0]), str(path[1])) for path in empty}
+        self.values.unsure |= {str(path[0]) for path in empty}
+        return result
+
+    def sections(self, data: dict[str, Any]) -> dict[str, Strictly]:
+        unknown = [key for key in data if key not in SECTIONS]
+        guessed = set()
+        for key in unknown:
+            likely = messages.likely_word(key, SECTIONS)
+            guessed.add(likely)
+            hint = f"возможно, имелся в виду [{likely}]" if likely else "удалите его"
+            self.problems.append(self.problem((key,), "неизвестный раздел или ключ", hint))
+        models = {}
+        for name in SECTIONS:
+            if name not in data and name not in _OPTIONAL_SECTIONS:
+                if name not in guessed:
+                    hint = f"добавьте раздел [{name}]"
+                    self.problems.append(self.problem((name,), "нет раздела", hint))
+                continue
+            model = self._model_of(name, data.get(name, {}))
+            if model is not None:
+                section = self._section(name, model, data.get(name, {}))
+                if section is not None:
+                    models[name] = section
+        return models
+
+    def _model_of(self, name: str, raw: object) -> type[Strictly] | None:
+        if not isinstance(raw, dict):
+            what = f"нужен раздел [{name}], а задано {messages.kind(raw)}"
+            self.problems.append(self.problem((name,), what))
+            return None
+        if name != "gas":
+            return _MODELS[name]
+        source = raw.get("source")
+        if isinstance(source, str) and source in _GASES:
+            return _GASES[source]
+        what = "обязательный ключ не задан"
+        if "source" in raw:
+            what = f"недопустимое значение {messages.shown(source)}"
+        hint = "допустимо: " + ", ".join(_GASES)
+        if not any((p[0], p[1]) == ("gas", "source") for p in self.values.broken):
+            self.problems.append(self.problem(("gas", "source"), what, hint))
+        return None
+
+    def _section(self, name: str, model: type[Strictly], raw: dict[str, Any]) -> Strictly | None:
+        for key, value in raw.items():
+            if isinstance(value, list | tuple):
+                self.values.counts[name, key] = len(value)
+        try:
+            section = model.model_validate(raw)
+        except ValidationError as error:
+            self._report(name, model, error)
+            self.values.sections[name] = _valid_part(model, raw, error)
+            return None
+        names = {info.alias or field: field for field, info in model.model_fields.items()}
+        self.values.sections[name] = {key: getattr(section, names[key]) for key in names}
+        return section
+
+    def _report(self, name: str, model: type[Strictly], error: ValidationError) -> None:
+        errors = error.errors(include_url=False, include_context=False)
+        guesses: set[tuple[Path, str | None]] = set()
+        for item in errors:
+            if item["type"] == "extra_forbidden":
+                *parents, key = item["loc"]
+                owner = _owner(model, tuple(parents))
+                guesses.add((tuple(parents), messages.likely_key(str(key), owner)))
+                what, hint = messages.unknown_key(str(key), owner)
+                self.problems.append(self.problem((name, *item["loc"]), what, hint))
+        for item in errors:
+            loc = item["loc"]
+            if item["type"] in ("extra_forbidden", "missing"):
+                self.values.unsure.add(name)
+            else:
+                self.values.broken.add((name, str(loc[0])))
+            # A misspelt key is one mistake, not also a missing key.
+            if item["type"] == "extra_forbidden" or (loc[:-1], loc[-1]) in guesses:
+                continue
+            what, hint = messages.explain(item, messages.meta_at(model, loc))
+            if (name, *loc) not in self.empty:
+                self.problems.append(self.problem((name, *loc), what, hint))
+
+
+def _owner(model: type[Strictly], parents: Path) -> type[Strictly]:
+    for part in parents:
+        if isinstance(part, str):
+            found = submodel(hints(model)[part])
+            if found is not None and issubclass(found, Strictly):
+                model = found
+    return model
+
+
+def _valid_part(
+    model: type[Strictly], raw: dict[str, Any], error: ValidationError
+) -> dict[str, Any]:
+    """Return the fields that are valid by themselves, defaults filled in."""
+    wrong = {item["loc"][0] for item in error.errors(include_url=False) if item["loc"]}
+    names = {info.alias or field: field for field, info in model.model_fields.items()}
+    validator = model.__pydantic_validator__
+    blank = model.model_construct()
+    values = {}
+    for key, name in names.items():
+        if key in wrong:
+            continue
+        if key in raw:
+            part = validator.validate_assignment(blank.model_copy(), name, raw[key])
+            values[key] = getattr(part, name, None)
+        else:
+            values[key] = getattr(blank, name, None)
+    return values
+
+
+def _read(file: FilePath) -> str:
+    try:
+        if not file.is_file():
+            what = "это папка, а нужен файл" if file.is_dir() else "файл не найден"
+            raise _refused(str(file), what, "проверьте имя и путь")
+        with file.open("rb") as stream:
+            data = stream.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        reason = getattr(error, "strerror", None) or "недопустимое имя"
+        raise _refused(str(file), f"файл не читается ({reason})", "проверьте права") from None
+    if len(data) > MAX_BYTES:
+        raise _refused(file.name, "файл больше 2 МБ", "это не файл исходных данных")
+    return _decode(file.name, data)
+
+
+def _decode(source: str, data: bytes) -> str:
+    if not data.strip():
+        raise _refused(source, "файл пуст", "заготовку даст команда «kshm new»")
+    for magic, name in (
+        (b"PK\x03\x04", "книга Excel или архив"),
+        (b"\xd0\xcf\x11\xe0", "старый или зашифрованный документ Office"),
+        (b"%PDF", "документ PDF"),
+    ):
+        if data.startswith(magic):
+            raise _refused(source, f"это {name}, а нужен текст TOML", "выберите другой файл")
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        raise _refused(source, "кодировка UTF-16", "сохраните файл в UTF-8")
+    if b"\x00" in data:
+        raise _refused(source, "двоичный файл, а нужен текст TOML", "выберите другой файл")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        row = data.count(b"\n", 0, error.start) + 1
+        what = f"строка {row}: не UTF-8 (возможно, Windows-1251)"
+        raise _refused(source, what, "сохраните файл в UTF-8") from None
+
+
+def _refused(source: str, what: str, hint: str) -> InputError:
+    return InputError(Problem(one_line(source, 120), what, hint))
+
+
+def _capped(source: str, problems: list[Problem]) -> list[Problem]:
+    if len(problems) <= MAX_PROBLEMS:
+        return problems
+    rest = len(problems) - MAX_PROBLEMS
+    return [*problems[:MAX_PROBLEMS], Problem(one_line(source, 120), f"и еще ошибок: {rest}")]

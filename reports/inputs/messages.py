@@ -1,0 +1,197 @@
+"""Russian words for what pydantic and the TOML parser find."""
+
+from __future__ import annotations
+
+import datetime as dt
+import difflib
+import re
+from collections.abc import Iterable
+
+from pydantic_core import ErrorDetails
+
+from reports import units
+from reports.errors import one_line
+from reports.inputs.meta import MAX_TEXT, Meta, Strictly, find_meta, hints, submodel
+from reports.inputs.model import (
+    Calculation,
+    EngineSection,
+    GeometrySection,
+    MassesSection,
+    PolytropicGasSection,
+    Regime,
+    Report,
+    TableGasSection,
+)
+from reports.inputs.model_crankshaft import ArmsSection, CrankshaftSection, WebSection
+
+_HOMES: dict[str, tuple[type[Strictly], ...]] = {
+    "[report]": (Report,),
+    "[engine]": (EngineSection,),
+    "[calculation]": (Calculation,),
+    "[geometry]": (GeometrySection,),
+    "[regime]": (Regime,),
+    "[gas]": (PolytropicGasSection, TableGasSection),
+    "[masses]": (MassesSection,),
+    "[crankshaft]": (CrankshaftSection,),
+    "[[crankshaft.webs]]": (WebSection,),
+    "[[crankshaft.arms]]": (ArmsSection,),
+}
+
+
+def shown(value: object) -> str:
+    """Return a value as a message may show it: one line, short."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int):
+        # str() of an int of more than 4300 digits raises.
+        return units.number_text(value) if abs(value) < 10**15 else "слишком большое целое число"
+    if isinstance(value, float):
+        return units.number_text(value)
+    if isinstance(value, str):
+        return f"«{one_line(value, 40)}»"
+    return kind(value)
+
+
+def kind(value: object) -> str:
+    """Return the Russian name of a value's type."""
+    if isinstance(value, dict):
+        return "таблица"
+    if isinstance(value, list | tuple):
+        return "список"
+    if isinstance(value, dt.date | dt.time):
+        return "дата или время"
+    if isinstance(value, bool):
+        return "логическое значение"
+    return "строка" if isinstance(value, str) else "число"
+
+
+def explain(error: ErrorDetails, meta: Meta | None) -> tuple[str, str]:
+    """Return (what, hint) for one pydantic error of a field with this metadata."""
+    found = error["type"]
+    value = error["input"]
+    hint = meta.range_text() if meta is not None else ""
+    if found == "missing":
+        title = f" ({meta.title})" if meta is not None and "{" not in meta.title else ""
+        return f"обязательный ключ не задан{title}", hint
+    if found in ("greater_than_equal", "less_than_equal", "greater_than", "less_than"):
+        return f"значение {shown(value)} вне допустимых пределов", hint
+    if found == "finite_number":
+        return "нужно конечное число, а не inf или nan", hint
+    if found == "literal_error":
+        return f"недопустимое значение {shown(value)}", hint
+    if found in ("float_type", "int_type", "int_from_float", "int_parsing_size"):
+        number = "целое число" if found.startswith("int") else "число"
+        return f"нужно {number}, а задано {_given(value)}", _number_hint(value) or hint
+    if found == "string_type":
+        return f"нужна строка в кавычках, а задано {_given(value)}", ""
+    if found == "string_too_long":
+        return f"слишком длинная строка, {len(str(value))} знаков", f"допустимо до {MAX_TEXT}"
+    if found == "control_character":
+        return "в строке есть управляющие символы", "оставьте одну строку обычного текста"
+    return _explain_shape(found, value)
+
+
+def _explain_shape(found: str, value: object) -> tuple[str, str]:
+    if found in ("model_type", "model_attributes_type", "dict_type"):
+        return f"нужна таблица ключей, а задано {_given(value)}", ""
+    if found in ("tuple_type", "list_type"):
+        return f"нужен список, а задано {_given(value)}", "запишите в квадратных скобках"
+    if found in ("too_long", "too_short"):
+        return "нужна пара чисел [угол, давление]", "например [360.0, 8.4]"
+    return f"недопустимое значение {shown(value)}", ""
+
+
+def _given(value: object) -> str:
+    if isinstance(value, dict | list | tuple | dt.date | dt.time):
+        return kind(value)
+    return f"{kind(value)} {shown(value)}"
+
+
+def _number_hint(value: object) -> str:
+    if isinstance(value, str) and re.fullmatch(r"\s*[-+]?\d+([.,]\d+)?\s*", value):
+        return f"пишите без кавычек и с точкой: {value.strip().replace(',', '.')}"
+    return ""
+
+
+def likely_key(key: str, model: type[Strictly]) -> str | None:
+    """Return the key of `model` that `key` was probably meant to be."""
+    close = difflib.get_close_matches(key.lower(), list(hints(model)), n=1, cutoff=0.6)
+    return close[0] if close else None
+
+
+def likely_word(word: str, words: Iterable[str]) -> str | None:
+    """Return the word of `words` nearest to `word`, if one is near."""
+    close = difflib.get_close_matches(word.lower(), list(words), n=1, cutoff=0.6)
+    return close[0] if close else None
+
+
+def unknown_key(key: str, model: type[Strictly]) -> tuple[str, str]:
+    """Return (what, hint) for a key `model` does not know."""
+    what = "неизвестный ключ"
+    for home, models in _HOMES.items():
+        if any(key in hints(candidate) for candidate in models):
+            other = "при другом source" if model in models else f"в разделе {home}"
+            return what, f"такой ключ есть {other}"
+    likely = likely_key(key, model)
+    return what, f"возможно, имелся в виду {likely}" if likely else "удалите его"
+
+
+def meta_at(model: type[Strictly], path: tuple[str | int, ...]) -> Meta | None:
+    """Return the metadata of the field at `path` inside `model`, if it is a single value."""
+    annotation: object = model
+    current: type[Strictly] | None = model
+    for part in path:
+        if isinstance(part, str):
+            if current is None:
+                return None
+            annotation = hints(current).get(part)
+            if annotation is None:
+                return None
+            found = submodel(annotation)
+            current = found if found is not None and issubclass(found, Strictly) else None
+    metas = find_meta(annotation) if current is None else []
+    numbers = [part for part in path if isinstance(part, int)]
+    if not metas:
+        return None
+    if len(metas) == 2:
+        if len(numbers) < 2:
+            return None
+        metas = [metas[numbers[1]]] if numbers[1] < 2 else []
+    meta = metas[0] if metas else None
+    return meta.numbered(numbers[0] + 1) if meta is not None and numbers else meta
+
+
+_TOML = (
+    ("Cannot overwrite a value", "ключ задан дважды"),
+    ("Cannot declare", "раздел задан дважды"),
+    ("Cannot mutate immutable", "раздел задан дважды"),
+    ("Cannot redefine namespace", "раздел задан дважды"),
+    ("Unterminated string", "строка не закрыта кавычкой"),
+    ("Unclosed array", "список не закрыт скобкой «]»"),
+    ("Illegal character", "недопустимый символ"),
+    ("Invalid value", "после знака «=» нет допустимого значения"),
+    ("Expected '=' after a key", "после ключа нет знака «=»"),
+    ("Expected ']'", "заголовок раздела не закрыт скобкой «]»"),
+    ("Expected newline or end of document", "лишние символы после значения"),
+    ("Invalid statement", "непонятная строка"),
+    ("Invalid initial character for a key part", "непонятный ключ"),
+)
+
+
+def toml_error(error: Exception, text: str) -> tuple[str, str]:
+    """Return (what, hint) for an error of the TOML parser."""
+    message = str(error)
+    what = next((russian for english, russian in _TOML if english in message), "ошибка записи TOML")
+    place = re.search(r"\(at line (\d+), column (\d+)\)", message)
+    if place is None:
+        if "end of document" in message:
+            return f"файл обрывается: {what}", "допишите или восстановите его конец"
+        return what, "проверьте запись по примеру из «kshm new»"
+    row, column = int(place[1]), int(place[2])
+    # tomllib counts lines by "\n" only; splitlines() would also cut at other breaks.
+    lines = text.replace("\r\n", "\n").split("\n")
+    line = lines[row - 1] if row <= len(lines) else ""
+    hint = f"строка: {shown(line.strip())}" if line.strip() else ""
+    if re.search(r"=\s*[-+]?\d+,\d", line):
+        hint = "десятичный разделитель — точка, а не запятая"
+    return f"строка {row}, столбец {column}: {what}", hint

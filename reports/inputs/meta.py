@@ -1,0 +1,135 @@
+"""What a person is told about an input field; also carries its hard limits into pydantic."""
+
+from __future__ import annotations
+
+import typing
+import unicodedata
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from reports import units
+from reports.units import Unit
+
+MAX_TEXT = 300
+_REFUSED = {"Cc", "Cs", "Cn", "Zl", "Zp"}
+
+
+class Strictly(BaseModel):
+    """Base of the input models: unknown keys, other types, nan and inf are refused."""
+
+    model_config = ConfigDict(
+        strict=True,
+        extra="forbid",
+        allow_inf_nan=False,
+        frozen=True,
+        validate_by_name=True,
+        validate_by_alias=True,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Meta:
+    """Russian title, symbol, unit, limits and choices of one input field.
+
+    `title` and `symbol` of a list entry contain ``{n}``, its 1-based number.
+    A subscript in `symbol` follows an underscore.  `structural` marks a field
+    whose value changes the shape of the workbook.
+    """
+
+    title: str
+    symbol: str = ""
+    unit: Unit = units.NONE
+    minimum: float | None = None
+    maximum: float | None = None
+    choices: Mapping[str, str] | None = None
+    structural: bool = False
+
+    def __get_pydantic_core_schema__(
+        self, source: object, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        """Add the limits to the schema of the annotated type."""
+        schema: dict[str, Any] = dict(handler(source))
+        if schema["type"] in ("float", "int"):
+            if self.minimum is not None:
+                schema["ge"] = self.minimum
+            if self.maximum is not None:
+                schema["le"] = self.maximum
+        if schema["type"] == "str":
+            schema["max_length"] = MAX_TEXT
+            return core_schema.no_info_after_validator_function(
+                _printable, typing.cast(CoreSchema, schema)
+            )
+        return typing.cast(CoreSchema, schema)
+
+    def range_text(self) -> str:
+        """Return the allowed values in words: ``допустимо от 10 до 1200 мм``."""
+        if self.choices is not None:
+            return "допустимо: " + ", ".join(self.choices)
+        if self.minimum is None or self.maximum is None:
+            return ""
+        low = units.number_text(self.minimum)
+        return f"допустимо от {low} до {self.unit.text(self.maximum)}"
+
+    def numbered(self, number: int) -> Meta:
+        """Return the metadata of the list entry with this 1-based number."""
+        return Meta(
+            self.title.format(n=number),
+            self.symbol.format(n=number),
+            self.unit,
+            self.minimum,
+            self.maximum,
+            self.choices,
+            self.structural,
+        )
+
+
+def _printable(value: str) -> str:
+    # Control characters are illegal in XML and would break the workbook much later.
+    if any(unicodedata.category(char) in _REFUSED for char in value):
+        raise PydanticCustomError("control_character", "control character")
+    return value
+
+
+def number(title: str, symbol: str, unit: Unit, low: float, high: float) -> Meta:
+    """Return the metadata of a number with inclusive hard limits."""
+    return Meta(title, symbol, unit, low, high)
+
+
+def text(title: str) -> Meta:
+    """Return the metadata of a line of text."""
+    return Meta(title)
+
+
+def choice(title: str, options: Mapping[str, str], *, structural: bool, symbol: str = "") -> Meta:
+    """Return the metadata of a choice; `options` maps each value to its Russian label."""
+    return Meta(title, symbol, choices=options, structural=structural)
+
+
+def hints(model: type[BaseModel]) -> dict[str, Any]:
+    """Return the annotations of a model by TOML key, in the order of the file."""
+    annotations = typing.get_type_hints(model, include_extras=True)
+    return {info.alias or name: annotations[name] for name, info in model.model_fields.items()}
+
+
+def find_meta(annotation: object) -> list[Meta]:
+    """Return the metadata within an annotation, outermost first (two for a point's pair)."""
+    found = [item for item in getattr(annotation, "__metadata__", ()) if isinstance(item, Meta)]
+    if not found:
+        for part in typing.get_args(annotation):
+            found += find_meta(part)
+    return found
+
+
+def submodel(annotation: object) -> type[BaseModel] | None:
+    """Return the model inside a list annotation, if there is one."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    for part in typing.get_args(annotation):
+        found = submodel(part)
+        if found is not None:
+            return found
+    return None

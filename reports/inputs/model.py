@@ -1,0 +1,219 @@
+"""The input file as strict pydantic models, user units in the key suffixes.
+
+Limits are hard and physically generous; what only looks odd is a warning
+(see `reports.inputs.checks`).  A model alone is checked field by field: use
+`reports.inputs.load`, which also checks the fields against each other.
+"""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from typing import Annotated, Literal
+
+from pydantic import Field, Strict
+
+from reports.inputs.meta import Strictly, choice, number, text
+from reports.inputs.model_crankshaft import CrankshaftSection
+from reports.units import DEG, KG, KW, MM, MPA, NONE, RPM
+
+MAX_CYLINDERS = 12
+STEPS = (1, 2, 3, 5, 10, 15, 30)
+LAMBDA_MIN, LAMBDA_MAX = 0.01, 0.99
+
+METHODS = {
+    "textbook": "по учебнику: двучленное ускорение",
+    "exact": "точное ускорение",
+}
+LAYOUTS = {"inline": "рядный"}
+SOURCES = {"polytropic": "по политропам", "table": "по точкам диаграммы"}
+
+
+def _this_year() -> int:
+    return datetime.now(tz=UTC).year
+
+
+class Report(Strictly):
+    """[report]: what stands on the title page."""
+
+    student: Annotated[str, text("Студент")] = ""
+    group: Annotated[str, text("Группа")] = ""
+    institution: Annotated[str, text("Учебное заведение")] = ""
+    department: Annotated[str, text("Кафедра")] = ""
+    supervisor: Annotated[str, text("Руководитель")] = ""
+    variant: Annotated[str, text("Вариант")] = ""
+    year: Annotated[int, number("Год", "", NONE, 1950, 2150)] = Field(default_factory=_this_year)
+    city: Annotated[str, text("Город")] = ""
+    title: Annotated[str, text("Тема работы")] = (
+        "Расчет кинематики и динамики кривошипно-шатунного механизма"
+    )
+
+
+class EngineSection(Strictly):
+    """[engine]."""
+
+    name: Annotated[str, text("Название двигателя")] = "Двигатель"
+    cylinders: Annotated[
+        int,
+        choice(
+            "Число цилиндров",
+            {str(i): str(i) for i in range(1, MAX_CYLINDERS + 1)},
+            structural=True,
+            symbol="i",
+        ),
+        Field(ge=1, le=MAX_CYLINDERS),
+    ]
+    layout: Annotated[
+        Literal["inline"], choice("Расположение цилиндров", LAYOUTS, structural=True)
+    ] = "inline"
+    strokes: Annotated[Literal[4], choice("Тактность", {"4": "4"}, structural=True, symbol="τ")] = 4
+
+
+class Calculation(Strictly):
+    """[calculation]: method and grid."""
+
+    method: Annotated[
+        Literal["textbook", "exact"], choice("Метод расчета", METHODS, structural=False)
+    ] = "textbook"
+    step_deg: Annotated[
+        Literal[1, 2, 3, 5, 10, 15, 30],
+        choice(
+            "Шаг таблиц по углу поворота",
+            {str(step): f"{step}°" for step in STEPS},
+            structural=True,
+            symbol="Δφ",
+        ),
+    ] = 10
+    wear_rays: Annotated[
+        Literal[12, 18],
+        choice("Число лучей диаграммы износа", {"12": "12", "18": "18"}, structural=True),
+    ] = 12
+
+
+class GeometrySection(Strictly):
+    """[geometry]: any two of r (or S = 2r), L and λ; three if they agree."""
+
+    bore_mm: Annotated[float, number("Диаметр цилиндра", "D", MM, 10, 1500)]
+    crank_radius_mm: Annotated[float, number("Радиус кривошипа", "r", MM, 5, 2000)] | None = None
+    stroke_mm: Annotated[float, number("Ход поршня", "S", MM, 10, 4000)] | None = None
+    rod_length_mm: Annotated[float, number("Длина шатуна", "L", MM, 10, 6000)] | None = None
+    lambda_: Annotated[float, number("Отношение r/L", "λ", NONE, LAMBDA_MIN, LAMBDA_MAX)] | None = (
+        Field(default=None, alias="lambda")
+    )
+    compression_ratio: Annotated[float, number("Степень сжатия", "ε", NONE, 2, 50)]
+
+
+class Regime(Strictly):
+    """[regime]."""
+
+    speed_rpm: Annotated[float, number("Частота вращения", "n", RPM, 10, 30000)]
+    mechanical_efficiency: Annotated[float, number("Механический КПД", "η_м", NONE, 0.1, 1)] = 1.0
+    indicated_power_kw: (
+        Annotated[float, number("Индикаторная мощность по расчету цикла", "N_i", KW, 0.01, 1e5)]
+        | None
+    ) = None
+    fullness: Annotated[float, number("Коэффициент полноты диаграммы", "φ_п", NONE, 0.5, 1)] = 1.0
+
+
+class PolytropicGasSection(Strictly):
+    """[gas], source = "polytropic": indicator diagram by polytropes, as Dinn built it."""
+
+    source: Annotated[
+        Literal["polytropic"], choice("Индикаторная диаграмма", SOURCES, structural=True)
+    ]
+    ambient_pressure_mpa: Annotated[
+        float, number("Давление окружающей среды", "p_0", MPA, 0.01, 0.5)
+    ] = 0.1
+    intake_pressure_mpa: Annotated[float, number("Давление впуска", "p_a", MPA, 0.01, 3)]
+    residual_pressure_mpa: Annotated[
+        float, number("Давление остаточных газов", "p_r", MPA, 0.01, 3)
+    ]
+    max_pressure_mpa: Annotated[float, number("Максимальное давление цикла", "p_z", MPA, 0.2, 60)]
+    compression_exponent: Annotated[
+        float, number("Показатель политропы сжатия", "n_1", NONE, 1, 1.7)
+    ]
+    expansion_exponent: Annotated[
+        float, number("Показатель политропы расширения", "n_2", NONE, 1, 1.7)
+    ]
+    preexpansion_ratio: Annotated[
+        float, number("Степень предварительного расширения", "ρ", NONE, 1, 6)
+    ]
+    injection_advance_deg: Annotated[
+        float, number("Угол опережения впрыска (зажигания)", "θ_оп", DEG, 0.5, 90)
+    ]
+    ignition_delay_deg: Annotated[
+        float, number("Период задержки воспламенения", "Δφ_з", DEG, 0, 90)
+    ]
+    combustion_start_deg: (
+        Annotated[float, number("Угол начала сгорания", "φ_c", DEG, 270, 360)] | None
+    ) = None
+    exhaust_start_before_bdc_deg: Annotated[
+        float, number("Начало выпуска до НМТ", "φ_в1", DEG, 0, 150)
+    ]
+    exhaust_end_after_bdc_deg: Annotated[
+        float, number("Конец свободного выпуска после НМТ", "φ_в2", DEG, 0, 180)
+    ]
+
+
+class TableGasSection(Strictly):
+    """[gas], source = "table": points (φ, absolute pressure)."""
+
+    source: Annotated[Literal["table"], choice("Индикаторная диаграмма", SOURCES, structural=True)]
+    ambient_pressure_mpa: Annotated[
+        float, number("Давление окружающей среды", "p_0", MPA, 0.01, 0.5)
+    ] = 0.1
+    points: Annotated[
+        tuple[
+            Annotated[
+                tuple[
+                    Annotated[float, number("Точка {n}: угол", "φ_{n}", DEG, 0, 720)],
+                    Annotated[float, number("Точка {n}: давление", "p_{n}", MPA, 0.001, 60)],
+                ],
+                Strict(False),
+            ],
+            ...,
+        ],
+        Strict(False),
+    ]
+
+
+GasSection = PolytropicGasSection | TableGasSection
+
+
+class MassesSection(Strictly):
+    """[masses]: m_j and m_2, or the piston group, the rod and its centre of mass."""
+
+    reciprocating_kg: (
+        Annotated[float, number("Масса возвратно-движущихся деталей", "m_j", KG, 0.001, 5000)]
+        | None
+    ) = None
+    rod_big_end_kg: (
+        Annotated[float, number("Масса шатуна, отнесенная к кривошипу", "m_2", KG, 0.001, 5000)]
+        | None
+    ) = None
+    piston_group_kg: (
+        Annotated[float, number("Масса поршневой группы", "m_п", KG, 0.001, 5000)] | None
+    ) = None
+    rod_kg: Annotated[float, number("Масса шатуна", "m_ш", KG, 0.001, 5000)] | None = None
+    rod_centre_mm: (
+        Annotated[float, number("Расстояние от пальца до центра масс шатуна", "l_1", MM, 1, 6000)]
+        | None
+    ) = None
+    rod_small_end_share: (
+        Annotated[
+            float, number("Доля массы шатуна у поршневого пальца", "m_1/m_ш", NONE, 0.02, 0.8)
+        ]
+        | None
+    ) = None
+
+
+class InputFile(Strictly):
+    """The whole input file in user units."""
+
+    report: Report = Field(default_factory=Report)
+    engine: EngineSection
+    calculation: Calculation = Field(default_factory=Calculation)
+    geometry: GeometrySection
+    regime: Regime
+    gas: Annotated[GasSection, Field(discriminator="source")]
+    masses: MassesSection
+    crankshaft: CrankshaftSection

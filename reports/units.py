@@ -1,0 +1,58 @@
+"""Units people write and read, and their conversion to SI.
+
+An input key ends in the `suffix` of its unit (``bore_mm``); a header or a
+message shows the Russian `label`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """A unit of the input file: SI value = value * `times` / `over`.
+
+    Two factors, because 47 / 1000 is the double nearest to 0.047 and
+    47 * 0.001 need not be.
+    """
+
+    suffix: str
+    label: str
+    times: float = 1.0
+    over: float = 1.0
+
+    def to_si(self, value: float) -> float:
+        """Convert a value in this unit to SI."""
+        if self is DEG:
+            return math.radians(value)
+        return value * self.times / self.over
+
+    def from_si(self, value: float) -> float:
+        """Convert an SI value to this unit."""
+        if self is DEG:
+            return math.degrees(value)
+        return value * self.over / self.times
+
+    def text(self, value: float) -> str:
+        """Return the value with its label: ``88 мм``, ``15°``, ``0.317``."""
+        number = number_text(value)
+        if not self.label:
+            return number
+        return number + self.label if self is DEG else f"{number} {self.label}"
+
+
+NONE = Unit("", "")
+MM = Unit("mm", "мм", over=1000.0)
+KG = Unit("kg", "кг")
+DEG = Unit("deg", "°", times=math.pi, over=180.0)
+MPA = Unit("mpa", "МПа", times=1e6)
+RPM = Unit("rpm", "мин⁻¹", times=math.pi, over=30.0)
+KW = Unit("kw", "кВт", times=1000.0)
+
+
+def number_text(value: float) -> str:
+    """Return a number as an input file writes it (decimal point, no trailing zeros)."""
+    text = f"{value:.10g}"
+    return text.replace("-", "−") if value < 0 else text

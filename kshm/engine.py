@@ -1,0 +1,188 @@
+"""The engine as frozen dataclasses, SI units throughout, angles in radians."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Literal
+
+Method = Literal["textbook", "exact"]
+
+
+@dataclass(frozen=True, slots=True)
+class Geometry:
+    """Main dimensions of the crank mechanism [m]."""
+
+    bore: float
+    crank_radius: float
+    rod_length: float
+    compression_ratio: float
+
+    @property
+    def lam(self) -> float:
+        """Crank radius over rod length λ = r/L [-]."""
+        return self.crank_radius / self.rod_length
+
+    @property
+    def piston_area(self) -> float:
+        """Piston area F [m²]."""
+        return math.pi * self.bore**2 / 4
+
+
+@dataclass(frozen=True, slots=True)
+class PolytropicGas:
+    """Indicator diagram by polytropes as the program Dinn builds it.
+
+    Pressures are absolute [Pa]; crank angles [rad] are counted from TDC before
+    the intake stroke.  ``ignition_advance`` is the angle from the start of
+    injection to TDC; ``combustion_start`` the angle at which the straight
+    pressure rise begins (φ_c, already delayed).
+    """
+
+    p_ambient: float
+    p_intake: float
+    p_residual: float
+    p_max: float
+    n_compression: float
+    n_expansion: float
+    rho: float
+    combustion_start: float
+    ignition_advance: float
+    exhaust_open: float
+    exhaust_close: float
+
+
+@dataclass(frozen=True, slots=True)
+class TabulatedGas:
+    """Indicator diagram by points: angles [rad], absolute pressures [Pa]; ends repeat."""
+
+    p_ambient: float
+    angles: tuple[float, ...]
+    pressures: tuple[float, ...]
+
+
+Gas = PolytropicGas | TabulatedGas
+
+
+@dataclass(frozen=True, slots=True)
+class RodMasses:
+    """Masses from which m_j and m_2 follow by the two-mass replacement, Gots (20)."""
+
+    piston_group: float
+    rod: float
+    centre: float  # l_1: pin axis to the rod's centre of mass [m]
+
+
+@dataclass(frozen=True, slots=True)
+class DirectMasses:
+    """Masses m_j and m_2 given as such [kg]."""
+
+    reciprocating: float
+    rod_big_end: float
+
+
+Masses = DirectMasses | RodMasses
+
+
+@dataclass(frozen=True, slots=True)
+class Web:
+    """One crank web with its counterweight; masses reduced to the crank radius [kg].
+
+    ``angle`` [rad] is measured from the crank direction against rotation,
+    ``counterweight_angle`` from the direction opposite the crank in the
+    direction of rotation (the reading of Gots (45), (47) that statics gives).
+    """
+
+    mass: float
+    angle: float = 0.0
+    counterweight_mass: float = 0.0
+    counterweight_angle: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Throw:
+    """One throw of the crankshaft with the chain of arms of Gots figure 35 [m].
+
+    ``angle`` is γ_i [rad], clockwise from crank 1 seen from the nose.
+    """
+
+    angle: float
+    arms: tuple[float, float, float, float, float, float]
+    left_web: Web
+    right_web: Web
+    pin_mass: float
+    left_web_thickness: float = 0.0
+    right_web_thickness: float = 0.0
+
+    @property
+    def length(self) -> float:
+        """Distance between the middles of the two main journals l [m]."""
+        return sum(self.arms) + self.left_web_thickness + self.right_web_thickness
+
+
+@dataclass(frozen=True, slots=True)
+class EndMass:
+    """External counterweight beyond an end journal: mass reduced to r [kg], arm [m].
+
+    ``angle`` [rad] is measured from the neighbouring crank: at the nose in the
+    direction of rotation, at the rear against it.
+    """
+
+    mass: float = 0.0
+    angle: float = 0.0
+    arm: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Crankshaft:
+    """Crankshaft: throws from the nose, end masses, journal sizes [m]."""
+
+    throws: tuple[Throw, ...]
+    nose: EndMass
+    rear: EndMass
+    pin_diameter: float
+    pin_length: float
+    main_diameter: float
+    main_lengths: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Engine:
+    """A four-stroke in-line engine with a central mechanism, SI units.
+
+    ``firing_offsets`` are θ_i [rad], one per cylinder, cylinder 1 first.
+    ``force_offsets`` replaces θ_i for the loads on the main journals only; it
+    exists to reproduce the printed table П4.3, whose phases contradict the
+    shaft, and is None otherwise.
+    """
+
+    geometry: Geometry
+    omega: float
+    gas: Gas
+    masses: Masses
+    crankshaft: Crankshaft
+    firing_offsets: tuple[float, ...]
+    strokes: int = 4
+    method: Method = "textbook"
+    step_deg: int = 10
+    rays: int = 12
+    mechanical_efficiency: float = 1.0
+    indicated_power: float | None = None  # W, from a cycle calculation
+    fullness: float = 1.0  # φ_п: how much the power was rounded down by
+    force_offsets: tuple[float, ...] | None = None
+    name: str = field(default="engine")
+
+    @property
+    def cylinders(self) -> int:
+        """Number of cylinders i."""
+        return len(self.firing_offsets)
+
+    @property
+    def period(self) -> float:
+        """Length of the working cycle [rad]: 4π or 2π."""
+        return self.strokes * math.pi
+
+    @property
+    def speed_rpm(self) -> float:
+        """Rotational speed n [min⁻¹]."""
+        return self.omega * 30 / math.pi

@@ -1,0 +1,176 @@
+"""Main-journal reactions by the split scheme, Gots 2.7, from statics of each throw.
+
+Each throw is a beam on two supports in its own frame: ``up`` along the crank,
+``left`` a quarter turn against rotation.  All results are reactions of the
+bearings on the shaft; loads on the bearings are their negatives.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class ThrowArrays:
+    """Throws as arrays of shape (engines, throws); metres, kilograms, radians."""
+
+    angle: Array
+    arms: Array  # (engines, throws, 6): l1 … l6
+    left_web_thickness: Array
+    right_web_thickness: Array
+    web_mass: Array  # (engines, throws, 2): left, right
+    web_angle: Array
+    counterweight_mass: Array
+    counterweight_angle: Array
+    pin_mass: Array
+    end_mass: Array  # (engines, 2): nose, rear
+    end_angle: Array
+    end_arm: Array
+
+
+@dataclass(frozen=True, slots=True)
+class Positions:
+    """Places along the throw from the left support [m], shape (engines, throws)."""
+
+    left_web: Array
+    rod: Array
+    pin: Array
+    right_web: Array
+    length: Array
+
+
+def positions(throws: ThrowArrays) -> Positions:
+    """Places of webs, rod and pin along each throw, Gots figures 35 and 36 (in-line)."""
+    l1, l2, l3, l4, l5, l6 = np.moveaxis(throws.arms, -1, 0)
+    h_left, h_right = throws.left_web_thickness, throws.right_web_thickness
+    rod = l1 + h_left + l2
+    right = rod + l3 + l4 + l5
+    return Positions(
+        left_web=l1 + h_left / 2,
+        rod=rod,
+        pin=rod + l3,
+        right_web=right + h_right / 2,
+        length=right + h_right + l6,
+    )
+
+
+def right_share(place: Array, length: Array) -> Array:
+    """Share of a load at ``place`` carried by the right support [-]; may lie outside 0…1."""
+    return place / length
+
+
+def centrifugal_reactions(
+    throws: ThrowArrays, r: Array, omega: Array, rod_big_end: Array
+) -> tuple[Array, Array]:
+    """Constant reactions of both supports to centrifugal forces [N], Gots (44)-(49).
+
+    Args:
+        throws: shape (engines, throws).
+        r: crank radius [m], shape (engines, 1); ``omega`` [rad/s] and
+            ``rod_big_end`` m_2 [kg] likewise.
+
+    Returns:
+        Left and right reactions, shape (engines, throws, 2), the last axis being
+        ``left`` (against rotation) and ``up`` (along the crank).
+    """
+    unit = r * omega**2
+    place = positions(throws)
+    loads: list[tuple[Array, Array, Array]] = [
+        (place.rod, rod_big_end * unit, np.zeros_like(place.rod)),
+        (place.pin, throws.pin_mass * unit, np.zeros_like(place.rod)),
+    ]
+    for side, where in enumerate((place.left_web, place.right_web)):
+        web = throws.web_mass[..., side] * unit
+        web_angle = throws.web_angle[..., side]
+        loads.append((where, web * np.cos(web_angle), web * np.sin(web_angle)))
+        # A counterweight stands opposite the crank, turned on in the direction of rotation:
+        # from "down" rotation leads to "left".
+        weight = throws.counterweight_mass[..., side] * unit
+        angle = throws.counterweight_angle[..., side]
+        loads.append((where, -weight * np.cos(angle), weight * np.sin(angle)))
+    loads.extend(_end_loads(throws, place, unit))
+
+    left = np.zeros((*place.rod.shape, 2))
+    right = np.zeros_like(left)
+    for where, up, side_force in loads:
+        share = right_share(where, place.length)
+        vector = np.stack(np.broadcast_arrays(side_force, up), axis=-1)
+        right -= share[..., None] * vector
+        left -= (1 - share)[..., None] * vector
+    return left, right
+
+
+def _end_loads(
+    throws: ThrowArrays, place: Positions, unit: Array
+) -> list[tuple[Array, Array, Array]]:
+    """External counterweights as overhung loads on the first and the last throw."""
+    count = place.rod.shape[-1]
+    force = throws.end_mass * unit
+    up, turned = force * np.cos(throws.end_angle), force * np.sin(throws.end_angle)
+    first = np.arange(count) == 0
+    last = np.arange(count) == count - 1
+    nose_place = np.broadcast_to(-throws.end_arm[:, :1], place.rod.shape)
+    rear_place = place.length + throws.end_arm[:, 1:]
+    return [
+        # The nose angle runs with rotation, hence away from "left"; the rear angle against it.
+        (nose_place, first * up[:, :1], first * -turned[:, :1]),
+        (rear_place, last * up[:, 1:], last * turned[:, 1:]),
+    ]
+
+
+def to_shaft_axes(vector: Array, gamma: Array) -> Array:
+    """Turn (left, up) components of a throw at γ clockwise from crank 1 to shaft axes x, y.
+
+    Args:
+        vector: shape (..., 2).
+        gamma: angle [rad], broadcasting with ``vector`` without its last axis.
+    """
+    left, up = vector[..., 0], vector[..., 1]
+    cos, sin = np.cos(gamma), np.sin(gamma)
+    return np.stack([left * cos - up * sin, left * sin + up * cos], axis=-1)
+
+
+def main_reactions(
+    K: Array, T: Array, throws: ThrowArrays, constant: tuple[Array, Array]
+) -> tuple[Array, Array, Array]:
+    """Reactions of every main bearing on its journal [N] in shaft axes, Gots (50)-(57).
+
+    Args:
+        K: force towards the crank axis at each throw [N], (engines, throws, angles).
+        T: force along the rotation at each throw [N], same shape.
+        throws: the throws.
+        constant: left and right centrifugal reactions, see ``centrifugal_reactions``.
+
+    Returns:
+        Total (engines, journals, angles, 2) and the shares of the throw before and
+        after each journal, same shape; the last axis is x, y.
+    """
+    place = positions(throws)
+    share = right_share(place.rod, place.length)[..., None, None]
+    # A push along T is answered against rotation ("left"), a push K inwards by "up".
+    answer = np.stack([T, K], axis=-1)
+    left = constant[0][:, :, None, :] + (1 - share) * answer
+    right = constant[1][:, :, None, :] + share * answer
+    gamma = throws.angle[:, :, None]
+    left, right = to_shaft_axes(left, gamma), to_shaft_axes(right, gamma)
+    engines, count, angles, _ = left.shape
+    before = np.zeros((engines, count + 1, angles, 2))
+    after = np.zeros_like(before)
+    before[:, 1:] = right
+    after[:, :-1] = left
+    return before + after, before, after
+
+
+def side_forces_left_of_pin(throws: ThrowArrays, r: Array, omega: Array) -> Array:
+    """Centrifugal forces against rotation acting left of each crankpin [N], (engines, throws)."""
+    unit = r * omega**2
+    web = throws.web_mass[..., 0] * np.sin(throws.web_angle[..., 0])
+    weight = throws.counterweight_mass[..., 0] * np.sin(throws.counterweight_angle[..., 0])
+    nose = throws.end_mass[:, :1] * np.sin(throws.end_angle[:, :1])
+    first = np.arange(web.shape[-1]) == 0
+    return unit * (web + weight - first * nose)

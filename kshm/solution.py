@@ -1,0 +1,294 @@
+"""Results of one engine as named tables and scalars in the units of the textbook."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kshm import kinematics
+from kshm.engine import Engine
+from kshm.nomenclature import quantity, ray_key
+from kshm.summary import summarise
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from kshm.solver import BatchSolution
+
+Array = NDArray[np.float64]
+Columns = dict[str, Array]
+
+# λ for which the textbook prints its reference tables 1-3 and 5-8.
+REFERENCE_LAMBDAS: tuple[tuple[str, float], ...] = tuple(
+    (f"lambda_1/{value}", 1 / float(value)) for value in ("3.2", "3.4", "3.6", "3.8", "4.0", "4.2")
+)
+
+
+class Solution:
+    """Everything computed for one engine.
+
+    ``columns[table][key]`` are arrays in the unit named by the key's quantity;
+    ``scalars[key]`` likewise; ``tables[id]`` are pandas DataFrames with the
+    units in ``attrs["units"]``.  ``raw`` holds the SI arrays of the batch.
+    """
+
+    def __init__(self, engine: Engine, raw: BatchSolution, index: int = 0) -> None:
+        self.engine = engine
+        self.raw = raw
+        self._index = index
+
+    @cached_property
+    def columns(self) -> dict[str, Columns]:
+        """Table id → column key → values in the units of the tables."""
+        tables = {
+            "P3_1": self._piston(),
+            "P3_2": self._rod(),
+            "gas": self._gas(),
+            "P4_1": self._forces(),
+            **{f"cylinder_{i + 1}": self._cylinder(i) for i in range(1, self.engine.cylinders)},
+            "P4_2": self._torques(),
+            "crankpin": self._crankpin(),
+            **{f"P4_3_{k + 1}": self._journal(k) for k in range(self._journals)},
+            "P4_4": self._running_main(),
+            "P4_5": self._running_pin(),
+            "P4_5s": self._running_pin_statics(),
+            "table_14": self._wear(self.raw.pin_rays[self._index]),
+            **{
+                f"table_14_main_{k + 1}": self._wear(self.raw.journal_rays[self._index, k])
+                for k in range(self._journals)
+            },
+        }
+        worst = int(self.scalars["worst_main_load"])
+        chosen = tables[f"P4_3_{worst}"]
+        tables["P4_3"] = {key: chosen[key] for key in ("phi_deg", "Rx_MPa", "Ry_MPa")}
+        return tables
+
+    @cached_property
+    def scalars(self) -> dict[str, float]:
+        """Scalar key → value in the unit of its quantity."""
+        return {
+            key: value / quantity(key).si
+            for key, value in summarise(self.engine, self.raw, self._index).items()
+        }
+
+    @cached_property
+    def tables(self) -> dict[str, pd.DataFrame]:
+        """Table id → DataFrame with ``phi_deg`` first and units in ``attrs["units"]``."""
+        import pandas as pd
+
+        frames = {}
+        for name, columns in {**self.columns, **reference_tables()}.items():
+            frame = pd.DataFrame(columns)
+            frame.attrs["units"] = {
+                key: quantity(key).unit_label for key in columns if not key.startswith(("lambda", "sign", "phi_m"))
+            }
+            frames[name] = frame
+        return frames
+
+    @property
+    def _journals(self) -> int:
+        return len(self.engine.crankshaft.throws) + 1
+
+    @cached_property
+    def _degrees(self) -> Array:
+        engine = self.engine
+        return np.arange(0.0, engine.strokes * 180 + engine.step_deg, engine.step_deg)
+
+    def _turn(self) -> tuple[Array, Array, Array, Array, Array]:
+        """φ over one turn with r, λ, ω as arrays for the kinematic tables."""
+        degrees = self._degrees[self._degrees <= 360]
+        geometry = self.engine.geometry
+        r, lam = np.array(geometry.crank_radius), np.array(geometry.lam)
+        return degrees, np.radians(degrees), r, lam, np.array(self.engine.omega)
+
+    def _units(self, values: Columns) -> Columns:
+        return {key: value / quantity(key).si for key, value in values.items()}
+
+    def _with_phi(self, values: Columns, degrees: Array | None = None) -> Columns:
+        return {"phi_deg": self._degrees if degrees is None else degrees, **self._units(values)}
+
+    def _piston(self) -> Columns:
+        degrees, phi, r, lam, omega = self._turn()
+        s1, s2 = kinematics.displacement_orders(phi, r, lam)
+        v1, v2 = kinematics.velocity_orders(phi, r, lam, omega)
+        j1, j2 = kinematics.acceleration_orders(phi, r, lam, omega)
+        values = {
+            "s1_mm": s1, "s2_mm": s2, "s_mm": s1 + s2,
+            "v1_m_s": v1, "v2_m_s": v2, "v_m_s": v1 + v2,
+            "j1_m_s2": j1, "j2_m_s2": j2, "j_m_s2": j1 + j2,
+        }  # fmt: skip
+        return self._with_phi(values, degrees)
+
+    def _rod(self) -> Columns:
+        degrees, phi, _, lam, omega = self._turn()
+        exact, approx = kinematics.rod_angular_velocity(phi, lam, omega)
+        eps_exact, eps_approx = kinematics.rod_angular_acceleration(phi, lam, omega)
+        values = {
+            "beta_rad": kinematics.rod_angle(phi, lam),
+            "omega_rod_exact_1_s": exact,
+            "omega_rod_approx_1_s": approx,
+            "eps_rod_exact_1_s2": eps_exact,
+            "eps_rod_approx_1_s2": eps_approx,
+        }
+        return self._with_phi(values, degrees)
+
+    def _gas(self) -> Columns:
+        raw, e = self.raw, self._index
+        geometry = self.engine.geometry
+        swept = geometry.piston_area * 2 * geometry.crank_radius
+        displacement = raw.displacement[e, 0]
+        volume = swept / (geometry.compression_ratio - 1) + geometry.piston_area * displacement
+        ratio = volume * (geometry.compression_ratio - 1) / swept
+        values = {
+            "x_exact_mm": displacement,
+            "volume_ratio": ratio,
+            "volume_dm3": volume,
+            "p_MPa": raw.p[e, 0],
+        }
+        return self._with_phi(values)
+
+    def _forces(self) -> Columns:
+        return self._with_phi(self._cylinder_values(0))
+
+    def _cylinder(self, cylinder: int) -> Columns:
+        raw, e = self.raw, self._index
+        values = self._cylinder_values(cylinder)
+        return self._with_phi(
+            {
+                "phase_deg": raw.local_phi[e, cylinder],
+                "volume_ratio": self._volume_ratio(cylinder),
+                "p_MPa": raw.p[e, cylinder],
+                **values,
+            }
+        )
+
+    def _volume_ratio(self, cylinder: int) -> Array:
+        geometry = self.engine.geometry
+        stroke = 2 * geometry.crank_radius
+        share = self.raw.displacement[self._index, cylinder] / stroke
+        return 1 + (geometry.compression_ratio - 1) * share
+
+    def _cylinder_values(self, cylinder: int) -> Columns:
+        raw, at = self.raw, (self._index, cylinder)
+        return {
+            "Pg_MPa": raw.p_gas[at], "Pj_MPa": raw.p_inertia[at], "Ps_MPa": raw.p_sum[at],
+            "N_MPa": raw.N[at], "S_MPa": raw.S[at], "T_MPa": raw.T[at], "K_MPa": raw.K[at],
+            "M_Nm": raw.torque[at],
+        }  # fmt: skip
+
+    def _torques(self) -> Columns:
+        raw, e = self.raw, self._index
+        values = {f"M{i + 1}_Nm": raw.torque[e, i] for i in range(self.engine.cylinders)}
+        return self._with_phi({**values, "Msum_Nm": raw.torque_sum[e]})
+
+    def _crankpin(self) -> Columns:
+        raw, e = self.raw, self._index
+        unit = self.engine.geometry.crank_radius * self.engine.omega**2
+        throw = raw.batch.m_k[e, 0, 0] * unit / self.engine.geometry.piston_area
+        values = {
+            "T_MPa": raw.T[e, 0],
+            "K_MPa": raw.K[e, 0],
+            "Krod_MPa": -raw.pin_up[e],
+            "Rpin_MPa": raw.pin_load[e],
+            "psi_deg": direction(raw.T[e, 0], -raw.pin_up[e]),
+            "Ksum_MPa": -raw.pin_up[e] - throw,
+            "Rthrow_MPa": raw.throw_load[e],
+        }
+        return self._with_phi(values)
+
+    def _journal(self, journal: int) -> Columns:
+        raw, at = self.raw, (self._index, journal)
+        throws = self.engine.crankshaft.throws
+        values: Columns = {}
+        sides = (("a", journal - 1, raw.journal_before[at]), ("b", journal, raw.journal_after[at]))
+        for side, throw, vector in sides:
+            if not 0 <= throw < len(throws):
+                continue
+            cos, sin = np.cos(throws[throw].angle), np.sin(throws[throw].angle)
+            # Back from the shaft axes to the frame of the throw.
+            across = vector[:, 0] * cos + vector[:, 1] * sin
+            along = -vector[:, 0] * sin + vector[:, 1] * cos
+            values |= {
+                f"{side}T_MPa": across, f"{side}Tcos_MPa": across * cos,
+                f"{side}Tsin_MPa": across * sin,
+                f"{side}K_MPa": along, f"{side}Kcos_MPa": along * cos,
+                f"{side}Ksin_MPa": along * sin,
+            }  # fmt: skip
+        x, y = raw.journal[at][:, 0], raw.journal[at][:, 1]
+        phi = raw.phi
+        values |= {
+            "Rx_MPa": x,
+            "Ry_MPa": y,
+            "R_MPa": raw.journal_load[at],
+            "psiR_deg": direction(x, y),
+            # The load on the bearing is the opposite of the reaction; the shaft has turned
+            # clockwise by φ, from "up" away from "left".
+            "block_x_MPa": -(x * np.cos(phi) - y * np.sin(phi)),
+            "block_y_MPa": -(x * np.sin(phi) + y * np.cos(phi)),
+        }
+        return self._with_phi(values)
+
+    def _running_main(self) -> Columns:
+        raw, e = self.raw, self._index
+        values = {"Mmain2_Nm": raw.running_main[e, 1]}
+        for i in range(1, self.engine.cylinders):
+            values[f"M{i + 1}_Nm"] = raw.torque[e, i]
+            values[f"Mmain{i + 2}_Nm"] = raw.running_main[e, i + 1]
+        return self._with_phi(values)
+
+    def _running_pin(self) -> Columns:
+        raw, e = self.raw, self._index
+        values = {"Mpin1_Nm": raw.running_pin[e, 0]}
+        for i in range(1, self.engine.cylinders):
+            values[f"M{i + 1}_Nm"] = raw.torque[e, i]
+            values[f"Mpin{i + 1}_Nm"] = raw.running_pin[e, i]
+        return self._with_phi(values)
+
+    def _running_pin_statics(self) -> Columns:
+        rows = self.raw.running_pin_statics[self._index]
+        return self._with_phi({f"Mpins{i + 1}_Nm": row for i, row in enumerate(rows)})
+
+    def _wear(self, loads: Array) -> Columns:
+        return self._with_phi({ray_key(i + 1): loads[:, i] for i in range(loads.shape[1])})
+
+
+def direction(side: Array, along: Array) -> Array:
+    """Angle of a vector from its ``along`` axis [rad] in (−π, π], steady where side ≈ 0.
+
+    Components below 1e-9 MPa are rounding noise of zero and count as zero, else
+    the angle would jump between −180° and 180°.
+    """
+    clean = np.where(np.abs(side) < 1e-3, 0.0, side)
+    return np.arctan2(clean, along)
+
+
+def reference_tables(step_deg: int = 10) -> dict[str, dict[str, Array | list[str]]]:
+    """Tables 1, 2, 3, 5-8 of the textbook in the shape in which it prints them.
+
+    Values are printed without their sign; the sign stands in columns of its own,
+    for φ and for its mirror 360° − φ.
+    """
+    degrees = np.arange(0.0, 180.0 + step_deg, step_deg)
+    lambdas = np.array([value for _, value in REFERENCE_LAMBDAS])
+    values = kinematics.reference_functions(np.radians(degrees)[:, None], lambdas)
+    mirrored = {"table_2", "table_5", "table_7"}  # odd in φ
+    tables: dict[str, dict[str, Array | list[str]]] = {}
+    for name, grid in values.items():
+        columns = {key: np.abs(grid[:, i]) for i, (key, _) in enumerate(REFERENCE_LAMBDAS)}
+        mirror = {"phi_mirror_deg": 360 - degrees}
+        if name == "table_1":
+            tables[name] = {"phi_deg": degrees, **columns, **mirror}
+            continue
+        negative = grid[:, 0] < -1e-9
+        flipped = ~negative if name in mirrored else negative
+        tables[name] = {
+            "phi_deg": degrees,
+            "sign": ["-" if flag else "+" for flag in negative],
+            **columns,
+            "sign_mirror": ["-" if flag else "+" for flag in flipped],
+            **mirror,
+        }
+    return tables

@@ -1,0 +1,156 @@
+"""Expressions as Excel formulas in the subset that Excel, LibreOffice and formualizer share."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable
+from typing import Protocol
+
+from reports.formula.parse import AGGREGATES, SCALE_FUNCTIONS, SCALES, parse
+
+
+class References(Protocol):
+    """What the compiler asks of the layout: references as text."""
+
+    def name(self, key: str) -> str:
+        """Reference to a scalar or to this row's cell of a column."""
+
+    def column(self, key: str, *, repeat_last: bool) -> str:
+        """Range of a whole column; without the repeated last row unless asked for."""
+
+    def last(self, key: str) -> str:
+        """Reference to the last cell of a column."""
+
+    def following(self, key: str) -> str:
+        """Reference to the next row's cell of a column; in the last row to its own."""
+
+
+_FUNCTIONS = {
+    "sin": "SIN", "cos": "COS", "tan": "TAN", "asin": "ASIN", "acos": "ACOS", "sqrt": "SQRT",
+    "exp": "EXP", "ln": "LN", "abs": "ABS", "floor": "INT", "mod": "MOD", "min": "MIN",
+    "max": "MAX", "total": "SUM", "rad": "RADIANS", "deg": "DEGREES",
+}  # fmt: skip
+
+_PRECEDENCE: dict[type[ast.AST], tuple[str, int]] = {
+    ast.Lt: ("<", 1), ast.LtE: ("<=", 1), ast.Gt: (">", 1), ast.GtE: (">=", 1),
+    ast.Eq: ("=", 1), ast.NotEq: ("<>", 1),
+    ast.Add: ("+", 2), ast.Sub: ("-", 2), ast.Mult: ("*", 3), ast.Div: ("/", 3), ast.Pow: ("^", 5),
+}  # fmt: skip
+_ATOM = 9
+
+
+def number(value: float | str) -> str:
+    """A literal in a formula."""
+    if isinstance(value, str):
+        return '"' + value.replace('"', '""') + '"'
+    if float(value).is_integer() and abs(value) < 1e15:
+        return str(int(value))
+    return repr(float(value)).upper()
+
+
+def compile_formula(text: str, refs: References) -> str:
+    """Excel formula with its leading ``=``."""
+    return "=" + _emit(parse(text), refs)[0]
+
+
+def _emit(node: ast.expr, refs: References) -> tuple[str, int]:
+    """Text and the precedence of its outermost operator."""
+    match node:
+        case ast.Constant(value=value):
+            return number(value), _ATOM  # type: ignore[arg-type]
+        case ast.Name(id="pi"):
+            return "PI()", _ATOM
+        case ast.Name(id=name):
+            return refs.name(name), _ATOM
+        case ast.Attribute(value=ast.Name(id=table), attr=column):
+            return refs.name(f"{table}.{column}"), _ATOM
+        case ast.BinOp(left=left, op=op, right=right):
+            return _binary(left, type(op), right, refs)
+        case ast.Compare(left=left, ops=[op], comparators=[right]):
+            return _binary(left, type(op), right, refs)
+        case ast.UnaryOp(op=ast.Not(), operand=operand):
+            return f"NOT({_emit(operand, refs)[0]})", _ATOM
+        case ast.UnaryOp(operand=operand):
+            # In Excel the sign binds tighter than ^ and *: bracket everything but atoms.
+            return f"-{_wrapped(operand, _ATOM, refs)}", 4
+        case ast.BoolOp(op=op, values=values):
+            parts = ",".join(_emit(value, refs)[0] for value in values)
+            return f"{'AND' if isinstance(op, ast.And) else 'OR'}({parts})", _ATOM
+        case ast.IfExp(test=test, body=body, orelse=orelse):
+            parts = ",".join(_emit(part, refs)[0] for part in (test, body, orelse))
+            return f"IF({parts})", _ATOM
+        case ast.Call(func=ast.Name(id=name), args=args):
+            return _call(name, args, refs)
+    msg = f"unexpected node {ast.dump(node)}"
+    raise AssertionError(msg)
+
+
+def _wrapped(node: ast.expr, least: int, refs: References) -> str:
+    text, precedence = _emit(node, refs)
+    return text if precedence >= least else f"({text})"
+
+
+def _binary(
+    left: ast.expr, op: type[ast.AST], right: ast.expr, refs: References
+) -> tuple[str, int]:
+    sign, precedence = _PRECEDENCE[op]
+    # Everything is left-associative in Excel, ^ included, and -x^2 is (-x)^2 there.
+    first = _wrapped(left, _ATOM if op is ast.Pow else precedence, refs)
+    second = _wrapped(right, precedence + 1, refs)
+    if second.startswith("-"):
+        second = f"({second})"
+    return f"{first}{sign}{second}", precedence
+
+
+def _call(name: str, args: list[ast.expr], refs: References) -> tuple[str, int]:
+    if name in SCALE_FUNCTIONS:
+        way, unit = name.split("_", 1)
+        factor = SCALES[unit] if way == "of" else 1 / SCALES[unit]
+        # Multiply or divide by a whole number: 0.001 is not exact, 1000 is.
+        sign, value = ("*", factor) if factor >= 1 else ("/", round(1 / factor))
+        return f"{_wrapped(args[0], 3, refs)}{sign}{number(value)}", 3
+    if name in AGGREGATES:
+        return _aggregate(name, args[0], refs), _ATOM
+    if name == "following":
+        return refs.following(_key(args[0])), _ATOM
+    if name == "atan2":
+        # Excel takes (x, y) where everybody else takes (y, x).
+        y, x = (_emit(arg, refs)[0] for arg in args)
+        return f"ATAN2({x},{y})", _ATOM
+    if name == "interpolate":
+        return _interpolate(args, refs), 2
+    return f"{_FUNCTIONS[name]}({','.join(_emit(arg, refs)[0] for arg in args)})", _ATOM
+
+
+def _key(node: ast.expr) -> str:
+    match node:
+        case ast.Name(id=name):
+            return name
+        case ast.Attribute(value=ast.Name(id=table), attr=column):
+            return f"{table}.{column}"
+    msg = "a whole-column function takes a column"
+    raise TypeError(msg)
+
+
+def _aggregate(name: str, node: ast.expr, refs: References) -> str:
+    key = _key(node)
+    functions: dict[str, Callable[[], str]] = {
+        "col_max": lambda: f"MAX({refs.column(key, repeat_last=True)})",
+        "col_min": lambda: f"MIN({refs.column(key, repeat_last=True)})",
+        "col_mean": lambda: f"AVERAGE({refs.column(key, repeat_last=False)})",
+        "col_sum": lambda: f"SUM({refs.column(key, repeat_last=False)})",
+        "col_last": lambda: refs.last(key),
+    }
+    return functions[name]()
+
+
+def _interpolate(args: list[ast.expr], refs: References) -> str:
+    """Straight lines between points: the row by MATCH, capped so that the last point works."""
+    x = _emit(args[0], refs)[0]
+    xs = refs.column(_key(args[1]), repeat_last=True)
+    body = refs.column(_key(args[1]), repeat_last=False)
+    ys = refs.column(_key(args[2]), repeat_last=True)
+    row = f"MATCH({x},{body},1)"
+    x0, x1 = f"INDEX({xs},{row})", f"INDEX({xs},{row}+1)"
+    y0, y1 = f"INDEX({ys},{row})", f"INDEX({ys},{row}+1)"
+    return f"{y0}+({y1}-{y0})*({x}-{x0})/({x1}-{x0})"

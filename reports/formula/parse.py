@@ -1,0 +1,111 @@
+"""Parsing and checking of expressions against the whitelist."""
+
+from __future__ import annotations
+
+import ast
+from functools import lru_cache
+
+# Row-wise functions and the number of their arguments (least, most).
+FUNCTIONS: dict[str, tuple[int, int]] = {
+    "sin": (1, 1), "cos": (1, 1), "tan": (1, 1), "asin": (1, 1), "acos": (1, 1),
+    "atan2": (2, 2), "sqrt": (1, 1), "exp": (1, 1), "ln": (1, 1), "abs": (1, 1), "floor": (1, 1),
+    "mod": (2, 2), "min": (1, 40), "max": (1, 40), "total": (1, 40),
+    "rad": (1, 1), "deg": (1, 1),
+    "interpolate": (3, 3),
+}  # fmt: skip
+
+# Functions of a whole column; the last row repeats the first angle and is left out of
+# means and sums.
+AGGREGATES = frozenset({"col_max", "col_min", "col_mean", "col_sum", "col_last"})
+
+# Scale factors between SI and the units of the tables; invisible in printed formulas.
+SCALES: dict[str, float] = {
+    "MPa": 1e6, "kN": 1e3, "mm": 1e-3, "kW": 1e3, "dm3": 1e-3, "cm2": 1e-4,
+}  # fmt: skip
+SCALE_FUNCTIONS = frozenset(f"{way}_{unit}" for unit in SCALES for way in ("to", "of"))
+
+# Values of the following row of a column; in the last row the row itself.
+SHIFTS = frozenset({"following"})
+
+CONSTANTS = frozenset({"pi"})
+
+_OPERATORS = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.Pow)
+_COMPARISONS = (ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.Eq, ast.NotEq)
+
+
+class FormulaError(ValueError):
+    """An expression is not of the language."""
+
+
+def is_known_function(name: str) -> bool:
+    """Whether ``name`` is a function of the language."""
+    return name in FUNCTIONS or name in AGGREGATES | SCALE_FUNCTIONS | SHIFTS
+
+
+@lru_cache(maxsize=4096)
+def parse(text: str) -> ast.expr:
+    """Parse and check an expression.
+
+    Raises:
+        FormulaError: a construct or function outside the language.
+    """
+    try:
+        tree = ast.parse(text.strip(), mode="eval").body
+    except SyntaxError as error:
+        msg = f"not an expression: {text!r} ({error.msg})"
+        raise FormulaError(msg) from error
+    _check(tree, text)
+    return tree
+
+
+def _check(node: ast.expr, text: str) -> None:
+    children: list[ast.expr] = []
+    match node:
+        case ast.Constant(value=bool()):
+            _refuse(node, text)
+        case ast.Constant(value=int() | float() | str()) | ast.Name():
+            pass
+        case ast.Attribute(value=ast.Name()):
+            pass
+        case ast.BinOp(op=op) if isinstance(op, _OPERATORS):
+            children = [node.left, node.right]
+        case ast.UnaryOp(op=ast.USub() | ast.Not()):
+            children = [node.operand]
+        case ast.Compare(ops=[op]) if isinstance(op, _COMPARISONS):
+            children = [node.left, node.comparators[0]]
+        case ast.BoolOp():
+            children = node.values
+        case ast.IfExp():
+            children = [node.test, node.body, node.orelse]
+        case ast.Call(func=ast.Name(id=name), keywords=[]) if is_known_function(name):
+            least, most = FUNCTIONS.get(name, (1, 1))
+            if not least <= len(node.args) <= most:
+                _refuse(node, text)
+            children = node.args
+        case _:
+            _refuse(node, text)
+    for child in children:
+        _check(child, text)
+
+
+def _refuse(node: ast.AST, text: str) -> None:
+    msg = f"not allowed in an expression: {ast.unparse(node)!r} in {text!r}"
+    raise FormulaError(msg)
+
+
+def names(text: str) -> frozenset[str]:
+    """All names an expression refers to; columns of other tables as ``table.column``."""
+    found: set[str] = set()
+    stack: list[ast.expr] = [parse(text)]
+    while stack:
+        node = stack.pop()
+        match node:
+            case ast.Name(id=name) if name not in CONSTANTS:
+                found.add(name)
+            case ast.Attribute(value=ast.Name(id=table), attr=column):
+                found.add(f"{table}.{column}")
+            case ast.Call():
+                stack.extend(node.args)
+            case _:
+                stack.extend(c for c in ast.iter_child_nodes(node) if isinstance(c, ast.expr))
+    return frozenset(found)

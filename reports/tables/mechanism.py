@@ -1,0 +1,148 @@
+"""Geometry, masses and the kinematic tables П3.1 and П3.2, Gots 1.2, 1.3, 2.2, 2.3."""
+
+from __future__ import annotations
+
+from reports.inputs.model import InputFile
+from reports.tables.spec import Block, Column, Scalar, ScalarTable, TableSpec
+
+EXACT_LABEL_FIELD = "calculation_method"
+
+TWO_TERM = "r_crank*omega**2*(cos(rad({phi})) + lam*cos(2*rad({phi})))"
+EXACT = (
+    "r_crank*omega**2*(cos(rad({phi}) + {beta})/cos({beta})"
+    " + lam*cos(rad({phi}))**2/cos({beta})**3)"
+)
+
+
+def geometry(model: InputFile) -> ScalarTable:
+    """Derived geometry and kinematic scalars."""
+    given = model.geometry
+    if given.crank_radius_mm is not None:
+        radius = "of_mm(geometry_crank_radius_mm)"
+    elif given.stroke_mm is not None:
+        radius = "of_mm(geometry_stroke_mm)/2"
+    else:
+        radius = "of_mm(geometry_rod_length_mm)*geometry_lambda"
+    if given.rod_length_mm is not None:
+        length = "of_mm(geometry_rod_length_mm)"
+    else:
+        length = "r_crank/geometry_lambda"
+    return ScalarTable(
+        "geometry",
+        "Размеры и кинематика механизма",
+        "Массы",
+        (
+            Scalar("r_crank", radius, "Гоц, 1.1"),
+            Scalar("L_rod", length, "Гоц, 1.1"),
+            Scalar("lam", "r_crank/L_rod", "Гоц, 1.1"),
+            Scalar("S_stroke", "2*r_crank", "Гоц, 1.1"),
+            Scalar("F_piston", "pi*of_mm(geometry_bore_mm)**2/4", "Гоц, введение"),
+            Scalar("V_h", "to_dm3(F_piston*S_stroke)", "Гоц, введение"),
+            Scalar("V_c", "V_h/(geometry_compression_ratio - 1)", "Гоц, введение"),
+            Scalar("V_engine", "V_h*engine_cylinders", "Гоц, введение"),
+            Scalar("omega", "pi*regime_speed_rpm/30", "Гоц, 1.1"),
+            Scalar("c_m", "2*r_crank*omega/pi", "Гоц, 1.2"),
+            Scalar(
+                "phi_vmax_deg",
+                "deg(acos(sqrt((1/(4*lam))**2 + 1/2) - 1/(4*lam)))",
+                "Гоц (5)",
+            ),
+            Scalar(
+                "v_max",
+                "r_crank*omega*(sin(rad(phi_vmax_deg)) + lam/2*sin(2*rad(phi_vmax_deg)))",
+                "Гоц (4), (5)",
+            ),
+            Scalar("v_ratio", "v_max/c_m", "Гоц, рис. 6"),
+            Scalar("j_tdc", "r_crank*omega**2*(1 + lam)", "Гоц (6), φ = 0"),
+            Scalar("j_bdc", "-(r_crank*omega**2*(1 - lam))", "Гоц (6), φ = 180°"),
+            Scalar("beta_max_deg", "deg(asin(lam))", "Гоц (7)"),
+        ),
+    )
+
+
+def masses(model: InputFile) -> ScalarTable:
+    """Masses and constant inertia forces."""
+    given = model.masses
+    scalars: list[Scalar] = []
+    if given.reciprocating_kg is not None:
+        m_2, m_j = "masses_rod_big_end_kg", "masses_reciprocating_kg"
+    else:
+        if given.rod_centre_mm is not None:
+            m_1 = "masses_rod_kg*(L_rod - of_mm(masses_rod_centre_mm))/L_rod"
+        else:
+            m_1 = "masses_rod_kg*masses_rod_small_end_share"
+        scalars.append(Scalar("m_1", m_1, "Гоц (20)"))
+        m_2, m_j = "masses_rod_kg - m_1", "masses_piston_group_kg + m_1"
+    unit = "r_crank*omega**2"
+    scalars += [
+        Scalar("m_2", m_2, "Гоц (20), (22)"),
+        Scalar("m_j", m_j, "Гоц, 2.2"),
+        Scalar("m_k", "crankshaft_pin_mass_kg + web_1_mass_kg + web_2_mass_kg", "Гоц (28)"),
+        Scalar("m_r", "m_k + m_2", "Гоц (29)"),
+        Scalar("P_unit", f"to_MPa(m_j*{unit}/F_piston)", "Гоц (31)"),
+        Scalar("K_r", f"to_kN(m_r*{unit})", "Гоц (32)"),
+        Scalar("K_r_spec", f"to_MPa(m_r*{unit}/F_piston)", "Гоц, 2.9"),
+        Scalar("K_r_rod", f"to_MPa(m_2*{unit}/F_piston)", "Гоц, 2.6"),
+        Scalar("K_r_throw", f"to_MPa(m_k*{unit}/F_piston)", "Гоц (42)"),
+    ]
+    return ScalarTable("masses", "Приведённые массы", "Массы", tuple(scalars))
+
+
+def kinematic_tables(rows: tuple[float, ...]) -> tuple[Block, ...]:
+    """Tables П3.1 and П3.2 over one turn."""
+    phi = "rad(phi_deg)"
+    index = Column("phi_deg", None)
+    piston = TableSpec(
+        "P3_1",
+        "П3.1",
+        "Перемещение, скорость и ускорение поршня",
+        "П3.1",
+        (
+            index,
+            Column("s1_mm", f"to_mm(r_crank*(1 - cos({phi})))", "Гоц (3)"),
+            Column("s2_mm", f"to_mm(r_crank*lam/4*(1 - cos(2*{phi})))", "Гоц (3)"),
+            Column("s_mm", "s1_mm + s2_mm", "Гоц (3)"),
+            Column("v1_m_s", f"r_crank*omega*sin({phi})", "Гоц (4)"),
+            Column("v2_m_s", f"r_crank*omega*lam/2*sin(2*{phi})", "Гоц (4)"),
+            Column("v_m_s", "v1_m_s + v2_m_s", "Гоц (4)"),
+            Column("j1_m_s2", f"r_crank*omega**2*cos({phi})", "Гоц (6)"),
+            Column("j2_m_s2", f"lam*r_crank*omega**2*cos(2*{phi})", "Гоц (6)"),
+            Column("j_m_s2", "j1_m_s2 + j2_m_s2", "Гоц (6)"),
+        ),
+        rows,
+    )
+    root = f"sqrt(1 - lam**2*sin({phi})**2)"
+    rod = TableSpec(
+        "P3_2",
+        "П3.2",
+        "Угловое перемещение, скорость и ускорение шатуна",
+        "П3.2",
+        (
+            index,
+            Column("beta_rad", f"asin(lam*sin({phi}))", "Гоц (7)"),
+            Column("omega_rod_exact_1_s", f"omega*lam*cos({phi})/{root}", "Гоц (8)"),
+            Column("omega_rod_approx_1_s", f"omega*lam*cos({phi})", "Гоц (8), приближённо"),
+            Column(
+                "eps_rod_exact_1_s2",
+                f"-(omega**2*lam*(1 - lam**2)*sin({phi})/{root}**3)",
+                "Гоц, 1.3",
+            ),
+            Column(
+                "eps_rod_approx_1_s2", f"-(omega**2*lam*sin({phi}))", "Гоц, 1.3, приближённо"
+            ),
+        ),
+        rows,
+        note=(
+            "В учебнике столбцы углового ускорения подписаны наоборот: первый столбец "
+            "напечатан по приближённой формуле, второй — по точной."
+        ),
+    )
+    return piston, rod
+
+
+def acceleration(model: InputFile, phi: str, beta: str) -> str:
+    """Piston acceleration by the chosen method; the choice stays live in the workbook."""
+    from reports.inputs.model import METHODS
+
+    two_term, exact = TWO_TERM.format(phi=phi), EXACT.format(phi=phi, beta=beta)
+    return f'({exact}) if calculation_method == "{METHODS["exact"]}" else ({two_term})'

@@ -1,0 +1,40 @@
+"""The registry: all specifications for one input file."""
+
+from __future__ import annotations
+
+from reports.inputs.fields import iter_fields
+from reports.inputs.model import InputFile
+from reports.tables import mechanism
+from reports.tables.charts import charts
+from reports.tables.cylinder import cylinder_blocks
+from reports.tables.journals import journal_blocks
+from reports.tables.spec import Model
+from reports.tables.summary import summary_blocks
+from reports.tables.torques import torque_tables
+from reports.tables.wear import wear_blocks
+
+
+def angle_rows(step_deg: int, last: int) -> tuple[float, ...]:
+    """Angles of the grid from 0 to ``last`` [deg]."""
+    return tuple(float(angle) for angle in range(0, last + step_deg, step_deg))
+
+
+def build_model(model: InputFile) -> Model:
+    """Specifications of every table, scalar and chart for the input's structure."""
+    cylinders = model.engine.cylinders
+    throws = len(model.crankshaft.throw_angles_deg)
+    rays = model.calculation.wear_rays
+    cycle = angle_rows(model.calculation.step_deg, 720)
+    turn = angle_rows(model.calculation.step_deg, 360)
+    forced = model.crankshaft.force_offsets_deg is not None
+    blocks = (
+        mechanism.geometry(model),
+        mechanism.masses(model),
+        *mechanism.kinematic_tables(turn),
+        *cylinder_blocks(model, cycle),
+        *torque_tables(cylinders, cycle),
+        *journal_blocks(throws, cycle, forced=forced),
+        *wear_blocks(throws + 1, rays, cycle),
+        *summary_blocks(model, throws),
+    )
+    return Model(model, tuple(iter_fields(model)), blocks, charts(throws, rays))

@@ -1,0 +1,163 @@
+"""What a table is: frozen descriptions that all renderers and the grading take."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+from kshm.nomenclature import Quantity, quantity
+from reports.inputs.fields import Field
+from reports.inputs.model import InputFile
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """One column: its formula per row; ``expr`` is None for the column of angles.
+
+    ``of`` names the quantity where the key alone does not; a helper column
+    serves the formulas of the workbook and is no result.
+    """
+
+    key: str
+    expr: str | None
+    source: str = ""
+    helper: bool = False
+    of: str = ""
+
+    @property
+    def quantity(self) -> Quantity:
+        """Symbol, unit and title."""
+        return quantity(self.of or self.key)
+
+
+@dataclass(frozen=True, slots=True)
+class TableSpec:
+    """A table over the crank angle.  ``number`` is the book's, ``sheet`` where it stands."""
+
+    id: str
+    number: str
+    title: str
+    sheet: str
+    columns: tuple[Column, ...]
+    rows: tuple[float, ...]
+    note: str = ""
+    helper: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Scalar:
+    """One named value with its formula; ``of`` names its quantity where the key does not."""
+
+    key: str
+    expr: str
+    source: str = ""
+    note: str = ""
+    of: str = ""
+
+    @property
+    def quantity(self) -> Quantity:
+        """Symbol, unit and title."""
+        return quantity(self.of or self.key)
+
+
+@dataclass(frozen=True, slots=True)
+class ScalarTable:
+    """A list of scalars, one below the other."""
+
+    id: str
+    title: str
+    sheet: str
+    scalars: tuple[Scalar, ...]
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class GridRow:
+    """The same quantity for each instance; None where an instance has none."""
+
+    of: str
+    cells: tuple[Scalar | None, ...]
+
+    @property
+    def quantity(self) -> Quantity:
+        """Symbol, unit and title."""
+        return quantity(self.of)
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """Scalars as quantity × instance (throws, rays)."""
+
+    id: str
+    title: str
+    sheet: str
+    labels: tuple[str, ...]
+    rows: tuple[GridRow, ...]
+    note: str = ""
+
+
+Block = TableSpec | ScalarTable | Grid
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """A curve: columns or grid rows as ``table.key``; ``name`` overrides the symbol."""
+
+    x: str
+    y: str
+    name: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class ChartSpec:
+    """A chart beside its table; ``figure`` is the number in the textbook."""
+
+    id: str
+    sheet: str
+    title: str
+    kind: Literal["line", "polar", "path"]
+    series: tuple[Series, ...]
+    x_title: str
+    y_title: str
+    figure: str = ""
+
+
+@dataclass(frozen=True)
+class Model:
+    """All specifications for one input file: what a workbook or a report consists of."""
+
+    input: InputFile
+    inputs: tuple[Field, ...]
+    blocks: tuple[Block, ...]
+    charts: tuple[ChartSpec, ...]
+
+    @cached_property
+    def tables(self) -> Mapping[str, TableSpec]:
+        """Tables over the crank angle by id."""
+        return {block.id: block for block in self.blocks if isinstance(block, TableSpec)}
+
+    @cached_property
+    def scalars(self) -> Mapping[str, Scalar]:
+        """Computed scalars by key."""
+        return {scalar.key: scalar for block in self.blocks for scalar in scalars_of(block)}
+
+    @cached_property
+    def fields(self) -> Mapping[str, Field]:
+        """Input fields by the name of their cell."""
+        return {field.name: field for field in self.inputs}
+
+    @cached_property
+    def sheets(self) -> tuple[str, ...]:
+        """Titles of the sheets that carry blocks, in order."""
+        return tuple(dict.fromkeys(block.sheet for block in self.blocks))
+
+
+def scalars_of(block: Block) -> Iterator[Scalar]:
+    """All scalars of a block."""
+    if isinstance(block, ScalarTable):
+        yield from block.scalars
+    elif isinstance(block, Grid):
+        for row in block.rows:
+            yield from (cell for cell in row.cells if cell is not None)

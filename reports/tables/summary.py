@@ -1,0 +1,158 @@
+"""Summary of results and checks."""
+
+from __future__ import annotations
+
+from reports.inputs.model import InputFile
+from reports.tables.extremes import extreme_scalars, first_number
+from reports.tables.spec import Block, Scalar, ScalarTable
+from reports.tables.wear import hole_scalars
+
+SHEET = "Итоги"
+YES, NO = "да", "НЕТ"
+
+
+def summary_blocks(model: InputFile, throws: int) -> tuple[Block, ...]:
+    """Torque, crankpin, journals, running-on torques, checks."""
+    journals = throws + 1
+    rays = model.calculation.wear_rays
+    return (
+        _torque(model),
+        _pin(rays),
+        *(_journal(k, rays) for k in range(1, journals + 1)),
+        _running(throws),
+        _loads(journals),
+        checks(model, throws),
+    )
+
+
+def _torque(model: InputFile) -> ScalarTable:
+    scalars = [
+        Scalar("M_mean", "col_mean(P4_2.Msum_Nm)", "Гоц, 2.8"),
+        *extreme_scalars("P4_2", "Msum_Nm", "M", "Гоц, 2.9"),
+        Scalar("M_e", "M_mean*regime_mechanical_efficiency", "Гоц (59), 2.8"),
+        Scalar("N_i_calc", "to_kW(M_mean*omega)", "Гоц, 2.8"),
+        Scalar("p_i_calc", "to_MPa(M_mean*4*pi/of_dm3(V_engine))", "Гоц, 2.8"),
+        Scalar("T_mean", "to_MPa(M_mean/(F_piston*r_crank))", "Гоц, 2.8"),
+        Scalar("W_cycle", "col_sum(gas.work_J)", "∫p dV"),
+        Scalar("W_torque", "4*pi*M_mean/engine_cylinders", "Гоц, 2.8"),
+    ]
+    if model.regime.indicated_power_kw is not None:
+        reference = (
+            "30/pi*of_kW(regime_indicated_power_kw)"
+            "/(regime_speed_rpm*r_crank*F_piston*regime_fullness)"
+        )
+        scalars += [
+            Scalar("T_ref", f"to_MPa({reference})", "Гоц, 2.8"),
+            Scalar("T_error", "(T_mean/T_ref - 1)*100", "Гоц, 2.8"),
+        ]
+    return ScalarTable("summary_torque", "Крутящий момент двигателя", SHEET, tuple(scalars))
+
+
+def _pin(rays: int) -> ScalarTable:
+    projected = "(of_mm(crankshaft_pin_diameter_mm)*of_mm(crankshaft_pin_length_mm))"
+    return ScalarTable(
+        "summary_pin",
+        "Шатунная шейка",
+        SHEET,
+        (
+            Scalar("Rpin_mean", "col_mean(crankpin.Rpin_MPa)", "Гоц, 2.6"),
+            *extreme_scalars("crankpin", "Rpin_MPa", "Rpin", "Гоц, 2.6"),
+            Scalar("Rpin_max_kN", "to_kN(of_MPa(Rpin_max)*F_piston)", "Гоц, 2.9"),
+            Scalar("Rpin_min_kN", "to_kN(of_MPa(Rpin_min)*F_piston)", "Гоц, 2.9"),
+            Scalar("q_pin_mean", f"Rpin_mean*F_piston/{projected}", "Гоц, 2.6"),
+            Scalar("q_pin_max", f"Rpin_max*F_piston/{projected}", "Гоц, 2.6"),
+            *hole_scalars("pin", rays),
+        ),
+    )
+
+
+def _journal(k: int, rays: int) -> ScalarTable:
+    name, table = f"Rmain{k}", f"P4_3_{k}"
+    projected = f"(of_mm(crankshaft_main_diameter_mm)*of_mm(main_length_{k}_mm))"
+    return ScalarTable(
+        f"summary_main_{k}",
+        f"Коренная шейка {k}",
+        SHEET,
+        (
+            Scalar(f"{name}_mean", f"col_mean({table}.R_MPa)", "Гоц, 2.9"),
+            *extreme_scalars(table, "R_MPa", name, "Гоц, 2.9"),
+            Scalar(f"{name}_max_kN", f"to_kN(of_MPa({name}_max)*F_piston)", "Гоц, 2.9"),
+            Scalar(f"q_main{k}_mean", f"{name}_mean*F_piston/{projected}", "Гоц, 2.6"),
+            Scalar(f"q_main{k}_max", f"{name}_max*F_piston/{projected}", "Гоц, 2.6"),
+            *hole_scalars(f"main{k}", rays),
+        ),
+    )
+
+
+def _running(throws: int) -> ScalarTable:
+    scalars = []
+    for k in range(2, throws + 2):
+        column = f"P4_4.Mmain{k}_Nm"
+        scalars.append(Scalar(f"dM_main{k}", f"col_max({column}) - col_min({column})", "Гоц, 2.8"))
+    for i in range(1, throws + 1):
+        column = f"P4_5.Mpin{i}_Nm"
+        scalars.append(Scalar(f"dM_pin{i}", f"col_max({column}) - col_min({column})", "Гоц, 2.8"))
+    main = [(k, f"dM_main{k}") for k in range(2, throws + 2)]
+    pin = [(i, f"dM_pin{i}") for i in range(1, throws + 1)]
+    scalars += [
+        Scalar("worst_main_torque", _worst(main), "Гоц, 2.8"),
+        Scalar("worst_pin_torque", _worst(pin), "Гоц, 2.8"),
+    ]
+    return ScalarTable("summary_running", "Размах набегающих моментов", SHEET, tuple(scalars))
+
+
+def _loads(journals: int) -> ScalarTable:
+    keys = [(k, f"Rmain{k}_max") for k in range(1, journals + 1)]
+    return ScalarTable(
+        "summary_loads",
+        "Наиболее нагруженная коренная шейка",
+        SHEET,
+        (Scalar("worst_main_load", _worst(keys), "Гоц, 2.9"),),
+    )
+
+
+def _worst(keys: list[tuple[int, str]]) -> str:
+    return first_number(keys, f"max({', '.join(key for _, key in keys)})")
+
+
+def checks(model: InputFile, throws: int) -> ScalarTable:
+    """Checks with their value and verdict; a failed check shows НЕТ."""
+    cylinders = model.engine.cylinders
+    tests: list[tuple[str, str, str, str]] = [
+        ("closure", "Последний набегающий момент равен суммарному: наибольшее расхождение, Н·м",
+         f"abs(col_max(P4_4.Mmain{cylinders + 1}_Nm) - M_max)"
+         f" + abs(col_min(P4_4.Mmain{cylinders + 1}_Nm) - M_min)", "{value} <= 0.000001"),
+        ("work", "Работа момента равна работе газов ∫p dV: расхождение, %",
+         "(W_torque/W_cycle - 1)*100", "abs({value}) <= 5"),
+        ("grid", "Сетка углов замыкает цикл: последний угол, °",
+         "col_last(P4_2.phi_deg)", "abs({value} - 720) <= 0.000001"),
+        ("lam", "λ в обычных пределах 0,24…0,31 (расширенно 0,15…0,45)",
+         "lam", "{value} >= 0.15 and {value} <= 0.45"),
+        ("phases", "Углы колен согласованы с началом рабочих ходов: наибольшее расхождение, °",
+         f"max({', '.join(_phase(i) for i in range(1, cylinders + 1))})", "{value} <= 0.01"),
+        ("symmetry", "Колена симметричны: наибольшее |aп/l − 0,5|",
+         f"max({', '.join(f'abs(throw{i}_share - 0.5)' for i in range(1, throws + 1))})",
+         "{value} <= 0.000001"),
+    ]  # fmt: skip
+    if model.regime.indicated_power_kw is not None:
+        tests.append(
+            ("power", "Средняя тангенциальная сила сходится с мощностью цикла: расхождение, %",
+             "T_error", "abs({value}) <= 2")
+        )  # fmt: skip
+    if model.masses.reciprocating_kg is None:
+        tests.append(
+            ("share", "Доля массы шатуна на поршневом пальце 0,2…0,3",
+             "m_1/masses_rod_kg", "{value} >= 0.2 and {value} <= 0.3")
+        )  # fmt: skip
+    scalars = []
+    for key, title, value, test in tests:
+        scalars.append(Scalar(f"value_{key}", value, "проверка", note=title, of="check_value"))
+        verdict = test.format(value=f"value_{key}")
+        scalars.append(
+            Scalar(f"check_{key}", f'"{YES}" if {verdict} else "{NO}"', note=title, of="check")
+        )
+    return ScalarTable("checks", "Проверки", "Проверки", tuple(scalars))
+
+
+def _phase(i: int) -> str:
+    return f"abs(mod(throw_angle_{i}_deg + firing_offset_{i}_deg + 180, 360) - 180)"

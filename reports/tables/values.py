@@ -1,0 +1,77 @@
+"""Numeric values of a model's expressions: the second statement of the mechanics."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reports.formula.numeric import evaluate
+from reports.tables.spec import Column, Model, Scalar
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Values:
+    """Values by scalar key and by (table, column)."""
+
+    scalars: dict[str, float | str]
+    columns: dict[str, dict[str, Array]]
+
+
+class _Evaluation:
+    """Evaluates every node once, whatever the order in which the tables stand."""
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+        self.done: dict[str, Any] = {}
+        self.running: set[str] = set()
+        self.nodes: dict[str, Scalar | Column] = dict(model.scalars)
+        for table in model.tables.values():
+            for column in table.columns:
+                self.nodes[f"{table.id}.{column.key}"] = column
+        for field in model.inputs:
+            labels = field.choices if isinstance(field.value, str) else None
+            self.done[field.name] = labels[field.value] if labels else field.value
+        for name in ("deg", "mpa"):
+            points = [f.value for f in model.inputs if f.name.startswith("gas_point_") and f.name.endswith(name)]
+            self.done[f"gas_points_{name}"] = np.array(points, dtype=float)
+
+    def value(self, key: str) -> Any:  # noqa: ANN401
+        if key in self.done:
+            return self.done[key]
+        if key in self.running:
+            msg = f"the formulas refer to each other in a circle at {key}"
+            raise ValueError(msg)
+        self.running.add(key)
+        node = self.nodes[key]
+        table = key.split(".")[0] if isinstance(node, Column) else ""
+        if node.expr is None:
+            result: Any = np.array(self.model.tables[table].rows)
+        else:
+            result = evaluate(node.expr, lambda name: self.value(self._global(name, table)))
+            if isinstance(node, Column):
+                count = len(self.model.tables[table].rows)
+                result = np.broadcast_to(np.asarray(result), (count,))
+        self.running.discard(key)
+        self.done[key] = result
+        return result
+
+    def _global(self, name: str, table: str) -> str:
+        """A bare name is a column of the same table first, then a scalar."""
+        local = f"{table}.{name}"
+        return local if table and local in self.nodes else name
+
+
+def evaluate_model(model: Model) -> Values:
+    """Evaluate all expressions of a model in numpy."""
+    run = _Evaluation(model)
+    scalars = {key: run.value(key) for key in model.scalars}
+    columns = {
+        table.id: {column.key: run.value(f"{table.id}.{column.key}") for column in table.columns}
+        for table in model.tables.values()
+    }
+    return Values({k: v if isinstance(v, str) else float(v) for k, v in scalars.items()}, columns)

@@ -38,7 +38,7 @@ MAX_PROBLEMS = 200
 
 Locate = Callable[[Path], str]
 
-_MODELS: dict[str, type[Strictly]] = {
+SECTION_MODELS: dict[str, type[Strictly]] = {
     "report": Report,
     "engine": EngineSection,
     "calculation": Calculation,
@@ -130,7 +130,7 @@ class _Reader:
     def from_cells(self, data: dict[str, Any]) -> dict[str, Any]:
         source = str(data["gas"].get("source")) if isinstance(data.get("gas"), dict) else ""
         source = next((key for key, label in SOURCES.items() if source == label), source)
-        known = {**_MODELS, "gas": _GASES.get(source, PolytropicGasSection)}
+        known = {**SECTION_MODELS, "gas": _GASES.get(source, PolytropicGasSection)}
         result, empty = cells.from_cells(data, known)
         self.problems += [self.problem(path, "ячейка пуста", "впишите значение") for path in empty]
         self.empty = set(empty)
@@ -166,7 +166,7 @@ class _Reader:
             self.problems.append(self.problem((name,), what))
             return None
         if name != "gas":
-            return _MODELS[name]
+            return SECTION_MODELS[name]
         source = raw.get("source")
         if isinstance(source, str) and source in _GASES:
             return _GASES[source]

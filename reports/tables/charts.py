@@ -52,7 +52,9 @@ def charts(throws: int, rays: int) -> tuple[ChartSpec, ...]:
 def _polar(
     chart_id: str, figure: str, sheet: str, title: str, series: Series, x: str, y: str
 ) -> ChartSpec:
-    return ChartSpec(chart_id, sheet, title, "polar", (series,), x, y, figure)
+    table = series.x.split(".", maxsplit=1)[0]
+    corners = Series(f"{table}_box.box", f"{table}_box.box", "оси")
+    return ChartSpec(chart_id, sheet, title, "polar", (series, corners), x, y, figure)
 
 
 def _wear(chart_id: str, figure: str, sheet: str, title: str, grid: str) -> ChartSpec:

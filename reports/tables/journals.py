@@ -193,7 +193,18 @@ def journal_table(number: int, throws: int, rows: tuple[float, ...], *, forced: 
     )
 
 
+def box(table: str, name: str, sheet: str) -> Grid:
+    """Corners that keep both axes of a polar diagram equal whatever the loads become."""
+    cells = (
+        Scalar(f"{name}_box1", f"-{name}_max", "оси диаграммы", of="box"),
+        Scalar(f"{name}_box2", f"{name}_max", "оси диаграммы", of="box"),
+    )
+    return Grid(f"{table}_box", "Оси полярной диаграммы", sheet, ("−", "+"), (GridRow("box", cells),))
+
+
 def journal_blocks(throws: int, rows: tuple[float, ...], *, forced: bool) -> tuple[Block, ...]:
     """Crankpin, throws and every main journal."""
     tables = [journal_table(k, throws, rows, forced=forced) for k in range(1, throws + 2)]
-    return crankpin_table(rows), throws_grid(throws), *tables
+    boxes = [box("crankpin", "Rpin", "Шатунная шейка")]
+    boxes += [box(f"P4_3_{k}", f"Rmain{k}", f"П4.3 ({k})") for k in range(1, throws + 2)]
+    return crankpin_table(rows), throws_grid(throws), *tables, *boxes

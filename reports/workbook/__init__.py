@@ -1,0 +1,1 @@
+"""Workbooks: written with live formulas, caches and charts; read back after editing."""

@@ -1,0 +1,117 @@
+"""Native Excel charts from chart specifications, caches filled."""
+
+from __future__ import annotations
+
+from openpyxl.chart import Reference, ScatterChart, Series  # noqa: F401
+from openpyxl.chart.data_source import AxDataSource, NumData, NumDataSource, NumRef, NumVal
+from openpyxl.chart.layout import Layout as PlotLayout
+from openpyxl.chart.layout import ManualLayout
+from openpyxl.chart.series import SeriesLabel, XYSeries
+from openpyxl.chart.shapes import GraphicalProperties
+from openpyxl.drawing.line import LineProperties
+
+from kshm.nomenclature import quantity
+from reports.layout import Layout
+from reports.tables.spec import ChartSpec
+from reports.tables.spec import Series as SeriesSpec
+from reports.tables.values import Values
+
+WIDE, HIGH = 16.0, 7.6  # cm
+SQUARE = 13.0
+_LINE = 19050  # EMU: 1.5 pt
+# Told apart without colour too: solid, dashed, dotted.
+_DASHES = ("solid", "dash", "sysDot", "dashDot")
+_COLOURS = ("1F3864", "C00000", "2E7D32", "7F6000")
+
+
+def size(spec: ChartSpec) -> tuple[float, float]:
+    """Width and height of a chart [cm]."""
+    return (WIDE, HIGH) if spec.kind == "line" else (SQUARE, SQUARE)
+
+
+def make_chart(spec: ChartSpec, layout: Layout, values: Values) -> ScatterChart:
+    """A scatter chart with straight lines; polar and path charts are square."""
+    chart = ScatterChart()
+    chart.scatterStyle = "lineMarker"
+    chart.style = 2
+    chart.roundedCorners = False
+    chart.title = f"{spec.title} (рис. {spec.figure})" if spec.figure else spec.title
+    chart.title.overlay = False
+    chart.width, chart.height = size(spec)
+    for number, series in enumerate(spec.series):
+        chart.series.append(_series(series, number, layout, values, spec))
+    chart.display_blanks = "gap"
+    _axes(chart, spec)
+    if spec.kind == "line" and len(spec.series) > 1:
+        chart.legend.position = "b"
+        chart.legend.overlay = False
+    else:
+        chart.legend = None
+    return chart
+
+
+def _axes(chart: ScatterChart, spec: ChartSpec) -> None:
+    for axis, title in ((chart.x_axis, spec.x_title), (chart.y_axis, spec.y_title)):
+        axis.delete = False
+        axis.tickLblPos = "low"
+        axis.majorTickMark = "out"
+        axis.number_format = "General"
+        axis.numFmt.sourceLinked = False
+        axis.majorGridlines.spPr = GraphicalProperties(ln=LineProperties(solidFill="D9D9D9", w=6350))
+        if title:
+            axis.title = title
+            axis.title.overlay = False
+    if spec.x_title.startswith("φ"):
+        last = 360 if spec.sheet.startswith("П3") else 720
+        chart.x_axis.scaling.min, chart.x_axis.scaling.max = 0, last
+        chart.x_axis.majorUnit = last / 12
+    if spec.kind == "line":
+        return
+    # Square plot, equal axes; journal axes run to the left, K runs down to the crank axis.
+    chart.layout = PlotLayout(
+        manualLayout=ManualLayout(
+            layoutTarget="inner", xMode="edge", yMode="edge", x=0.14, y=0.13, w=0.76, h=0.76
+        )
+    )
+    if spec.kind == "path":
+        for axis in (chart.x_axis, chart.y_axis):
+            axis.scaling.min, axis.scaling.max = -1.2, 1.2
+            axis.majorUnit = 0.4
+    if spec.kind == "path" or spec.series[0].x.endswith("Rx_MPa"):
+        chart.x_axis.scaling.orientation = "maxMin"
+    if spec.series[0].y.endswith("Krod_MPa"):
+        chart.y_axis.scaling.orientation = "maxMin"
+
+
+def _series(
+    series: SeriesSpec, number: int, layout: Layout, values: Values, spec: ChartSpec
+) -> XYSeries:
+    made = XYSeries(idx=number, order=number)
+    made.tx = SeriesLabel(v=series.name or quantity(series.y.split(".")[1]).symbol)
+    made.xVal = AxDataSource(numRef=_reference(series.x, layout, values))
+    made.yVal = NumDataSource(numRef=_reference(series.y, layout, values))
+    made.smooth = False
+    made.marker = None
+    line = LineProperties(w=_LINE, solidFill=_COLOURS[number % len(_COLOURS)])
+    line.prstDash = _DASHES[number % len(_DASHES)]
+    if spec.kind == "polar" and number == len(spec.series) - 1:
+        line = LineProperties(noFill=True)
+    made.spPr = GraphicalProperties(ln=line)
+    from openpyxl.chart.marker import Marker
+
+    made.marker = Marker(symbol="none")
+    return made
+
+
+def _reference(key: str, layout: Layout, values: Values) -> NumRef:
+    table, column = key.split(".")
+    if table in values.columns:
+        numbers = [float(value) for value in values.columns[table][column]]
+    else:
+        numbers = [float(values.scalars[name]) for name in layout.keys_of_run(key)]
+    cache = NumData(
+        formatCode="General",
+        ptCount=len(numbers),
+        pt=[NumVal(idx=i, v=repr(number)) for i, number in enumerate(numbers)],
+    )
+    return NumRef(f=layout.range_of(key), numCache=cache)

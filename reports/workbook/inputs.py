@@ -1,0 +1,109 @@
+"""The sheet of input data: named cells with units, ranges and data validation."""
+
+from __future__ import annotations
+
+from openpyxl.worksheet.datavalidation import DataValidation
+from openpyxl.worksheet.worksheet import Worksheet
+
+from reports.inputs.fields import Field
+from reports.layout import (
+    KEY_COLUMN,
+    SOURCE_COLUMN,
+    SYMBOL_COLUMN,
+    TITLE_COLUMN,
+    UNIT_COLUMN,
+    VALUE_COLUMN,
+    Layout,
+)
+from reports.tables.spec import Model
+from reports.workbook import styles
+
+
+def write_inputs(sheet: Worksheet, model: Model, layout: Layout) -> None:
+    """All input fields of a model."""
+    headed: set[str] = set()
+    for item in model.inputs:
+        place = layout.places[f"input:{item.section}"]
+        listed = len(item.path) == 4
+        if item.section not in headed:
+            headed.add(item.section)
+            sheet.cell(place.row, 1, item.section).style = styles.SUBTITLE
+        cell = layout.cells[item.name]
+        if listed:
+            _entry(sheet, item, cell.row, cell.column, place.row + 1)
+        else:
+            _labels(sheet, item, cell.row)
+        target = sheet.cell(cell.row, cell.column, shown(item))
+        target.style = styles.STRUCTURE if item.structural else styles.INPUT
+        target.number_format = "@" if isinstance(item.value, str) else "General"
+        _validate(sheet, item, cell.coordinate)
+
+
+def shown(item: Field) -> float | int | str:
+    """Value as the cell shows it: choices by their Russian label."""
+    if item.choices is not None and isinstance(item.value, str):
+        return item.choices[item.value]
+    return item.value
+
+
+def range_text(item: Field) -> str:
+    """Allowed range in words."""
+    if item.minimum is None or item.maximum is None:
+        return ""
+    return f"{_number(item.minimum)} … {_number(item.maximum)}"
+
+
+def _number(value: float) -> str:
+    return f"{value:g}".replace(".", ",")
+
+
+def _labels(sheet: Worksheet, item: Field, row: int) -> None:
+    texts = {
+        TITLE_COLUMN: item.title,
+        SYMBOL_COLUMN: item.symbol.replace("_", ""),
+        UNIT_COLUMN: item.unit,
+        SOURCE_COLUMN: range_text(item),
+        KEY_COLUMN: ".".join(str(part + 1 if isinstance(part, int) else part) for part in item.path),
+    }
+    for column, text in texts.items():
+        sheet.cell(row, column, text or None).style = (
+            styles.NOTE if column == KEY_COLUMN else styles.TEXT
+        )
+    sheet.cell(row, VALUE_COLUMN)
+
+
+def _entry(sheet: Worksheet, item: Field, row: int, column: int, header_row: int) -> None:
+    """A value of a list of records: headers above, the number of the entry on the left."""
+    number = int(item.path[2]) + 1
+    sheet.cell(header_row, 1, "№").style = styles.HEADER
+    sheet.cell(row, 1, number).style = styles.HEADER
+    if number == 1:
+        unit = f", {item.unit}" if item.unit else ""
+        title = item.title.replace(" 1:", ":").split(":")[-1].strip()
+        header = sheet.cell(header_row, column, title[:1].upper() + title[1:] + unit)
+        header.style = styles.HEADER
+
+
+def _validate(sheet: Worksheet, item: Field, coordinate: str) -> None:
+    if item.choices is not None:
+        labels = list(item.choices.values())
+        rule = DataValidation(type="list", formula1=f'"{",".join(labels)}"', allow_blank=False)
+        if any("," in label for label in labels) or len(",".join(labels)) > 250:
+            return
+        rule.error = "Выберите значение из списка."
+    elif item.minimum is not None and item.maximum is not None:
+        whole = isinstance(item.value, int) and item.structural
+        rule = DataValidation(
+            type="whole" if whole else "decimal",
+            operator="between",
+            formula1=f"{item.minimum!r}",
+            formula2=f"{item.maximum!r}",
+            allow_blank=False,
+        )
+        rule.error = f"Допустимо {range_text(item)} {item.unit}".strip() + "."
+    else:
+        return
+    rule.errorTitle = item.title[:32]
+    rule.showErrorMessage = True
+    sheet.add_data_validation(rule)
+    rule.add(coordinate)

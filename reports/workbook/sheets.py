@@ -1,0 +1,144 @@
+"""Blocks of a model written to the sheets of a workbook, with the values for the caches."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from openpyxl.comments import Comment
+from openpyxl.worksheet.worksheet import Worksheet
+
+from kshm.nomenclature import Quantity
+from reports.formula.excel import compile_formula
+from reports.layout import (
+    FIRST_ROW,
+    HEADER_ROW,
+    NUMBER_ROW,
+    SOURCE_COLUMN,
+    SYMBOL_COLUMN,
+    TITLE_COLUMN,
+    UNIT_COLUMN,
+    VALUE_COLUMN,
+    Layout,
+    RowReferences,
+    at_row,
+)
+from reports.tables.spec import Grid, Scalar, ScalarTable, TableSpec
+from reports.tables.values import Values
+from reports.workbook import styles
+
+CacheValues = dict[str, dict[str, float | str]]
+
+
+@dataclass
+class Writer:
+    """Writes blocks; collects sheet → coordinate → cached value of every formula cell."""
+
+    layout: Layout
+    values: Values
+    caches: CacheValues = field(default_factory=dict)
+
+    def formula(self, sheet: Worksheet, row: int, column: int, text: str, value: float | str) -> None:
+        """A formula cell with its value for the cache."""
+        cell = sheet.cell(row, column, text)
+        self.caches.setdefault(sheet.title, {})[cell.coordinate] = value
+
+    def table(self, sheet: Worksheet, table: TableSpec) -> None:
+        """An angle table: titles, headers with comments, formulas row by row."""
+        place = self.layout.places[table.id]
+        sheet.cell(HEADER_ROW - 1, place.column, f"Таблица {table.number} — {table.title}")
+        sheet.cell(HEADER_ROW - 1, place.column).style = styles.SUBTITLE
+        rows = self.layout.rows_of(table)
+        last = rows[-1]
+        for number, column in enumerate(table.columns, 1):
+            index = place.column + number - 1
+            header = sheet.cell(HEADER_ROW, index, column.quantity.header)
+            header.style = styles.HEADER
+            header.comment = note(column.quantity, column.source)
+            sheet.cell(NUMBER_ROW, index, number).style = styles.NUMBER
+            values = self.values.columns[table.id][column.key]
+            style = styles.HELPER if column.helper or table.helper else styles.FORMULA
+            template = (
+                compile_formula(column.expr, RowReferences(self.layout, table))
+                if column.expr is not None
+                else None
+            )
+            for row in rows:
+                if template is not None:
+                    text = at_row(template, row, last=row == last)
+                elif row == FIRST_ROW:
+                    text = None
+                else:
+                    text = self.layout.step_formula(row, index)
+                value = float(values[row - FIRST_ROW])
+                if text is None:
+                    sheet.cell(row, index, value)
+                else:
+                    self.formula(sheet, row, index, text, value)
+                cell = sheet.cell(row, index)
+                cell.style = style
+                cell.number_format = column.quantity.fmt
+
+    def scalar(self, sheet: Worksheet, scalar: Scalar) -> None:
+        """The value cell of a scalar."""
+        at = self.layout.cells[scalar.key]
+        text = compile_formula(scalar.expr, RowReferences(self.layout, None))
+        self.formula(sheet, at.row, at.column, text, self.values.scalars[scalar.key])
+        cell = sheet.cell(at.row, at.column)
+        cell.style = styles.CHECK if scalar.of == "check" else styles.FORMULA
+        cell.number_format = scalar.quantity.fmt
+
+    def list(self, sheet: Worksheet, block: ScalarTable) -> None:
+        """A list of scalars: title, symbol, value, unit, source."""
+        place = self.layout.places[block.id]
+        shift = place.column - 1
+        sheet.cell(place.row, place.column, block.title).style = styles.SUBTITLE
+        for scalar in block.scalars:
+            row = self.layout.cells[scalar.key].row
+            quantity = scalar.quantity
+            if scalar.of != "check":
+                texts = {
+                    TITLE_COLUMN: capital(scalar.note or quantity.title),
+                    SYMBOL_COLUMN: "" if scalar.of == "check_value" else quantity.symbol,
+                    UNIT_COLUMN: quantity.unit_label,
+                    SOURCE_COLUMN: scalar.source,
+                }
+                for column, text in texts.items():
+                    sheet.cell(row, shift + column, text or None).style = styles.TEXT
+            self.scalar(sheet, scalar)
+
+    def grid(self, sheet: Worksheet, block: Grid) -> None:
+        """Scalars as quantity × instance."""
+        place = self.layout.places[block.id]
+        first = self.layout.cells[next(c for c in block.rows[0].cells if c is not None).key].column
+        if place.row > HEADER_ROW:
+            sheet.cell(place.row - 1, place.column, block.title).style = styles.SUBTITLE
+        sheet.cell(place.row, place.column, "Величина").style = styles.HEADER
+        if first > VALUE_COLUMN - 1:
+            sheet.cell(place.row, place.column + 1, "Обозначение").style = styles.HEADER
+        for offset, label in enumerate(block.labels):
+            sheet.cell(place.row, first + offset, label).style = styles.HEADER
+        for offset, row in enumerate(block.rows, 1):
+            at, quantity = place.row + offset, row.quantity
+            wide = first > VALUE_COLUMN - 1
+            label = sheet.cell(at, 1, capital(quantity.title) if wide else quantity.header)
+            label.style = styles.HEADER if not wide else styles.TEXT
+            source = next(cell.source for cell in row.cells if cell is not None)
+            label.comment = note(quantity, source)
+            if wide:
+                sheet.cell(at, 2, quantity.header).style = styles.TEXT
+            for scalar in row.cells:
+                if scalar is not None:
+                    self.scalar(sheet, scalar)
+
+
+def capital(text: str) -> str:
+    """First letter capital, the rest as it is."""
+    return text[:1].upper() + text[1:]
+
+
+def note(quantity: Quantity, source: str) -> Comment:
+    """Comment of a header: what the quantity is and where its formula stands."""
+    text = capital(quantity.title) + (f", {quantity.unit_label}" if quantity.unit_label else "")
+    comment = Comment(f"{text}\n{source}" if source else text, "kshm")
+    comment.width, comment.height = 260, 70
+    return comment

@@ -1,0 +1,55 @@
+"""Cell styles of the workbook; the legend on the contents sheet explains the colours."""
+
+from __future__ import annotations
+
+from openpyxl.styles import Alignment, Border, Font, NamedStyle, PatternFill, Protection, Side
+from openpyxl.workbook import Workbook
+
+FONT = "Times New Roman"
+INPUT, STRUCTURE, FORMULA, HELPER = "kshm_input", "kshm_structure", "kshm_formula", "kshm_helper"
+HEADER, NUMBER, TITLE, NOTE, TEXT, LINK = (
+    "kshm_header", "kshm_number", "kshm_title", "kshm_note", "kshm_text", "kshm_link",
+)  # fmt: skip
+SUBTITLE, CHECK = "kshm_subtitle", "kshm_check"
+
+LEGEND = (
+    (INPUT, "исходные данные: эти ячейки можно менять, всё остальное пересчитается"),
+    (STRUCTURE, "строение расчёта (число цилиндров, шаг, источник данных): изменение вступит "
+                "в силу после команды kshm build с этой книгой"),
+    (FORMULA, "формула"),
+    (HELPER, "вспомогательная формула: нужна другим формулам или диаграмме"),
+    (HEADER, "заголовок; в примечании — смысл величины и номер формулы"),
+)  # fmt: skip
+
+_COLOURS = {INPUT: "FFF2CC", STRUCTURE: "F8CBAD", HELPER: "EDEDED", HEADER: "D9E2F3"}
+
+
+def add_styles(book: Workbook) -> None:
+    """Register all named styles in a workbook."""
+    thin = Side(style="thin", color="BFBFBF")
+    frame = Border(left=thin, right=thin, top=thin, bottom=thin)
+    centre = Alignment(horizontal="center", vertical="center", wrap_text=True)
+
+    def style(name: str, **parts: object) -> None:
+        made = NamedStyle(name=name)
+        made.font = Font(name=FONT, size=11)
+        colour = _COLOURS.get(name)
+        if colour:
+            made.fill = PatternFill("solid", fgColor=colour)
+        for key, value in parts.items():
+            setattr(made, key, value)
+        book.add_named_style(made)
+
+    unlocked = Protection(locked=False)
+    style(INPUT, border=frame, protection=unlocked)
+    style(STRUCTURE, border=frame, protection=unlocked)
+    style(FORMULA, border=frame)
+    style(HELPER, border=frame, font=Font(name=FONT, size=11, color="7F7F7F"))
+    style(HEADER, border=frame, alignment=centre, font=Font(name=FONT, size=11, bold=True))
+    style(NUMBER, border=frame, alignment=centre, font=Font(name=FONT, size=9, italic=True))
+    style(TITLE, font=Font(name=FONT, size=14, bold=True))
+    style(SUBTITLE, font=Font(name=FONT, size=12, bold=True))
+    style(NOTE, font=Font(name=FONT, size=10, italic=True, color="595959"))
+    style(TEXT, border=frame, alignment=Alignment(vertical="center", wrap_text=True))
+    style(LINK, font=Font(name=FONT, size=11, color="0563C1", underline="single"))
+    style(CHECK, border=frame, alignment=centre, font=Font(name=FONT, size=11, bold=True))

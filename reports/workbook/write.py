@@ -1,0 +1,190 @@
+"""The workbook of an engine: all sheets with live formulas, caches and charts."""
+
+from __future__ import annotations
+
+import io
+
+from openpyxl import Workbook
+from openpyxl.formatting.rule import CellIsRule
+from openpyxl.styles import Font, PatternFill
+from openpyxl.utils import get_column_letter
+from openpyxl.workbook.defined_name import DefinedName
+from openpyxl.worksheet.worksheet import Worksheet
+
+from reports.layout import (
+    CONTENTS_SHEET,
+    FIRST_ROW,
+    HEADER_ROW,
+    INPUT_SHEET,
+    NOTE_ROW,
+    NUMBER_ROW,
+    SOURCE_COLUMN,
+    TITLE_ROW,
+    VALUE_COLUMN,
+    Cell,
+    Layout,
+    check_names,
+    quoted,
+)
+from reports.tables.spec import Grid, Model, ScalarTable, TableSpec
+from reports.tables.values import Values, evaluate_model
+from reports.workbook import styles
+from reports.workbook.caches import finish
+from reports.workbook.charts import make_chart, size
+from reports.workbook.inputs import write_inputs
+from reports.workbook.sheets import Writer
+
+_ROW_CM = 0.53
+_COLUMN_CM = 1.95
+
+
+def workbook_bytes(model: Model, values: Values | None = None) -> bytes:
+    """The finished workbook as bytes; the same model gives the same bytes."""
+    layout = Layout.of(model)
+    check_names(layout)
+    writer = Writer(layout, values or evaluate_model(model))
+    book = Workbook()
+    book.remove(book.active)
+    styles.add_styles(book)
+    contents = book.create_sheet(CONTENTS_SHEET)
+    inputs = book.create_sheet(INPUT_SHEET)
+    _heading(inputs, "Исходные данные")
+    write_inputs(inputs, model, layout)
+    for title in model.sheets:
+        _blocks(book.create_sheet(title), model, writer)
+    _contents(contents, model)
+    for chart_sheet in model.sheets:
+        _charts(book[chart_sheet], model, layout, writer.values)
+    for name, address in layout.defined_names().items():
+        book.defined_names[name] = DefinedName(name, attr_text=address)
+    for sheet in book.worksheets:
+        _page(sheet, model, layout)
+    book.properties.creator = "kshm"
+    book.properties.title = f"{model.input.engine.name}: кинематика и динамика КШМ"
+    book.calculation.fullCalcOnLoad = True
+    stream = io.BytesIO()
+    book.save(stream)
+    return finish(stream.getvalue(), writer.caches)
+
+
+def _heading(sheet: Worksheet, title: str) -> None:
+    sheet.cell(TITLE_ROW, 1, title).style = styles.TITLE
+    if sheet.title != CONTENTS_SHEET:
+        link = sheet.cell(NOTE_ROW, 1, "← Содержание")
+        link.hyperlink = f"#{quoted(CONTENTS_SHEET)}!A1"
+        link.style = styles.LINK
+
+
+def _blocks(sheet: Worksheet, model: Model, writer: Writer) -> None:
+    blocks = [block for block in model.blocks if block.sheet == sheet.title]
+    titles = {
+        "Массы": "Размеры, массы и постоянные силы инерции",
+        "Итоги": "Итоги расчёта",
+        "Проверки": "Проверки",
+    }
+    _heading(sheet, titles.get(sheet.title, blocks[0].title))
+    notes = [block.note for block in blocks if block.note]
+    if notes:
+        sheet.cell(NOTE_ROW, 3, " ".join(dict.fromkeys(notes))).style = styles.NOTE
+    for block in blocks:
+        if isinstance(block, TableSpec):
+            writer.table(sheet, block)
+        elif isinstance(block, ScalarTable):
+            writer.list(sheet, block)
+        elif isinstance(block, Grid):
+            writer.grid(sheet, block)
+    if sheet.title == "Проверки":
+        _colour_checks(sheet)
+
+
+def _colour_checks(sheet: Worksheet) -> None:
+    area = f"{get_column_letter(4)}{HEADER_ROW}:{get_column_letter(4)}{HEADER_ROW + 40}"
+    green, red = PatternFill(bgColor="C6EFCE"), PatternFill(bgColor="FFC7CE")
+    sheet.conditional_formatting.add(area, CellIsRule("equal", ['"да"'], fill=green))
+    sheet.conditional_formatting.add(
+        area, CellIsRule("equal", ['"НЕТ"'], fill=red, font=Font(bold=True, color="9C0006"))
+    )
+
+
+def _contents(sheet: Worksheet, model: Model) -> None:
+    report = model.input.report
+    _heading(sheet, report.title or "Кинематика и динамика КШМ")
+    people = [
+        ("Двигатель", model.input.engine.name),
+        ("Студент", report.student),
+        ("Группа", report.group),
+        ("Вариант", report.variant),
+        ("Руководитель", report.supervisor),
+    ]
+    row = 3
+    for label, text in people:
+        if text:
+            sheet.cell(row, 1, label).style = styles.TEXT
+            sheet.cell(row, 2, text).style = styles.TEXT
+            row += 1
+    row += 1
+    sheet.cell(row, 1, "Листы").style = styles.SUBTITLE
+    described = {INPUT_SHEET: "Размеры, режим, газы, массы, коленчатый вал"}
+    for block in model.blocks:
+        described.setdefault(block.sheet, block.title)
+    for title, text in described.items():
+        row += 1
+        link = sheet.cell(row, 1, title)
+        link.hyperlink = f"#{quoted(title)}!A1"
+        link.style = styles.LINK
+        sheet.cell(row, 2, text).style = styles.TEXT
+    row += 2
+    sheet.cell(row, 1, "Цвета ячеек").style = styles.SUBTITLE
+    for style, text in styles.LEGEND:
+        row += 1
+        sheet.cell(row, 1, "образец").style = style
+        sheet.cell(row, 2, text).style = styles.TEXT
+    sheet.column_dimensions["A"].width = 26
+    sheet.column_dimensions["B"].width = 95
+
+
+def _charts(sheet: Worksheet, model: Model, layout: Layout, values: Values) -> None:
+    specs = [spec for spec in model.charts if spec.sheet == sheet.title]
+    column = max(layout.end_of(sheet.title)[1], _last_column(sheet) + 2)
+    row = HEADER_ROW
+    for spec in specs:
+        chart = make_chart(spec, layout, values)
+        sheet.add_chart(chart, Cell(sheet.title, row, column).coordinate)
+        row += round(size(spec)[1] / _ROW_CM) + 2
+
+
+def _last_column(sheet: Worksheet) -> int:
+    return sheet.max_column if sheet.max_row > FIRST_ROW else 1
+
+
+def _page(sheet: Worksheet, model: Model, layout: Layout) -> None:
+    tables = [
+        block for block in model.blocks if isinstance(block, TableSpec) and block.sheet == sheet.title
+    ]
+    last_row, last_column = sheet.max_row, sheet.max_column
+    if tables:
+        sheet.freeze_panes = Cell(sheet.title, FIRST_ROW, 2).coordinate
+        sheet.print_title_rows = f"{HEADER_ROW - 1}:{NUMBER_ROW}"
+        for column in range(1, last_column + 1):
+            sheet.column_dimensions[get_column_letter(column)].width = 11.5
+        sheet.row_dimensions[HEADER_ROW].height = 48
+    elif sheet.title != CONTENTS_SHEET:
+        sheet.freeze_panes = Cell(sheet.title, HEADER_ROW, 1).coordinate
+        wide = {1: 62, 2: 16, VALUE_COLUMN: 16, 4: 12, SOURCE_COLUMN: 26, 6: 32}
+        for column in range(1, last_column + 1):
+            sheet.column_dimensions[get_column_letter(column)].width = wide.get(column, 14)
+    areas = [f"A1:{Cell('', last_row, last_column).coordinate}"]
+    specs = [spec for spec in model.charts if spec.sheet == sheet.title]
+    if specs:
+        first = Cell("", HEADER_ROW, last_column + 2)
+        rows = sum(round(size(spec)[1] / _ROW_CM) + 2 for spec in specs)
+        columns = round(max(size(spec)[0] for spec in specs) / _COLUMN_CM) + 1
+        last = Cell("", HEADER_ROW + rows, last_column + 1 + columns)
+        areas.append(layout.area(first, last))
+    sheet.print_area = areas
+    sheet.page_setup.paperSize = sheet.PAPERSIZE_A4
+    sheet.page_setup.orientation = "landscape" if last_column > 9 else "portrait"
+    sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight = 1, 0
+    sheet.sheet_properties.pageSetUpPr.fitToPage = True
+    sheet.oddFooter.center.text = "&A — лист &P из &N"
+    sheet.page_margins.left, sheet.page_margins.right = 0.8, 0.4

@@ -184,6 +184,9 @@ def check_inputs(inputs: CycleInputs) -> None:
     if inputs.offset != 0:
         msg = "дезаксаж: цикл рассчитывается для центрального механизма; задайте 0"
         raise CycleError(msg, "offset")
+    if int(inputs.cylinders) != inputs.cylinders:
+        msg = f"i = {ru(inputs.cylinders)}: число цилиндров целое; исправьте i"
+        raise CycleError(msg, "cylinders")
     check_fuel(inputs.fuel)
     for field, limit in {**_LIMITS, **_KIND_LIMITS[inputs.kind]}.items():
         value = getattr(inputs, field)

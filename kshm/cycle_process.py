@@ -26,6 +26,7 @@ N1_START = 1.37
 N1_PASSES = 5
 N2_START = 1.25
 N2_PASSES = 6
+N2_RANGE = (1.03, 1.60)  # nothing expands outside of this
 CONVERGED = 1e-12  # relative step of n − 1 in the last pass
 
 
@@ -225,8 +226,8 @@ def ignite(
     content = inputs.xi_z * heat + start + R_GAS * (ratio * t_c + ZERO_C * (ratio - mu))
     t_z = temperature_of(products, content, mu, R_GAS) + ZERO_C
     rho = mu * t_z / (ratio * compression.t_c)
-    if rho > eps / 2:
-        msg = f"ρ = {ru(rho)}: сгорание занимает весь ход; увеличьте p_z или α"
+    if rho > eps / 3:
+        msg = f"ρ = {ru(rho)}: сгорание занимает треть хода и больше; увеличьте p_z или α"
         raise CycleError(msg, "p_max")
     return Combustion(mu, heat, products, ratio, inputs.p_max, t_z, rho, eps / rho)
 
@@ -268,9 +269,10 @@ def expand(combustion: Combustion, xi_z: float, xi_b: float) -> Expansion:
         previous, x = x, step
         if not 0 < x < 1:
             break
-    if not (0.01 < x < 1 and abs(x - previous) <= CONVERGED * x):
+    low, high = N2_RANGE
+    if not (low < 1 + x < high and abs(x - previous) <= CONVERGED * x):
         way = "увеличьте ξ_b или уменьшите ξ_z" if xi_b < xi_z else "уменьшите ξ_b"
-        msg = f"n_2: расчёт показателя расширения не сходится; {way}"
+        msg = f"n_2: показатель расширения не сходится к числу от {ru(low)} до {ru(high)}; {way}"
         raise CycleError(msg, "xi_b")
     p_b = combustion.p_z / combustion.delta ** (1 + x)
     return Expansion(1 + x, p_b, combustion.t_z / combustion.delta**x)

@@ -1,0 +1,122 @@
+"""Bad input gets one Russian line: which input, which way to change it."""
+
+import re
+from dataclasses import replace
+
+import pytest
+
+from kshm.cycle import CycleError, Listing, cycle
+from kshm.cycle_fuel import FUELS
+from kshm.cycle_model import FrictionLaw
+
+NAN = float("nan")
+
+DIESEL = [
+    ({"p_max": 7e6}, "p_max", "p_z = 7 МПа не выше давления конца сжатия .*; увеличьте p_z"),
+    ({"p_max": 20e6}, "p_max", r"p_z = 20 МПа слишком велико \(ρ < 1\); уменьшите p_z"),
+    ({"p_max": None}, "p_max", "задайте максимальное давление"),
+    ({"p_max": 50e6}, "p_max", "уменьшите p_z"),
+    (
+        {"p_max": 3.4e6, "excess_air": 1.0, "xi_z": 1.0, "compression_ratio": 10.0},
+        "p_max",
+        "ρ = 3,.*увеличьте p_z или α",
+    ),
+    ({"excess_air": 0.9}, "excess_air", "α = 0,9: допускается от 1 до 8; увеличьте α .*дымит"),
+    ({"excess_air": 9.0}, "excess_air", "уменьшите α"),
+    ({"excess_air": NAN}, "excess_air", "задайте число"),
+    ({"compression_ratio": 8.0}, "compression_ratio", "увеличьте ε"),
+    ({"compression_ratio": 30.0}, "compression_ratio", "уменьшите ε"),
+    ({"xi_b": 0.35}, "xi_b", "n_2: .* увеличьте ξ_b"),
+    ({"xi_z": 0.45, "xi_b": 1.0, "excess_air": 1.2, "p_max": 9e6}, "xi_b", "уменьшите ξ_b"),
+    ({"xi_z": 1.2}, "xi_z", "уменьшите ξ_z"),
+    ({"omega": 0.0}, "omega", "увеличьте n"),
+    ({"cylinders": 2.5}, "cylinders", "целое"),
+    ({"strokes": 2}, "strokes", "τ = 2"),
+    ({"offset": 0.01}, "offset", "дезаксаж"),
+    ({"bore": None}, "bore", "задайте диаметр и ход"),
+    ({"stroke": 0.0}, "stroke", "увеличьте S"),
+    ({"mechanical": 0.1}, "mechanical", "увеличьте η_м"),
+    (
+        {"mechanical": FrictionLaw(0.39e6, 0.04e6), "stroke": 0.3},
+        "mechanical",
+        "двигатель не даёт мощности",
+    ),
+    ({"mechanical": FrictionLaw(0.9e6, 0.01e6)}, "mechanical.a", "уменьшите A"),
+    ({"intake_factor": 0.2}, "intake_factor", "увеличьте C1"),
+    ({"t_residual": 100.0}, "t_residual", "увеличьте T_r"),
+    ({"kind": "gas"}, "kind", "diesel или petrol"),
+    ({"fuel": replace(FUELS["diesel"], carbon=0.5)}, "fuel", r"C \+ H \+ O = 0,63"),
+    ({"fuel": replace(FUELS["diesel"], heating_value=42.5)}, "fuel", "проверьте единицы"),
+    ({"fuel": replace(FUELS["diesel"], carbon=-0.1)}, "fuel", "от 0 до 1"),
+    (
+        {"fuel": replace(FUELS["diesel"], carbon=0.1, hydrogen=0.01, oxygen=0.89)},
+        "fuel",
+        "кислорода хватает",
+    ),
+]
+PETROL = [
+    ({"p_max": 6e6}, "p_max", "получается из расчёта"),
+    ({"compression_ratio": 20.0}, "compression_ratio", "уменьшите ε .*детонирует"),
+    ({"excess_air": 0.3}, "excess_air", "увеличьте α"),
+    ({"h2_co": 2.0}, "h2_co", "уменьшите H2/CO"),
+    ({"fuel": replace(FUELS["petrol"], vapour_molar_mass=0.0)}, "fuel", "m_т"),
+    ({"fuel": replace(FUELS["petrol"], heating_value=100e6)}, "xi_z", "неправдоподобно"),
+    ({"xi_z": 0.01, "xi_b": 0.3}, "xi_b", "n_2"),
+    ({"xi_z": 0.0, "xi_b": 0.3}, "xi_b", "n_2"),
+]
+BOOST = [
+    ({"pressure_ratio": 9.0}, "boost.pressure_ratio", "уменьшите π_k"),
+    ({"cooler_temperature_drop": 200.0}, "boost.cooler_temperature_drop", "уменьшите ΔT_охл"),
+    ({"cooler_pressure_loss": NAN}, "boost.cooler_pressure_loss", "задайте число"),
+    ({"turbine_efficiency": 0.0}, "boost.turbine_efficiency", "увеличьте η_т"),
+]
+
+
+def check(inputs, field, text):
+    with pytest.raises(CycleError) as caught:
+        cycle(inputs)
+    message = str(caught.value)
+    assert caught.value.field == field, message
+    assert re.search(text, message), message
+    assert "\n" not in message
+    assert isinstance(caught.value, ValueError)
+
+
+@pytest.mark.parametrize(("changes", "field", "text"), DIESEL)
+def test_diesel(diesel, changes, field, text):
+    check(replace(diesel, **changes), field, text)
+
+
+@pytest.mark.parametrize(("changes", "field", "text"), PETROL)
+def test_petrol(gasoline, changes, field, text):
+    check(replace(gasoline, **changes), field, text)
+
+
+@pytest.mark.parametrize(("changes", "field", "text"), BOOST)
+def test_boost(diesel, changes, field, text):
+    check(replace(diesel, boost=replace(diesel.boost, **changes)), field, text)
+
+
+def test_the_named_highest_pressure_is_right(diesel):
+    with pytest.raises(CycleError) as caught:
+        cycle(replace(diesel, p_max=20e6))
+    named = float(re.search(r"возможное ([\d,]+)", str(caught.value))[1].replace(",", "."))
+    assert cycle(replace(diesel, p_max=(named - 0.01) * 1e6)).combustion.rho > 1
+    with pytest.raises(CycleError):
+        cycle(replace(diesel, p_max=(named + 0.01) * 1e6))
+
+
+def test_listing_mode_is_for_the_turbo_diesel_only(engines):
+    for name in ("petrol", "natural_diesel"):
+        with pytest.raises(CycleError, match="режим распечатки"):
+            cycle(engines[name], Listing())
+
+
+def test_warnings_do_not_stop_the_calculation(engines):
+    off = cycle(replace(engines["petrol"], t_residual=900.0))
+    assert "задайте T_r ближе" in off.warnings[0]
+    assert cycle(engines["turbo_diesel"]).warnings == ()
+    weak = replace(engines["turbo_diesel"], exhaust_factor=0.75)
+    assert any("мощность турбины" in w for w in cycle(weak).warnings)
+    hot = replace(engines["petrol"], xi_z=1.0, xi_b=1.0, excess_air=1.0)
+    assert any("2800" in w for w in cycle(hot).warnings)

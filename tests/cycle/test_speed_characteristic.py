@@ -1,0 +1,106 @@
+"""External speed characteristic by Leiderman and the regimes derived from it."""
+
+import math
+
+import numpy as np
+import pytest
+
+from kshm.cycle import CycleError
+from kshm.speed_characteristic import LEIDERMAN, curve, from_adaptability, regimes, speed_grid
+
+RATED = 4400 * math.pi / 30
+POWER, G_E = 70e3, 263 / 3.6e9
+
+
+@pytest.mark.parametrize("name", sorted(LEIDERMAN))
+def test_rated_point_is_met(name):
+    law = LEIDERMAN[name]
+    found = curve(POWER, RATED, G_E, law, np.array([RATED]))
+    assert found.power[0] == pytest.approx(POWER, rel=1e-12)
+    assert found.torque[0] == pytest.approx(POWER / RATED, rel=1e-12)
+    assert found.consumption[0] == pytest.approx(G_E, rel=1e-12)
+    assert found.fuel_flow[0] == pytest.approx(G_E * POWER, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", sorted(LEIDERMAN))
+def test_torque_peaks_at_k_c_with_k(name):
+    law = LEIDERMAN[name]
+    found = curve(POWER, RATED, G_E, law, np.linspace(0.2, 1.0, 8001) * RATED)
+    best = int(np.argmax(found.torque))
+    assert found.omega[best] / RATED == pytest.approx(found.speed_ratio, abs=2e-4)
+    assert found.torque[best] * RATED / POWER == pytest.approx(found.adaptability, rel=1e-7)
+    assert np.allclose(found.power, found.torque * found.omega)
+    assert np.all(found.consumption > 0)
+
+
+def test_k_and_k_c_of_the_textbook():
+    """Gots 2.9: K = 1.2 at least, n_M = 2400 of 4400."""
+    law = from_adaptability(1.2, 2400 / 4400, LEIDERMAN["diesel"])
+    assert law.adaptability == pytest.approx(1.2, rel=1e-12)
+    assert law.x_torque == pytest.approx(0.5454545, rel=1e-6)
+    assert law.a + law.b - law.c == pytest.approx(1, rel=1e-12)
+    assert law.source == "derived"
+    # The usual diesel falls a little short of the wanted 1.2
+    assert LEIDERMAN["diesel"].adaptability == pytest.approx(1.189, abs=5e-4)
+    assert LEIDERMAN["diesel"].x_torque == pytest.approx(0.565)
+
+
+def test_from_adaptability_inverts():
+    base = LEIDERMAN["petrol"]
+    law = from_adaptability(base.adaptability, base.x_torque, base)
+    assert (law.a, law.b, law.c) == pytest.approx((base.a, base.b, base.c), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("k", "k_c", "field"),
+    [(1.0, 0.5, "adaptability"), (1.2, 1.0, "speed_ratio"), (1.9, 0.8, "adaptability")],
+)
+def test_impossible_k(k, k_c, field):
+    with pytest.raises(CycleError) as caught:
+        from_adaptability(k, k_c, LEIDERMAN["diesel"])
+    assert caught.value.field == field
+
+
+def test_regimes_are_derived_and_marked():
+    law = LEIDERMAN["diesel"]
+    rated, torque, idle = regimes(POWER, RATED, law, kind="diesel")
+    assert not rated.derived
+    assert torque.derived
+    assert idle.derived
+    assert torque.omega == pytest.approx(0.565 * RATED)
+    assert torque.torque == pytest.approx(law.adaptability * rated.torque, rel=1e-12)
+    assert torque.power == pytest.approx(torque.torque * torque.omega)
+    assert idle.torque == 0
+    assert "по памяти" in idle.source
+
+
+def test_given_regimes_are_kept():
+    n_m, n_i = 2400 * math.pi / 30, 800 * math.pi / 30
+    _, torque, idle = regimes(
+        POWER, RATED, LEIDERMAN["diesel"], kind="diesel", omega_torque=n_m, omega_idle=n_i
+    )
+    assert (torque.omega, idle.omega) == (n_m, n_i)
+    assert not torque.derived
+    assert not idle.derived
+    assert torque.source == idle.source == "задано"
+
+
+def test_regimes_out_of_order():
+    with pytest.raises(CycleError, match="возрастать"):
+        regimes(POWER, RATED, LEIDERMAN["diesel"], kind="diesel", omega_torque=2 * RATED)
+    with pytest.raises(CycleError, match="возрастать"):
+        regimes(POWER, RATED, LEIDERMAN["diesel"], kind="diesel", omega_idle=0.9 * RATED)
+
+
+def test_grid_has_both_ends_and_whole_steps():
+    grid = speed_grid(850 * math.pi / 30, RATED, 200.0) * 30 / math.pi
+    assert list(np.round(grid[:3])) == [850, 1000, 1200]
+    assert grid[-1] == pytest.approx(4400)
+    assert grid[-2] == pytest.approx(4200)
+    assert np.all(np.diff(grid) > 1)
+
+
+def test_curves_are_read_only():
+    found = curve(POWER, RATED, G_E, LEIDERMAN["petrol"], np.array([100.0, 200.0]))
+    with pytest.raises(ValueError, match="read-only"):
+        found.torque[0] = 0

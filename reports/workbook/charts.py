@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
-from openpyxl.chart import Reference, ScatterChart, Series  # noqa: F401
+from openpyxl.chart import ScatterChart
 from openpyxl.chart.data_source import AxDataSource, NumData, NumDataSource, NumRef, NumVal
 from openpyxl.chart.layout import Layout as PlotLayout
 from openpyxl.chart.layout import ManualLayout
+from openpyxl.chart.marker import Marker
 from openpyxl.chart.series import SeriesLabel, XYSeries
 from openpyxl.chart.shapes import GraphicalProperties
+from openpyxl.chart.text import RichText, Text
+from openpyxl.chart.title import Title
 from openpyxl.drawing.line import LineProperties
+from openpyxl.drawing.text import (
+    CharacterProperties,
+    Paragraph,
+    ParagraphProperties,
+    RegularTextRun,
+)
 
 from kshm.nomenclature import quantity
 from reports.layout import Layout
@@ -17,7 +26,7 @@ from reports.tables.spec import Series as SeriesSpec
 from reports.tables.values import Values
 
 WIDE, HIGH = 16.0, 7.6  # cm
-SQUARE = 13.0
+SQUARE = 14.0
 _LINE = 19050  # EMU: 1.5 pt
 # Told apart without colour too: solid, dashed, dotted.
 _DASHES = ("solid", "dash", "sysDot", "dashDot")
@@ -35,8 +44,7 @@ def make_chart(spec: ChartSpec, layout: Layout, values: Values) -> ScatterChart:
     chart.scatterStyle = "lineMarker"
     chart.style = 2
     chart.roundedCorners = False
-    chart.title = f"{spec.title} (рис. {spec.figure})" if spec.figure else spec.title
-    chart.title.overlay = False
+    chart.title = _title(f"{spec.title} (рис. {spec.figure})" if spec.figure else spec.title, 1200)
     chart.width, chart.height = size(spec)
     for number, series in enumerate(spec.series):
         chart.series.append(_series(series, number, layout, values, spec))
@@ -50,6 +58,13 @@ def make_chart(spec: ChartSpec, layout: Layout, values: Values) -> ScatterChart:
     return chart
 
 
+def _title(text: str, size: int) -> Title:
+    """A title of moderate size (hundredths of a point) that leaves the plot its room."""
+    look = CharacterProperties(sz=size, b=False)
+    paragraph = Paragraph(pPr=ParagraphProperties(defRPr=look), r=[RegularTextRun(rPr=look, t=text)])
+    return Title(tx=Text(rich=RichText(p=[paragraph])), overlay=False)
+
+
 def _axes(chart: ScatterChart, spec: ChartSpec) -> None:
     for axis, title in ((chart.x_axis, spec.x_title), (chart.y_axis, spec.y_title)):
         axis.delete = False
@@ -59,8 +74,7 @@ def _axes(chart: ScatterChart, spec: ChartSpec) -> None:
         axis.numFmt.sourceLinked = False
         axis.majorGridlines.spPr = GraphicalProperties(ln=LineProperties(solidFill="D9D9D9", w=6350))
         if title:
-            axis.title = title
-            axis.title.overlay = False
+            axis.title = _title(title, 1000)
     if spec.x_title.startswith("φ"):
         last = 360 if spec.sheet.startswith("П3") else 720
         chart.x_axis.scaling.min, chart.x_axis.scaling.max = 0, last
@@ -91,14 +105,11 @@ def _series(
     made.xVal = AxDataSource(numRef=_reference(series.x, layout, values))
     made.yVal = NumDataSource(numRef=_reference(series.y, layout, values))
     made.smooth = False
-    made.marker = None
     line = LineProperties(w=_LINE, solidFill=_COLOURS[number % len(_COLOURS)])
     line.prstDash = _DASHES[number % len(_DASHES)]
     if spec.kind == "polar" and number == len(spec.series) - 1:
         line = LineProperties(noFill=True)
     made.spPr = GraphicalProperties(ln=line)
-    from openpyxl.chart.marker import Marker
-
     made.marker = Marker(symbol="none")
     return made
 

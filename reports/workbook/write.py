@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import io
+from dataclasses import dataclass
+from math import ceil
 
 from openpyxl import Workbook
 from openpyxl.formatting.rule import CellIsRule
-from openpyxl.styles import Font, PatternFill
+from openpyxl.styles import Alignment, Font, PatternFill
 from openpyxl.utils import get_column_letter
 from openpyxl.workbook.defined_name import DefinedName
+from openpyxl.worksheet.pagebreak import Break
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.layout import (
@@ -36,6 +39,9 @@ from reports.workbook.sheets import Writer
 
 _ROW_CM = 0.53
 _COLUMN_CM = 1.95
+_CHARACTER_CM = 0.25
+_SLOT = 16  # rows that a chart takes, so that pages hold whole charts
+_PORTRAIT_COLUMNS = 9
 
 
 def workbook_bytes(model: Model, values: Values | None = None) -> bytes:
@@ -53,12 +59,12 @@ def workbook_bytes(model: Model, values: Values | None = None) -> bytes:
     for title in model.sheets:
         _blocks(book.create_sheet(title), model, writer)
     _contents(contents, model)
-    for chart_sheet in model.sheets:
-        _charts(book[chart_sheet], model, layout, writer.values)
-    for name, address in layout.defined_names().items():
-        book.defined_names[name] = DefinedName(name, attr_text=address)
     for sheet in book.worksheets:
         _page(sheet, model, layout)
+    for title in model.sheets:
+        _charts(book[title], model, layout, writer.values)
+    for name, address in layout.defined_names().items():
+        book.defined_names[name] = DefinedName(name, attr_text=address)
     book.properties.creator = "kshm"
     book.properties.title = f"{model.input.engine.name}: кинематика и динамика КШМ"
     book.calculation.fullCalcOnLoad = True
@@ -84,8 +90,6 @@ def _blocks(sheet: Worksheet, model: Model, writer: Writer) -> None:
     }
     _heading(sheet, titles.get(sheet.title, blocks[0].title))
     notes = [block.note for block in blocks if block.note]
-    if notes:
-        sheet.cell(NOTE_ROW, 3, " ".join(dict.fromkeys(notes))).style = styles.NOTE
     for block in blocks:
         if isinstance(block, TableSpec):
             writer.table(sheet, block)
@@ -93,6 +97,8 @@ def _blocks(sheet: Worksheet, model: Model, writer: Writer) -> None:
             writer.list(sheet, block)
         elif isinstance(block, Grid):
             writer.grid(sheet, block)
+    if notes:
+        _note(sheet, " ".join(dict.fromkeys(notes)))
     if sheet.title == "Проверки":
         _colour_checks(sheet)
 
@@ -145,46 +151,94 @@ def _contents(sheet: Worksheet, model: Model) -> None:
 
 def _charts(sheet: Worksheet, model: Model, layout: Layout, values: Values) -> None:
     specs = [spec for spec in model.charts if spec.sheet == sheet.title]
-    column = max(layout.end_of(sheet.title)[1], _last_column(sheet) + 2)
-    row = HEADER_ROW
+    if not specs:
+        return
+    column, page = sheet.max_column + 2, page_of(sheet)
+    offset = 0
     for spec in specs:
-        chart = make_chart(spec, layout, values)
-        sheet.add_chart(chart, Cell(sheet.title, row, column).coordinate)
-        row += round(size(spec)[1] / _ROW_CM) + 2
+        height = _SLOT * ceil(size(spec)[1] / _ROW_CM / _SLOT)
+        if offset % page.rows + height > page.rows:  # not across a page break
+            offset = page.rows * ceil(offset / page.rows)
+        place = Cell(sheet.title, FIRST_ROW + offset, column)
+        sheet.add_chart(make_chart(spec, layout, values), place.coordinate)
+        offset += height
+    columns = round(max(size(spec)[0] for spec in specs) / _COLUMN_CM) + 1
+    last = Cell(sheet.title, FIRST_ROW + offset - 1, column + columns)
+    sheet.print_area = [
+        str(sheet.print_area).replace("$", "").split("!")[-1],
+        layout.area(Cell(sheet.title, FIRST_ROW, column), last),
+    ]
+    rows = max(offset, sheet.max_row)
+    for row in range(FIRST_ROW - 1 + page.rows, FIRST_ROW + rows, page.rows):
+        sheet.row_breaks.append(Break(id=row))
 
 
-def _last_column(sheet: Worksheet) -> int:
-    return sheet.max_column if sheet.max_row > FIRST_ROW else 1
+@dataclass(frozen=True, slots=True)
+class Page:
+    """How a sheet goes to paper: landscape, scale in percent, rows to a page."""
+
+    landscape: bool
+    scale: int
+    rows: int
+
+
+def page_of(sheet: Worksheet) -> Page:
+    """A4 page for a sheet with tables: whole columns, pages a multiple of a chart's slot."""
+    landscape = sheet.max_column > _PORTRAIT_COLUMNS
+    # Height of the sheet of paper less the titles that repeat on each page.
+    width, height, most = (26.0, 12.9, 0.75) if landscape else (17.5, 21.8, 0.8)
+    widths = (
+        sheet.column_dimensions[get_column_letter(i)].width for i in range(1, sheet.max_column + 1)
+    )
+    scale = min(most, width / (sum(widths) * _CHARACTER_CM))
+    return Page(landscape, int(scale * 100), max(1, int(height / _ROW_CM / scale / _SLOT)) * _SLOT)
 
 
 def _page(sheet: Worksheet, model: Model, layout: Layout) -> None:
-    tables = [
-        block for block in model.blocks if isinstance(block, TableSpec) and block.sheet == sheet.title
-    ]
+    """Widths, frozen headers and print set-up of a sheet, before its charts are placed."""
+    blocks = [block for block in model.blocks if block.sheet == sheet.title]
+    tables = [block for block in blocks if isinstance(block, TableSpec)]
     last_row, last_column = sheet.max_row, sheet.max_column
     if tables:
         sheet.freeze_panes = Cell(sheet.title, FIRST_ROW, 2).coordinate
         sheet.print_title_rows = f"{HEADER_ROW - 1}:{NUMBER_ROW}"
-        for column in range(1, last_column + 1):
-            sheet.column_dimensions[get_column_letter(column)].width = 11.5
+        _widths(sheet, dict.fromkeys(range(1, last_column + 1), 11.5))
+        for block in blocks:
+            if isinstance(block, ScalarTable):
+                first = layout.places[block.id].column
+                _widths(sheet, {first + i: width for i, width in enumerate((40, 12, 13, 8, 26))})
         sheet.row_dimensions[HEADER_ROW].height = 48
+        # The same row height everywhere, else the slots of the charts drift from the pages.
+        sheet.sheet_format.defaultRowHeight = 15
+        sheet.sheet_format.customHeight = True
     elif sheet.title != CONTENTS_SHEET:
         sheet.freeze_panes = Cell(sheet.title, HEADER_ROW, 1).coordinate
         wide = {1: 62, 2: 16, VALUE_COLUMN: 16, 4: 12, SOURCE_COLUMN: 26, 6: 32}
-        for column in range(1, last_column + 1):
-            sheet.column_dimensions[get_column_letter(column)].width = wide.get(column, 14)
-    areas = [f"A1:{Cell('', last_row, last_column).coordinate}"]
-    specs = [spec for spec in model.charts if spec.sheet == sheet.title]
-    if specs:
-        first = Cell("", HEADER_ROW, last_column + 2)
-        rows = sum(round(size(spec)[1] / _ROW_CM) + 2 for spec in specs)
-        columns = round(max(size(spec)[0] for spec in specs) / _COLUMN_CM) + 1
-        last = Cell("", HEADER_ROW + rows, last_column + 1 + columns)
-        areas.append(layout.area(first, last))
-    sheet.print_area = areas
+        _widths(sheet, {i: wide.get(i, 14) for i in range(1, last_column + 1)})
+    sheet.print_area = f"A1:{Cell('', last_row, last_column).coordinate}"
     sheet.page_setup.paperSize = sheet.PAPERSIZE_A4
-    sheet.page_setup.orientation = "landscape" if last_column > 9 else "portrait"
-    sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight = 1, 0
-    sheet.sheet_properties.pageSetUpPr.fitToPage = True
+    if tables:
+        page = page_of(sheet)
+        sheet.page_setup.orientation = "landscape" if page.landscape else "portrait"
+        sheet.page_setup.scale = page.scale
+    else:
+        sheet.page_setup.orientation = "landscape" if last_column > 9 else "portrait"
+        sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight = 1, 0
+        sheet.sheet_properties.pageSetUpPr.fitToPage = True
     sheet.oddFooter.center.text = "&A — лист &P из &N"
     sheet.page_margins.left, sheet.page_margins.right = 0.8, 0.4
+
+
+def _widths(sheet: Worksheet, widths: dict[int, float]) -> None:
+    for column, width in widths.items():
+        sheet.column_dimensions[get_column_letter(column)].width = width
+
+
+def _note(sheet: Worksheet, text: str) -> None:
+    """A note across the sheet's columns, as high as its text."""
+    last = max(10, min(sheet.max_column, 16))
+    cell = sheet.cell(NOTE_ROW, 3, text)
+    cell.style = styles.NOTE
+    cell.alignment = Alignment(wrap_text=True, vertical="top")
+    sheet.merge_cells(start_row=NOTE_ROW, start_column=3, end_row=NOTE_ROW, end_column=last)
+    sheet.row_dimensions[NOTE_ROW].height = 14 * ceil(len(text) / ((last - 2) * 13)) + 4

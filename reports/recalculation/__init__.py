@@ -1,0 +1,1 @@
+"""Referees: spreadsheet engines that compute a workbook's formulas anew."""

@@ -1,0 +1,86 @@
+"""What a referee is, and the formula cells it is asked for."""
+
+from __future__ import annotations
+
+import io
+import re
+import zipfile
+from collections.abc import Sequence
+from typing import Protocol
+
+from lxml import etree
+
+from reports.workbook.caches import sheet_parts
+
+CellValue = float | str | bool | None
+Book = dict[str, dict[str, CellValue]]  # sheet → coordinate → value
+
+_MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
+
+
+class Recalculator(Protocol):
+    """Computes workbooks; cached values are never read."""
+
+    name: str
+
+    def recalculate(self, books: Sequence[bytes]) -> list[Book]:
+        """Values of all formula cells of each workbook; errors come as their text, ``#DIV/0!``."""
+
+
+def formula_cells(book: bytes) -> dict[str, list[str]]:
+    """Sheet title → coordinates of its formula cells."""
+    found = {}
+    with zipfile.ZipFile(io.BytesIO(book)) as archive:
+        for title, part in sheet_parts(archive).items():
+            root = etree.fromstring(archive.read(part), etree.XMLParser(resolve_entities=False))
+            found[title] = [str(f.getparent().get("r")) for f in root.iter(f"{_MAIN}f")]
+    return found
+
+
+def cached_values(book: bytes) -> Book:
+    """Cached values of all formula cells."""
+    found: Book = {}
+    with zipfile.ZipFile(io.BytesIO(book)) as archive:
+        for title, part in sheet_parts(archive).items():
+            root = etree.fromstring(archive.read(part), etree.XMLParser(resolve_entities=False))
+            values = found.setdefault(title, {})
+            for formula in root.iter(f"{_MAIN}f"):
+                cell = formula.getparent()
+                text = cell.findtext(f"{_MAIN}v")
+                is_text = cell.get("t") in ("str", "e")
+                values[str(cell.get("r"))] = text if is_text or text is None else float(text)
+    return found
+
+
+def without_caches(book: bytes) -> bytes:
+    """The workbook with every cached value taken out, so that none can be read back."""
+    result = io.BytesIO()
+    with (
+        zipfile.ZipFile(io.BytesIO(book)) as source,
+        zipfile.ZipFile(result, "w", zipfile.ZIP_DEFLATED) as target,
+    ):
+        parts = set(sheet_parts(source).values())
+        for name in source.namelist():
+            data = source.read(name)
+            if name in parts:
+                root = etree.fromstring(data, etree.XMLParser(resolve_entities=False))
+                for formula in list(root.iter(f"{_MAIN}f")):
+                    cell = formula.getparent()
+                    for value in cell.findall(f"{_MAIN}v"):
+                        cell.remove(value)
+                    cell.attrib.pop("t", None)
+                data = etree.tostring(root, xml_declaration=True, encoding="UTF-8")
+            target.writestr(name, data)
+    return result.getvalue()
+
+
+def row_and_column(coordinate: str) -> tuple[int, int]:
+    """Row and column numbers of an address such as ``AB12``."""
+    match = re.fullmatch(r"([A-Z]{1,3})([1-9][0-9]{0,6})", coordinate)
+    if match is None:
+        msg = f"not a cell address: {coordinate}"
+        raise ValueError(msg)
+    column = 0
+    for letter in match.group(1):
+        column = column * 26 + ord(letter) - 64
+    return int(match.group(2)), column

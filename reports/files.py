@@ -14,8 +14,8 @@ from pathlib import Path
 from reports.errors import OutputError, Problem
 
 _REASONS = {
-    errno.EACCES: "нет прав на запись",
-    errno.EPERM: "нет прав на запись",
+    errno.EACCES: "нет прав",
+    errno.EPERM: "нет прав",
     errno.EROFS: "диск доступен только для чтения",
     errno.ENOSPC: "на диске нет места",
     errno.EDQUOT: "превышена дисковая квота",
@@ -23,7 +23,7 @@ _REASONS = {
     errno.EEXIST: "на этом месте уже есть файл",
     errno.EISDIR: "на этом месте уже есть папка",
     errno.ENAMETOOLONG: "слишком длинное имя",
-    errno.ENOENT: "нет такой папки",
+    errno.ENOENT: "нет такого файла или папки",
 }
 _ADVICE = "укажите другое место ключом -o"
 
@@ -106,6 +106,11 @@ def make_dir(path: Path) -> None:
         raise _failure(path, PermissionError(errno.EACCES, ""))
 
 
+def reason(error: OSError) -> str:
+    """Return in Russian why the system refused."""
+    return _REASONS.get(error.errno or 0, "ошибка ввода-вывода")
+
+
 def _temporary_file(path: Path) -> Path:
     try:
         # The name's suffix is kept: some writers choose the format by it.
@@ -153,8 +158,7 @@ def _umask() -> int:
 
 
 def _failure(path: Path, error: OSError) -> OutputError:
+    text = reason(error)
     if isinstance(error, PermissionError) and os.name == "nt":
-        reason = "файл занят (закройте его в Excel) или нет прав"
-    else:
-        reason = _REASONS.get(error.errno or 0, error.strerror or "ошибка записи")
-    return OutputError(Problem(str(path), f"не удается записать: {reason}", _ADVICE))
+        text = "файл занят (закройте его в Excel) или нет прав"
+    return OutputError(Problem(str(path), f"не удается записать: {text}", _ADVICE))

@@ -52,7 +52,7 @@ def _value(value: object, annotation: object, path: Path, empty: list[Path]) -> 
     metas = find_meta(annotation)
     types = _leaf_types(annotation)
     if value is None:
-        if types == {str}:
+        if types == {str} and metas and metas[0].choices is None:
             return ""
         empty.append(path)
         return None

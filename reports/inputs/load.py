@@ -18,6 +18,7 @@ from pydantic import ValidationError
 from reports.errors import InputError, Problem, one_line
 from reports.inputs import cells, checks, messages
 from reports.inputs.fields import SECTIONS, Path, key_text
+from reports.inputs.findings import Values
 from reports.inputs.meta import Strictly, hints, submodel
 from reports.inputs.model import (
     SOURCES,
@@ -32,8 +33,8 @@ from reports.inputs.model import (
     TableGasSection,
 )
 from reports.inputs.model_crankshaft import CrankshaftSection
+from reports.inputs.source import read_text, refuse_bomb, refused
 
-MAX_BYTES = 2_000_000
 MAX_PROBLEMS = 200
 
 Locate = Callable[[Path], str]
@@ -66,20 +67,21 @@ def load_toml(path: FilePath | str) -> Loaded:
         InputError: With everything that is wrong with the file.
     """
     file = FilePath(path)
-    return load_text(_read(file), source=file.name)
+    return load_text(read_text(file), source=file.name)
 
 
 def load_text(text: str, *, source: str) -> Loaded:
     """Check the text of an input file; `source` names it in messages."""
+    refuse_bomb(source, text)
     try:
         raw = tomllib.loads(text)
     except RecursionError:
-        raise _refused(source, "слишком глубокая вложенность", "уберите лишние скобки") from None
+        raise refused(source, "слишком глубокая вложенность", "уберите лишние скобки") from None
     except ValueError as error:  # TOMLDecodeError, or an integer of thousands of digits
         what, hint = messages.toml_error(error, text)
-        raise _refused(source, what, hint) from None
+        raise refused(source, what, hint) from None
     if not raw:
-        raise _refused(source, "файл пуст", "заготовку даст команда «kshm new»")
+        raise refused(source, "файл пуст", "заготовку даст команда «kshm new»")
     return load_mapping(raw, source=source)
 
 
@@ -105,7 +107,7 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
         problem = reader.problem(finding.path, finding.what, finding.hint)
         (reader.warnings if finding.warning else reader.problems).append(problem)
     if reader.problems:
-        raise InputError(_capped(source, reader.problems))
+        raise InputError(_capped(source, reader.problems, reader.uncounted))
     parts = cast(dict[str, Any], models)
     return Loaded(InputFile(**parts), tuple(reader.warnings))
 
@@ -118,8 +120,9 @@ class _Reader:
         self.locate = locate
         self.problems: list[Problem] = []
         self.warnings: list[Problem] = []
-        self.values = checks.Values()
+        self.values = Values()
         self.empty: set[Path] = set()
+        self.uncounted = 0
 
     def problem(self, path: Path, what: str, hint: str = "") -> Problem:
         key = one_line(key_text(path), 100)
@@ -140,6 +143,8 @@ class _Reader:
 
     def sections(self, data: dict[str, Any]) -> dict[str, Strictly]:
         unknown = [key for key in data if key not in SECTIONS]
+        self.uncounted += max(0, len(unknown) - MAX_PROBLEMS)
+        unknown = unknown[:MAX_PROBLEMS]
         guessed = set()
         for key in unknown:
             likely = messages.likely_word(key, SECTIONS)
@@ -162,7 +167,7 @@ class _Reader:
 
     def _model_of(self, name: str, raw: object) -> type[Strictly] | None:
         if not isinstance(raw, dict):
-            what = f"нужен раздел [{name}], а задано {messages.kind(raw)}"
+            what = f"нужен раздел [{name}], а задано: {messages.kind(raw)}"
             self.problems.append(self.problem((name,), what))
             return None
         if name != "gas":
@@ -174,7 +179,7 @@ class _Reader:
         if "source" in raw:
             what = f"недопустимое значение {messages.shown(source)}"
         hint = "допустимо: " + ", ".join(_GASES)
-        if not any((p[0], p[1]) == ("gas", "source") for p in self.values.broken):
+        if ("gas", "source") not in self.empty:
             self.problems.append(self.problem(("gas", "source"), what, hint))
         return None
 
@@ -194,6 +199,14 @@ class _Reader:
 
     def _report(self, name: str, model: type[Strictly], error: ValidationError) -> None:
         errors = error.errors(include_url=False, include_context=False)
+        for item in errors:
+            if item["type"] == "extra_forbidden":
+                self.values.unsure.add(name)
+            elif item["type"] != "missing" or len(item["loc"]) > 1:
+                self.values.broken.add((name, str(item["loc"][0])))
+        # Words are costly: past the limit problems are only counted.
+        self.uncounted += max(0, len(errors) - MAX_PROBLEMS)
+        errors = errors[:MAX_PROBLEMS]
         guesses: set[tuple[Path, str | None]] = set()
         for item in errors:
             if item["type"] == "extra_forbidden":
@@ -204,10 +217,6 @@ class _Reader:
                 self.problems.append(self.problem((name, *item["loc"]), what, hint))
         for item in errors:
             loc = item["loc"]
-            if item["type"] in ("extra_forbidden", "missing"):
-                self.values.unsure.add(name)
-            else:
-                self.values.broken.add((name, str(loc[0])))
             # A misspelt key is one mistake, not also a missing key.
             if item["type"] == "extra_forbidden" or (loc[:-1], loc[-1]) in guesses:
                 continue
@@ -245,49 +254,8 @@ def _valid_part(
     return values
 
 
-def _read(file: FilePath) -> str:
-    try:
-        if not file.is_file():
-            what = "это папка, а нужен файл" if file.is_dir() else "файл не найден"
-            raise _refused(str(file), what, "проверьте имя и путь")
-        with file.open("rb") as stream:
-            data = stream.read(MAX_BYTES + 1)
-    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-        reason = getattr(error, "strerror", None) or "недопустимое имя"
-        raise _refused(str(file), f"файл не читается ({reason})", "проверьте права") from None
-    if len(data) > MAX_BYTES:
-        raise _refused(file.name, "файл больше 2 МБ", "это не файл исходных данных")
-    return _decode(file.name, data)
-
-
-def _decode(source: str, data: bytes) -> str:
-    if not data.strip():
-        raise _refused(source, "файл пуст", "заготовку даст команда «kshm new»")
-    for magic, name in (
-        (b"PK\x03\x04", "книга Excel или архив"),
-        (b"\xd0\xcf\x11\xe0", "старый или зашифрованный документ Office"),
-        (b"%PDF", "документ PDF"),
-    ):
-        if data.startswith(magic):
-            raise _refused(source, f"это {name}, а нужен текст TOML", "выберите другой файл")
-    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise _refused(source, "кодировка UTF-16", "сохраните файл в UTF-8")
-    if b"\x00" in data:
-        raise _refused(source, "двоичный файл, а нужен текст TOML", "выберите другой файл")
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        row = data.count(b"\n", 0, error.start) + 1
-        what = f"строка {row}: не UTF-8 (возможно, Windows-1251)"
-        raise _refused(source, what, "сохраните файл в UTF-8") from None
-
-
-def _refused(source: str, what: str, hint: str) -> InputError:
-    return InputError(Problem(one_line(source, 120), what, hint))
-
-
-def _capped(source: str, problems: list[Problem]) -> list[Problem]:
-    if len(problems) <= MAX_PROBLEMS:
+def _capped(source: str, problems: list[Problem], uncounted: int) -> list[Problem]:
+    rest = max(0, len(problems) - MAX_PROBLEMS) + uncounted
+    if rest == 0:
         return problems
-    rest = len(problems) - MAX_PROBLEMS
     return [*problems[:MAX_PROBLEMS], Problem(one_line(source, 120), f"и еще ошибок: {rest}")]

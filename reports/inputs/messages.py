@@ -81,9 +81,9 @@ def explain(error: ErrorDetails, meta: Meta | None) -> tuple[str, str]:
         return f"недопустимое значение {shown(value)}", hint
     if found in ("float_type", "int_type", "int_from_float", "int_parsing_size"):
         number = "целое число" if found.startswith("int") else "число"
-        return f"нужно {number}, а задано {_given(value)}", _number_hint(value) or hint
+        return f"нужно {number}, а задано: {_given(value)}", _number_hint(value) or hint
     if found == "string_type":
-        return f"нужна строка в кавычках, а задано {_given(value)}", ""
+        return f"нужна строка в кавычках, а задано: {_given(value)}", ""
     if found == "string_too_long":
         return f"слишком длинная строка, {len(str(value))} знаков", f"допустимо до {MAX_TEXT}"
     if found == "control_character":
@@ -93,9 +93,9 @@ def explain(error: ErrorDetails, meta: Meta | None) -> tuple[str, str]:
 
 def _explain_shape(found: str, value: object) -> tuple[str, str]:
     if found in ("model_type", "model_attributes_type", "dict_type"):
-        return f"нужна таблица ключей, а задано {_given(value)}", ""
+        return f"нужна таблица ключей, а задано: {_given(value)}", ""
     if found in ("tuple_type", "list_type"):
-        return f"нужен список, а задано {_given(value)}", "запишите в квадратных скобках"
+        return f"нужен список, а задано: {_given(value)}", "запишите в квадратных скобках"
     if found in ("too_long", "too_short"):
         return "нужна пара чисел [угол, давление]", "например [360.0, 8.4]"
     return f"недопустимое значение {shown(value)}", ""
@@ -104,6 +104,8 @@ def _explain_shape(found: str, value: object) -> tuple[str, str]:
 def _given(value: object) -> str:
     if isinstance(value, dict | list | tuple | dt.date | dt.time):
         return kind(value)
+    if isinstance(value, int) and abs(value) >= 10**15:
+        return shown(value)
     return f"{kind(value)} {shown(value)}"
 
 
@@ -168,6 +170,7 @@ _TOML = (
     ("Cannot redefine namespace", "раздел задан дважды"),
     ("Unterminated string", "строка не закрыта кавычкой"),
     ("Unclosed array", "список не закрыт скобкой «]»"),
+    (r"Illegal character '\n'", "строка не закрыта кавычкой"),
     ("Illegal character", "недопустимый символ"),
     ("Invalid value", "после знака «=» нет допустимого значения"),
     ("Expected '=' after a key", "после ключа нет знака «=»"),
@@ -185,7 +188,7 @@ def toml_error(error: Exception, text: str) -> tuple[str, str]:
     place = re.search(r"\(at line (\d+), column (\d+)\)", message)
     if place is None:
         if "end of document" in message:
-            return f"файл обрывается: {what}", "допишите или восстановите его конец"
+            return "файл обрывается на середине записи", "восстановите его конец"
         return what, "проверьте запись по примеру из «kshm new»"
     row, column = int(place[1]), int(place[2])
     # tomllib counts lines by "\n" only; splitlines() would also cut at other breaks.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import typing
 import unicodedata
 from collections.abc import Mapping
@@ -9,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler
-from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+from pydantic_core import CoreSchema, PydanticCustomError, PydanticKnownError, core_schema
 
 from reports import units
 from reports.units import Unit
@@ -26,8 +27,6 @@ class Strictly(BaseModel):
         extra="forbid",
         allow_inf_nan=False,
         frozen=True,
-        validate_by_name=True,
-        validate_by_alias=True,
     )
 
 
@@ -63,10 +62,16 @@ class Meta:
             return core_schema.no_info_after_validator_function(
                 _printable, typing.cast(CoreSchema, schema)
             )
+        if schema["type"] == "literal" and isinstance(schema["expected"][0], int):
+            return core_schema.no_info_before_validator_function(
+                _whole_number, typing.cast(CoreSchema, schema)
+            )
         return typing.cast(CoreSchema, schema)
 
     def range_text(self) -> str:
         """Return the allowed values in words: ``допустимо от 10 до 1200 мм``."""
+        if self.choices is not None and len(self.choices) == 1:
+            return "пока поддерживается только " + next(iter(self.choices))
         if self.choices is not None:
             return "допустимо: " + ", ".join(self.choices)
         if self.minimum is None or self.maximum is None:
@@ -94,6 +99,13 @@ def _printable(value: str) -> str:
     return value
 
 
+def _whole_number(value: object) -> object:
+    # To a Literal[1] true and 1.0 are the same as 1; to a strict file they are not.
+    if type(value) is not int:
+        raise PydanticKnownError("literal_error", {"expected": "int"})
+    return value
+
+
 def number(title: str, symbol: str, unit: Unit, low: float, high: float) -> Meta:
     """Return the metadata of a number with inclusive hard limits."""
     return Meta(title, symbol, unit, low, high)
@@ -109,8 +121,9 @@ def choice(title: str, options: Mapping[str, str], *, structural: bool, symbol: 
     return Meta(title, symbol, choices=options, structural=structural)
 
 
+@functools.cache
 def hints(model: type[BaseModel]) -> dict[str, Any]:
-    """Return the annotations of a model by TOML key, in the order of the file."""
+    """Return the annotations of a model by TOML key, in the order of the file (do not change)."""
     annotations = typing.get_type_hints(model, include_extras=True)
     return {info.alias or name: annotations[name] for name, info in model.model_fields.items()}
 

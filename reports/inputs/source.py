@@ -1,0 +1,80 @@
+"""The bytes of an input file: bounded, decoded, and harmless to the parser."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from reports import files
+from reports.errors import InputError, Problem, one_line
+
+MAX_BYTES = 2_000_000
+MAX_LINES = 20_000
+MAX_DOTS = 40
+_DECIMAL = re.compile(r"(?<![\w.])\d+\.\d+(?:[eE][-+]?\d+)?(?![\w.])")
+
+
+def read_text(file: Path) -> str:
+    """Return the text of a file a person gave.
+
+    Raises:
+        InputError: It is missing, unreadable, too large or no UTF-8 text.
+    """
+    try:
+        if not file.is_file():
+            what = "это папка, а нужен файл" if file.is_dir() else "файл не найден"
+            raise refused(str(file), what, "проверьте имя и путь")
+        with file.open("rb") as stream:
+            data = stream.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        why = files.reason(error) if isinstance(error, OSError) else "недопустимое имя"
+        raise refused(str(file), f"файл не читается: {why}", "проверьте имя и права") from None
+    if len(data) > MAX_BYTES:
+        raise refused(file.name, "файл больше 2 МБ", "это не файл исходных данных")
+    return _decode(file.name, data)
+
+
+def _decode(source: str, data: bytes) -> str:
+    if not data.strip():
+        raise refused(source, "файл пуст", "заготовку даст команда «kshm new»")
+    for magic, name in (
+        (b"PK\x03\x04", "книга Excel или архив"),
+        (b"\xd0\xcf\x11\xe0", "старый или зашифрованный документ Office"),
+        (b"%PDF", "документ PDF"),
+    ):
+        if data.startswith(magic):
+            raise refused(source, f"это {name}, а нужен текст TOML", "выберите другой файл")
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        raise refused(source, "кодировка UTF-16", "сохраните файл в UTF-8")
+    if b"\x00" in data:
+        raise refused(source, "двоичный файл, а нужен текст TOML", "выберите другой файл")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        if error.reason == "unexpected end of data":
+            what = "файл обрывается посреди знака"
+            raise refused(source, what, "восстановите его конец") from None
+        row = data.count(b"\n", 0, error.start) + 1
+        what = f"строка {row}: не UTF-8 (возможно, Windows-1251)"
+        raise refused(source, what, "сохраните файл в UTF-8") from None
+
+
+def refuse_bomb(source: str, text: str) -> None:
+    """Refuse text that would exhaust the TOML parser."""
+    # tomllib's memory grows with the square of a dotted key's length: a file of
+    # 400 KB takes all there is.
+    lines = text.split("\n")
+    if len(lines) > MAX_LINES:
+        what = f"в файле больше {MAX_LINES} строк"
+        raise refused(source, what, "это не файл исходных данных")
+    for row, line in enumerate(lines, start=1):
+        if line.count(".") <= MAX_DOTS or line.lstrip().startswith("#"):
+            continue
+        if _DECIMAL.sub("", line).count(".") > MAX_DOTS:
+            what = f"строка {row}: слишком длинный составной ключ"
+            raise refused(source, what, "ключ состоит из одного слова")
+
+
+def refused(source: str, what: str, hint: str) -> InputError:
+    """Return the error of a file that cannot be read at all."""
+    return InputError(Problem(one_line(source, 120), what, hint))

@@ -1,0 +1,147 @@
+"""The flat list of fields and the names of their cells."""
+
+import re
+from collections import Counter
+
+import pytest
+
+from reports.inputs import fields
+from reports.inputs.load import load_mapping, load_toml
+from reports.inputs.template import list_samples
+from reports.resources import samples_dir
+
+TABLE = {"source": "table", "points": [[0, 0.1], [180, 0.2], [720, 0.1]]}
+
+
+def named(model):
+    return {field.name: field for field in fields.iter_fields(model)}
+
+
+def names_of(raw):
+    return named(load_mapping(raw, source="f").model)
+
+
+@pytest.mark.parametrize("sample", list_samples())
+def test_names_are_legal_and_unique(sample):
+    found = [f.name for f in fields.iter_fields(load_toml(samples_dir() / f"{sample}.toml").model)]
+    assert Counter(name.lower() for name in found).most_common(1)[0][1] == 1
+    for name in found:
+        assert re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{1,254}", name)
+        assert "_" in name
+        assert not re.fullmatch(r"[A-Za-z]{1,3}\d+|[rRcC]\d*([cC]\d*)?", name)
+
+
+def test_the_names_formulas_use(raw):
+    raw["geometry"] |= {"lambda": 47 / 148}
+    raw["crankshaft"]["force_offsets_deg"] = [0, 480, 240]
+    found = names_of(raw)
+    for name, value in {
+        "geometry_bore_mm": 88.0,
+        "geometry_lambda": 47 / 148,
+        "regime_speed_rpm": 4400,
+        "firing_offset_1_deg": 0,
+        "throw_angle_2_deg": 120,
+        "force_offset_3_deg": 240,
+        "web_3_mass_kg": 0.245,
+        "web_6_counterweight_angle_deg": 0,
+        "throw_1_l1_mm": 32.0,
+        "throw_1_left_web_mm": 0.0,
+        "main_length_2_mm": 32.0,
+        "crankshaft_nose_arm_mm": 130,
+        "calculation_step_deg": 10,
+    }.items():
+        assert found[name].value == value
+
+
+def test_names_of_points(raw):
+    raw["gas"] = TABLE
+    found = names_of(raw)
+    assert (found["gas_point_2_deg"].value, found["gas_point_2_mpa"].value) == (180, 0.2)
+    assert (found["gas_point_2_deg"].unit, found["gas_point_2_mpa"].unit) == ("°", "МПа")
+    assert found["gas_point_2_mpa"].title == "Точка 2: давление"
+    assert found["gas_point_2_mpa"].path == ("gas", "points", 1, 1)
+
+
+def test_a_field_tells_all(raw):
+    field = names_of(raw)["web_3_mass_kg"]
+    assert field == fields.Field(
+        path=("crankshaft", "webs", 2, "mass_kg"),
+        name="web_3_mass_kg",
+        section="Щеки и противовесы",
+        title="Щека 3: приведенная масса",
+        symbol="m_щ3",
+        unit="кг",
+        value=0.245,
+        minimum=0,
+        maximum=5000,
+        choices=None,
+        structural=False,
+        optional=False,
+    )
+
+
+def test_choices_and_structure(raw):
+    found = names_of(raw)
+    assert found["calculation_method"].choices == {
+        "textbook": "по учебнику: двучленное ускорение",
+        "exact": "точное ускорение",
+    }
+    assert {name for name, field in found.items() if field.structural} == {
+        "engine_cylinders",
+        "engine_layout",
+        "engine_strokes",
+        "calculation_step_deg",
+        "calculation_wear_rays",
+        "gas_source",
+    }
+    for field in found.values():
+        if field.choices is not None:
+            assert str(field.value) in field.choices
+
+
+def test_only_given_or_defaulted(raw):
+    found = names_of(raw)
+    assert "geometry_lambda" not in found
+    assert "masses_rod_kg" not in found
+    assert found["crankshaft_nose_mass_kg"].optional
+    assert not found["geometry_bore_mm"].optional
+
+
+def test_order_is_the_files(raw):
+    sections = [f.path[0] for f in names_of(raw).values()]
+    assert list(dict.fromkeys(sections)) == list(fields.SECTIONS)
+
+
+def test_structure_sees_shape_not_values(raw):
+    def structure(data):
+        return fields.structure(load_mapping(data, source="f").model)
+
+    base = structure(raw)
+    raw["geometry"]["bore_mm"] = 90.0
+    raw["calculation"]["method"] = "exact"
+    assert structure(raw) == base
+    raw["calculation"]["step_deg"] = 30
+    stepped = structure(raw)
+    assert stepped != base
+    del raw["geometry"]["rod_length_mm"]
+    raw["geometry"]["lambda"] = 0.3
+    assert structure(raw) != stepped
+
+
+@pytest.mark.parametrize("sample", list_samples())
+def test_mapping_there_and_back(sample):
+    model = load_toml(samples_dir() / f"{sample}.toml").model
+    mapping = fields.to_mapping(model)
+    for field in fields.iter_fields(model):
+        fields.set_value(mapping, field.path, field.value)
+    assert load_mapping(mapping, source="f").model == model
+
+
+def test_set_value_reaches_every_depth(raw):
+    raw["gas"] = TABLE
+    mapping = fields.to_mapping(load_mapping(raw, source="f").model)
+    fields.set_value(mapping, ("gas", "points", 1, 1), 0.3)
+    fields.set_value(mapping, ("crankshaft", "webs", 2, "mass_kg"), 0.5)
+    model = load_mapping(mapping, source="f").model
+    assert model.gas.points[1] == (180, 0.3)
+    assert model.crankshaft.webs[2].mass_kg == 0.5

@@ -1,0 +1,64 @@
+"""What is odd but allowed is a warning, and the input is still read."""
+
+import pytest
+
+from reports.inputs.load import load_mapping
+
+CASES = {
+    "long rod": (
+        ("geometry", "rod_length_mm", 400),
+        "geometry.rod_length_mm: λ = 0.1175 необычно; обычно от 0.15 до 0.45",
+    ),
+    "short rod": (
+        ("geometry", "rod_length_mm", 100),
+        "geometry.rod_length_mm: λ = 0.47 необычно; обычно от 0.15 до 0.45",
+    ),
+    "force offsets": (
+        ("crankshaft", "force_offsets_deg", [0, 480, 240]),
+        "crankshaft.force_offsets_deg: фазы сил заданы отдельно и могут противоречить валу; "
+        "ключ нужен только для воспроизведения таблицы П4.3",
+    ),
+    "low residual pressure": (
+        ("gas", "residual_pressure_mpa", 0.05),
+        "gas.residual_pressure_mpa: давление остаточных газов 0.05 МПа необычно; "
+        "обычно от 0.1 до 0.2475 МПа",
+    ),
+    "low intake pressure": (
+        ("gas", "intake_pressure_mpa", 0.025),
+        "gas.intake_pressure_mpa: давление впуска 0.025 МПа необычно; обычно от 0.03 до 0.5 МПа",
+    ),
+    "pz below pure compression": (
+        ("gas", "max_pressure_mpa", 8.5),
+        "gas.max_pressure_mpa: p_z = 8.5 МПа ниже давления чистого сжатия в ВМТ; "
+        "оно равно 8.604 МПа",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_warns(case, raw):
+    (section, key, value), message = CASES[case]
+    raw[section][key] = value
+    lines = [problem.line() for problem in load_mapping(raw, source="f.toml").warnings]
+    assert f"f.toml: {message}" in lines
+
+
+def test_rod_share_warns(raw):
+    raw["masses"] = {"piston_group_kg": 1.5, "rod_kg": 1.7, "rod_small_end_share": 0.4}
+    (warning,) = load_mapping(raw, source="f.toml").warnings
+    assert warning.where == "f.toml: masses.rod_small_end_share"
+
+
+def test_the_textbook_diesel_is_not_odd(raw):
+    assert load_mapping(raw, source="f.toml").warnings == ()
+
+
+def test_markup_and_slashes_in_a_name_are_text(raw):
+    raw["engine"]["name"] = "=A1 ../<b>&amp;[red]«Д-240/5»"
+    assert load_mapping(raw, source="f").model.engine.name == raw["engine"]["name"]
+
+
+@pytest.mark.parametrize("lam", [47 / 148, 47 / 148 * 1.0009, 47 / 148 * 0.9991])
+def test_three_that_agree(raw, lam):
+    raw["geometry"] |= {"lambda": lam, "stroke_mm": 94}
+    assert load_mapping(raw, source="f").warnings == ()

@@ -37,7 +37,9 @@ def volume_ratio(phi: Array, r: Array, lam: Array, eps: Array) -> Array:
     return 1 + (eps - 1) * displacement_exact(phi, r, lam) / (2 * r)
 
 
-def polytropic_pressure(phi: Array, r: Array, lam: Array, eps: Array, gas: PolytropicArrays) -> Array:
+def polytropic_pressure(
+    phi: Array, r: Array, lam: Array, eps: Array, gas: PolytropicArrays
+) -> Array:
     """Absolute gas pressure [Pa] at the angles ``phi`` [rad] taken modulo 4π.
 
     φ = 0 is TDC before intake.  Intake at p_a, compression from BDC by the

@@ -71,8 +71,9 @@ def centrifugal_reactions(
 
     Args:
         throws: shape (engines, throws).
-        r: crank radius [m], shape (engines, 1); ``omega`` [rad/s] and
-            ``rod_big_end`` m_2 [kg] likewise.
+        r: crank radius [m], shape (engines, 1).
+        omega: angular velocity [rad/s], same shape.
+        rod_big_end: m_2 [kg], same shape.
 
     Returns:
         Left and right reactions, shape (engines, throws, 2), the last axis being
@@ -173,4 +174,5 @@ def side_forces_left_of_pin(throws: ThrowArrays, r: Array, omega: Array) -> Arra
     weight = throws.counterweight_mass[..., 0] * np.sin(throws.counterweight_angle[..., 0])
     nose = throws.end_mass[:, :1] * np.sin(throws.end_angle[:, :1])
     first = np.arange(web.shape[-1]) == 0
-    return unit * (web + weight - first * nose)
+    side: Array = unit * (web + weight - first * nose)
+    return side

@@ -33,7 +33,8 @@ def displacement_orders(phi: Array, r: Array, lam: Array) -> tuple[Array, Array]
 def velocity_exact(phi: Array, r: Array, lam: Array, omega: Array) -> Array:
     """Piston velocity [m/s], exact, Gots 1.2 (instant centre of the rod)."""
     beta = rod_angle(phi, lam)
-    return r * omega * (np.sin(phi) + np.tan(beta) * np.cos(phi))
+    velocity: Array = r * omega * (np.sin(phi) + np.tan(beta) * np.cos(phi))
+    return velocity
 
 
 def velocity_orders(phi: Array, r: Array, lam: Array, omega: Array) -> tuple[Array, Array]:
@@ -45,7 +46,9 @@ def acceleration_exact(phi: Array, r: Array, lam: Array, omega: Array) -> Array:
     """Piston acceleration [m/s²], exact: the second derivative of Gots (1)."""
     beta = rod_angle(phi, lam)
     cos_b = np.cos(beta)
-    return r * omega**2 * (np.cos(phi + beta) / cos_b + lam * np.cos(phi) ** 2 / cos_b**3)
+    shape = np.cos(phi + beta) / cos_b + lam * np.cos(phi) ** 2 / cos_b**3
+    acceleration: Array = r * omega**2 * shape
+    return acceleration
 
 
 def acceleration_orders(phi: Array, r: Array, lam: Array, omega: Array) -> tuple[Array, Array]:

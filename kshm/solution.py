@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -80,10 +81,13 @@ class Solution:
         import pandas as pd
 
         frames = {}
-        for name, columns in {**self.columns, **reference_tables()}.items():
+        tables: dict[str, Mapping[str, Array | list[str]]] = {**self.columns, **reference_tables()}
+        for name, columns in tables.items():
             frame = pd.DataFrame(columns)
             frame.attrs["units"] = {
-                key: quantity(key).unit_label for key in columns if not key.startswith(("lambda", "sign", "phi_m"))
+                key: quantity(key).unit_label
+                for key in columns
+                if not key.startswith(("lambda", "sign", "phi_m"))
             }
             frames[name] = frame
         return frames
@@ -169,7 +173,8 @@ class Solution:
         geometry = self.engine.geometry
         stroke = 2 * geometry.crank_radius
         share = self.raw.displacement[self._index, cylinder] / stroke
-        return 1 + (geometry.compression_ratio - 1) * share
+        ratio: Array = 1 + (geometry.compression_ratio - 1) * share
+        return ratio
 
     def _cylinder_values(self, cylinder: int) -> Columns:
         raw, at = self.raw, (self._index, cylinder)

@@ -69,7 +69,9 @@ def _pressure(batch: Batch, phi: Array) -> Array:
     if batch.gas is not None:
         return gas.polytropic_pressure(phi, batch.r, batch.lam, batch.eps, batch.gas)
     rows = []
-    for engine, angles in zip(batch.engines, np.broadcast_to(phi, (len(batch.engines), *phi.shape[1:])), strict=True):
+    for engine, angles in zip(
+        batch.engines, np.broadcast_to(phi, (len(batch.engines), *phi.shape[1:])), strict=True
+    ):
         if isinstance(engine.gas, TabulatedGas):
             points = np.array(engine.gas.angles), np.array(engine.gas.pressures)
             rows.append(gas.tabulated_pressure(angles, *points))
@@ -106,7 +108,9 @@ def _chain(batch: Batch) -> BatchSolution:
     side = journals.side_forces_left_of_pin(batch.throws, r, omega)
     place = journals.positions(batch.throws)
     left_share = 1 - journals.right_share(place.rod, place.length)
-    tangential = left_share[..., None] * rod.T * batch.area + (constants[0][..., 0] + side)[..., None]
+    tangential = (
+        left_share[..., None] * rod.T * batch.area + (constants[0][..., 0] + side)[..., None]
+    )
 
     journal = total / area
     pin_rays = wear.ray_loads(pin_up, -rod.T[:, 0], batch.rays)
@@ -128,7 +132,9 @@ def _chain(batch: Batch) -> BatchSolution:
         torque_sum=M.sum(axis=1),
         running_main=running_main,
         running_pin=torque.running_on_pin(M),
-        running_pin_statics=torque.running_on_pin_statics(running_main[:, :-1], tangential, batch.r),
+        running_pin_statics=torque.running_on_pin_statics(
+            running_main[:, :-1], tangential, batch.r
+        ),
         pin_up=pin_up,
         pin_load=np.hypot(pin_up, rod.T[:, 0]),
         throw_load=np.hypot(throw_up, rod.T[:, 0]),

@@ -45,4 +45,5 @@ def running_on_pin_statics(before: Array, tangential: Array, r: Array) -> Array:
 
 def cycle_mean(values: Array) -> Array:
     """Mean over the cycle; the last angle repeats the first and is left out."""
-    return values[..., :-1].mean(axis=-1)
+    mean: Array = values[..., :-1].mean(axis=-1)
+    return mean

@@ -14,7 +14,7 @@ EDGE = 1e-9
 
 def ray_angles(rays: int) -> Array:
     """Angles of the rays against rotation from ray I [rad], shape (rays,)."""
-    return 2 * np.pi / rays * np.arange(rays)
+    return 2 * np.pi / rays * np.arange(rays, dtype=np.float64)
 
 
 def ray_loads(up: Array, against: Array, rays: int) -> Array:
@@ -37,4 +37,5 @@ def ray_loads(up: Array, against: Array, rays: int) -> Array:
 
 def ray_sums(loads: Array) -> Array:
     """Sum over one cycle for each ray; the repeated last angle is left out. Shape (..., rays)."""
-    return loads[..., :-1, :].sum(axis=-2)
+    sums: Array = loads[..., :-1, :].sum(axis=-2)
+    return sums

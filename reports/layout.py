@@ -166,7 +166,9 @@ class Layout:
     def _grid(self, grid: Grid, *, below_table: bool) -> None:
         row = self.next_row.get(grid.sheet, HEADER_ROW)
         first = 2 if below_table else 3  # aligned with the columns of the table above
-        self.places[grid.id] = Place(grid.sheet, row, 1, len(grid.rows) + 1, len(grid.labels) + first - 1)
+        self.places[grid.id] = Place(
+            grid.sheet, row, 1, len(grid.rows) + 1, len(grid.labels) + first - 1
+        )
         for r, grid_row in enumerate(grid.rows):
             for c, scalar in enumerate(grid_row.cells):
                 if scalar is not None:

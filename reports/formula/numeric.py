@@ -42,8 +42,8 @@ def evaluate(text: str, resolve: Resolver) -> Value:
 
 def _value(node: ast.expr, resolve: Resolver) -> Value:
     match node:
-        case ast.Constant(value=value):
-            return float(value) if isinstance(value, (int, float)) else value
+        case ast.Constant(value=literal):
+            return float(literal) if isinstance(literal, (int, float)) else literal
         case ast.Name(id="pi"):
             return np.pi
         case ast.Name(id=name):
@@ -81,7 +81,7 @@ def _choose(test: Value, body: Value, orelse: Value) -> Value:
         if np.ndim(test) == 0:
             return body if test else orelse
         return np.where(test, np.asarray(body, dtype=object), np.asarray(orelse, dtype=object))
-    chosen = np.where(test, body, orelse)
+    chosen: NDArray[np.float64] = np.asarray(np.where(test, body, orelse))
     return chosen if chosen.ndim else float(chosen)
 
 

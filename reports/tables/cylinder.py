@@ -66,9 +66,7 @@ def pressure(model: InputFile, phi: str, ratio: str) -> str:
     eps, rho = "geometry_compression_ratio", "gas_preexpansion_ratio"
     p_z, p_r = "gas_max_pressure_mpa", "gas_residual_pressure_mpa"
     compression = f"gas_intake_pressure_mpa*({eps}/{ratio})**gas_compression_exponent"
-    rise = (
-        f"min({p_z}, p_start + ({p_z} - p_start)*({phi} - phi_c_deg)/gas_injection_advance_deg)"
-    )
+    rise = f"min({p_z}, p_start + ({p_z} - p_start)*({phi} - phi_c_deg)/gas_injection_advance_deg)"
     expansion = f"{p_z}*min(1, ({rho}/{ratio})**gas_expansion_exponent)"
     release = f"p_open + ({p_r} - p_open)*({phi} - phi_open_deg)/(phi_close_deg - phi_open_deg)"
     steps = [
@@ -88,8 +86,7 @@ def pressure(model: InputFile, phi: str, ratio: str) -> str:
 def gas_table(model: InputFile, rows: tuple[float, ...]) -> TableSpec:
     """The indicator diagram of cylinder 1 over φ and over the volume."""
     displacement = (
-        "to_mm(r_crank*((1 - cos(rad(phi_deg)))"
-        " + (1 - sqrt(1 - lam**2*sin(rad(phi_deg))**2))/lam))"
+        "to_mm(r_crank*((1 - cos(rad(phi_deg))) + (1 - sqrt(1 - lam**2*sin(rad(phi_deg))**2))/lam))"
     )
     work = "(p_MPa + following(p_MPa))/2*(following(volume_dm3) - volume_dm3)*1000"
     return TableSpec(
@@ -149,7 +146,10 @@ def shifted_table(
         (
             Column("phi_deg", None),
             Column(
-                "phase_deg", f"mod(phi_deg - {offset}, 720)", "угол в цикле", of=f"phase{number}_deg"
+                "phase_deg",
+                f"mod(phi_deg - {offset}, 720)",
+                "угол в цикле",
+                of=f"phase{number}_deg",
             ),
             Column("volume_ratio", volume_ratio("phase_deg"), "Гоц (1)"),
             Column("p_MPa", pressure(model, "phase_deg", "volume_ratio"), "Гоц, 2.4"),

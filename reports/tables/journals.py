@@ -103,9 +103,7 @@ def _throw(i: int, throws: int) -> dict[str, Scalar]:
     cells = {
         "length": Scalar(f"throw{i}_length", f"{rod} + {rest}", "Гоц, рис. 35"),
         "share": Scalar(f"throw{i}_share", f"({rod})/throw{i}_length", "Гоц (50)"),
-        **{
-            key: Scalar(f"throw{i}_{key}", text, "Гоц, рис. 35") for key, text in forces.items()
-        },
+        **{key: Scalar(f"throw{i}_{key}", text, "Гоц, рис. 35") for key, text in forces.items()},
         **_reactions(i, throws, rod, rest),
     }
     side = f"throw{i}_C14 + throw{i}_C8" + (f" - throw{i}_C10" if i == 1 else "")
@@ -175,8 +173,12 @@ def journal_table(number: int, throws: int, rows: tuple[float, ...], *, forced: 
         Column("Ry_MPa", " + ".join(y_terms), "Гоц (57), (58)"),
         Column("R_MPa", "sqrt(Rx_MPa**2 + Ry_MPa**2)", "Гоц (59)"),
         Column("psiR_deg", angle("Rx_MPa", "Ry_MPa"), "Гоц (60)"),
-        Column("block_x_MPa", f"-(Rx_MPa*cos({turn}) - Ry_MPa*sin({turn}))", "нагрузка на подшипник"),
-        Column("block_y_MPa", f"-(Rx_MPa*sin({turn}) + Ry_MPa*cos({turn}))", "нагрузка на подшипник"),
+        Column(
+            "block_x_MPa", f"-(Rx_MPa*cos({turn}) - Ry_MPa*sin({turn}))", "нагрузка на подшипник"
+        ),
+        Column(
+            "block_y_MPa", f"-(Rx_MPa*sin({turn}) + Ry_MPa*cos({turn}))", "нагрузка на подшипник"
+        ),
         *extreme_columns("R_MPa", f"Rmain{number}"),
     ]
     return TableSpec(
@@ -199,7 +201,9 @@ def box(table: str, name: str, sheet: str) -> Grid:
         Scalar(f"{name}_box1", f"-{name}_max", "оси диаграммы", of="box"),
         Scalar(f"{name}_box2", f"{name}_max", "оси диаграммы", of="box"),
     )
-    return Grid(f"{table}_box", "Оси полярной диаграммы", sheet, ("−", "+"), (GridRow("box", cells),))
+    return Grid(
+        f"{table}_box", "Оси полярной диаграммы", sheet, ("−", "+"), (GridRow("box", cells),)
+    )
 
 
 def journal_blocks(throws: int, rows: tuple[float, ...], *, forced: bool) -> tuple[Block, ...]:

@@ -127,9 +127,7 @@ def kinematic_tables(rows: tuple[float, ...]) -> tuple[Block, ...]:
                 f"-(omega**2*lam*(1 - lam**2)*sin({phi})/{root}**3)",
                 "Гоц, 1.3",
             ),
-            Column(
-                "eps_rod_approx_1_s2", f"-(omega**2*lam*sin({phi}))", "Гоц, 1.3, приближённо"
-            ),
+            Column("eps_rod_approx_1_s2", f"-(omega**2*lam*sin({phi}))", "Гоц, 1.3, приближённо"),
         ),
         rows,
         note=(

@@ -12,9 +12,7 @@ INDEX = Column("phi_deg", None)
 def torque_tables(cylinders: int, rows: tuple[float, ...]) -> tuple[Block, ...]:
     """Tables П4.2, П4.4 and П4.5 with the torques of the pin sections by statics."""
     numbers = range(1, cylinders + 1)
-    each = [
-        Column(f"M{i}_Nm", f"{cylinder_table_id(i)}.M_Nm", "Гоц, 2.5") for i in numbers
-    ]
+    each = [Column(f"M{i}_Nm", f"{cylinder_table_id(i)}.M_Nm", "Гоц, 2.5") for i in numbers]
     total = " + ".join(f"M{i}_Nm" for i in numbers)
     torque = TableSpec(
         "P4_2",

@@ -34,10 +34,16 @@ class _Evaluation:
             for column in table.columns:
                 self.nodes[f"{table.id}.{column.key}"] = column
         for field in model.inputs:
-            labels = field.choices if isinstance(field.value, str) else None
-            self.done[field.name] = labels[field.value] if labels else field.value
+            value = field.value
+            if field.choices is not None and isinstance(value, str):
+                value = field.choices[value]
+            self.done[field.name] = value
         for name in ("deg", "mpa"):
-            points = [f.value for f in model.inputs if f.name.startswith("gas_point_") and f.name.endswith(name)]
+            points = [
+                f.value
+                for f in model.inputs
+                if f.name.startswith("gas_point_") and f.name.endswith(name)
+            ]
             self.done[f"gas_points_{name}"] = np.array(points, dtype=float)
 
     def value(self, key: str) -> Any:  # noqa: ANN401
@@ -48,7 +54,7 @@ class _Evaluation:
             raise ValueError(msg)
         self.running.add(key)
         node = self.nodes[key]
-        table = key.split(".")[0] if isinstance(node, Column) else ""
+        table = key.split(".", maxsplit=1)[0] if isinstance(node, Column) else ""
         if node.expr is None:
             result: Any = np.array(self.model.tables[table].rows)
         else:

@@ -15,7 +15,7 @@ def wear_blocks(journals: int, rays: int, rows: tuple[float, ...]) -> tuple[Bloc
         "table_14", "pin", "14", "шатунную шейку", "Износ ш.ш", rows, rays,
         size="crankpin.Rpin_MPa", up="-crankpin.Krod_MPa", against="-crankpin.T_MPa",
     )  # fmt: skip
-    blocks = list(pin)
+    blocks: list[Block] = [*pin]
     for k in range(1, journals + 1):
         table = f"P4_3_{k}"
         blocks += _surface(
@@ -58,7 +58,7 @@ def _sums(table_id: str, name: str, journal: str, sheet: str, rays: int) -> Grid
     low, high = f"min({', '.join(sums)})", f"max({', '.join(sums)})"
 
     def row(of: str, key: str, text: str) -> GridRow:
-        cells = []
+        cells: list[Scalar] = []
         for i in (*numbers, 1):  # the last instance closes the curve
             closing = len(cells) == rays
             expr = text.format(i=i, ray=ray_key(i), sum=f"{name}_sum{i}", deg=f"{name}_deg{i}")

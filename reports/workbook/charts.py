@@ -61,7 +61,9 @@ def make_chart(spec: ChartSpec, layout: Layout, values: Values) -> ScatterChart:
 def _title(text: str, size: int) -> Title:
     """A title of moderate size (hundredths of a point) that leaves the plot its room."""
     look = CharacterProperties(sz=size, b=False)
-    paragraph = Paragraph(pPr=ParagraphProperties(defRPr=look), r=[RegularTextRun(rPr=look, t=text)])
+    paragraph = Paragraph(
+        pPr=ParagraphProperties(defRPr=look), r=[RegularTextRun(rPr=look, t=text)]
+    )
     return Title(tx=Text(rich=RichText(p=[paragraph])), overlay=False)
 
 
@@ -72,7 +74,9 @@ def _axes(chart: ScatterChart, spec: ChartSpec) -> None:
         axis.majorTickMark = "out"
         axis.number_format = "General"
         axis.numFmt.sourceLinked = False
-        axis.majorGridlines.spPr = GraphicalProperties(ln=LineProperties(solidFill="D9D9D9", w=6350))
+        axis.majorGridlines.spPr = GraphicalProperties(
+            ln=LineProperties(solidFill="D9D9D9", w=6350)
+        )
         if title:
             axis.title = _title(title, 1000)
     if spec.x_title.startswith("φ"):

@@ -63,7 +63,9 @@ def _labels(sheet: Worksheet, item: Field, row: int) -> None:
         SYMBOL_COLUMN: item.symbol.replace("_", ""),
         UNIT_COLUMN: item.unit,
         SOURCE_COLUMN: range_text(item),
-        KEY_COLUMN: ".".join(str(part + 1 if isinstance(part, int) else part) for part in item.path),
+        KEY_COLUMN: ".".join(
+            str(part + 1 if isinstance(part, int) else part) for part in item.path
+        ),
     }
     for column, text in texts.items():
         sheet.cell(row, column, text or None).style = (

@@ -37,7 +37,9 @@ class Writer:
     values: Values
     caches: CacheValues = field(default_factory=dict)
 
-    def formula(self, sheet: Worksheet, row: int, column: int, text: str, value: float | str) -> None:
+    def formula(
+        self, sheet: Worksheet, row: int, column: int, text: str, value: float | str
+    ) -> None:
         """A formula cell with its value for the cache."""
         cell = sheet.cell(row, column, text)
         self.caches.setdefault(sheet.title, {})[cell.coordinate] = value

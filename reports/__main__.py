@@ -1,0 +1,5 @@
+"""``python -m reports`` is ``kshm``."""
+
+from reports.cli import main
+
+main()

@@ -1,0 +1,211 @@
+"""Expressions as TeX for the report: in symbols and with numbers substituted."""
+
+from __future__ import annotations
+
+import ast
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from reports.formula.parse import AGGREGATES, SCALE_FUNCTIONS, SCALES, parse
+
+Symbols = Callable[[str], str]
+Numbers = Callable[[str], float | str]
+
+_NAMES = {
+    "sin": r"\sin", "cos": r"\cos", "tan": r"\mathrm{tg}", "asin": r"\arcsin",
+    "acos": r"\arccos", "exp": r"\exp", "ln": r"\ln",
+}  # fmt: skip
+_COMPARISONS = {
+    ast.Lt: "<", ast.LtE: r"\leq", ast.Gt: ">", ast.GtE: r"\geq", ast.Eq: "=", ast.NotEq: r"\neq",
+}  # fmt: skip
+_SUM, _PRODUCT, _POWER, _ATOM = 1, 2, 3, 4
+
+
+class NotPrintable(ValueError):  # noqa: N818
+    """The expression has no plain printed form (a choice, an interpolation)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """One branch of a formula with choices: the formula and when it holds (None: else)."""
+
+    formula: str
+    condition: str | None
+
+
+def to_tex(text: str, symbols: Symbols) -> str:
+    """The expression in symbols.
+
+    Args:
+        text: the expression.
+        symbols: TeX of a name; columns of other tables come as ``table.column``.
+
+    Raises:
+        NotPrintable: the expression is a choice or an interpolation.
+    """
+    return _Printer(symbols, None).text(parse(text))
+
+
+def to_tex_numbers(text: str, symbols: Symbols, numbers: Numbers) -> str:
+    """The expression with the numbers of one row or of the scalars put in."""
+    return _Printer(symbols, numbers).text(parse(text))
+
+
+def pieces(text: str, symbols: Symbols) -> list[Piece]:
+    """Branches of a nested choice in order; one piece where there is no choice."""
+    printer = _Printer(symbols, None)
+    found: list[Piece] = []
+    node = parse(text)
+    while isinstance(node, ast.IfExp):
+        found.append(Piece(printer.text(node.body), printer.text(node.test)))
+        node = node.orelse
+    found.append(Piece(printer.text(node), None))
+    return found
+
+
+def number_tex(value: float, digits: int = 4) -> str:
+    """A number for TeX: significant digits, decimal comma, powers of ten for extremes."""
+    if value == 0:
+        return "0"
+    exponent = math.floor(math.log10(abs(value)))
+    if -3 <= exponent < 6:
+        decimals = max(0, digits - 1 - exponent)
+        text = f"{value:.{decimals}f}"
+        text = text.rstrip("0").rstrip(".") if "." in text else text
+        return text.replace(".", "{,}")
+    mantissa = f"{value / 10**exponent:.{digits - 1}f}".rstrip("0").rstrip(".")
+    return mantissa.replace(".", "{,}") + rf" \cdot 10^{{{exponent}}}"
+
+
+def input_symbol_tex(symbol: str) -> str:
+    """TeX of an input field's symbol such as ``p_a``, ``η_м`` or ``l_1``."""
+    base, _, index = symbol.partition("_")
+    greek = {"λ": r"\lambda", "ε": r"\varepsilon", "ρ": r"\rho", "η": r"\eta", "φ": r"\varphi",
+             "θ": r"\theta", "γ": r"\gamma", "α": r"\alpha", "ω": r"\omega", "τ": r"\tau",
+             "Δ": r"\Delta", "δ": r"\delta", "ψ": r"\psi"}  # fmt: skip
+    text = "".join(greek.get(char, char) for char in base)
+    if re.search("[а-яА-Я]", text):
+        text = rf"\mathrm{{{text}}}"
+    if not index:
+        return text
+    body = rf"\mathrm{{{index}}}" if re.search("[а-яА-Я.]", index) else index
+    return f"{text}_{{{body}}}"
+
+
+class _Printer:
+    def __init__(self, symbols: Symbols, numbers: Numbers | None) -> None:
+        self.symbols = symbols
+        self.numbers = numbers
+
+    def text(self, node: ast.expr) -> str:
+        return self._emit(node)[0]
+
+    def _wrap(self, node: ast.expr, least: int) -> str:
+        text, level = self._emit(node)
+        if level >= least and not text.startswith("-"):
+            return text
+        return rf"\left({text}\right)"
+
+    def _emit(self, node: ast.expr) -> tuple[str, int]:
+        match node:
+            case ast.Constant(value=str() as word):
+                return rf"\mathrm{{{word}}}", _ATOM
+            case ast.Constant(value=value):
+                return number_tex(float(value), 9), _ATOM  # type: ignore[arg-type]
+            case ast.Name(id="pi"):
+                return r"\pi", _ATOM
+            case ast.Name(id=name):
+                return self._name(name)
+            case ast.Attribute(value=ast.Name(id=table), attr=column):
+                return self._name(f"{table}.{column}")
+            case ast.UnaryOp(op=ast.USub(), operand=operand):
+                return "-" + self._wrap(operand, _PRODUCT), _SUM
+            case ast.BinOp():
+                return self._binary(node)
+            case ast.Compare(left=left, ops=[op], comparators=[right]):
+                return f"{self.text(left)} {_COMPARISONS[type(op)]} {self.text(right)}", _SUM
+            case ast.Call(func=ast.Name(id=name), args=args):
+                return self._call(name, args)
+        msg = f"no printed form: {ast.unparse(node)}"
+        raise NotPrintable(msg)
+
+    def _name(self, name: str) -> tuple[str, int]:
+        if self.numbers is None:
+            return self.symbols(name), _ATOM
+        value = self.numbers(name)
+        if isinstance(value, str):
+            return rf"\mathrm{{{value}}}", _ATOM
+        text = number_tex(value)
+        return text, _POWER if r"\cdot" in text or text.startswith("-") else _ATOM
+
+    def _binary(self, node: ast.BinOp) -> tuple[str, int]:
+        left, right = node.left, node.right
+        match node.op:
+            case ast.Add():
+                return f"{self.text(left)} + {self._wrap(right, _SUM)}", _SUM
+            case ast.Sub():
+                return f"{self.text(left)} - {self._wrap(right, _PRODUCT)}", _SUM
+            case ast.Mult():
+                first, second = self._wrap(left, _PRODUCT), self._wrap(right, _PRODUCT)
+                dot = self.numbers is not None or second[:1].isdigit()
+                sign = r"\cdot" if dot else r"\,"
+                return f"{first} {sign} {second}", _PRODUCT
+            case ast.Div():
+                return rf"\dfrac{{{self.text(left)}}}{{{self.text(right)}}}", _PRODUCT
+        return self._power(left, right)
+
+    def _power(self, base: ast.expr, exponent: ast.expr) -> tuple[str, int]:
+        power = self.text(exponent)
+        match base:
+            case ast.Call(func=ast.Name(id=name), args=[argument]) if name in ("sin", "cos"):
+                return rf"{_NAMES[name]}^{{{power}}} {self._argument(argument)}", _PRODUCT
+        return f"{self._wrap(base, _ATOM)}^{{{power}}}", _POWER
+
+    def _argument(self, node: ast.expr) -> str:
+        """Argument of a function: without brackets where it is one symbol or number."""
+        text, level = self._emit(node)
+        simple = level == _ATOM or (
+            self.numbers is None and level == _PRODUCT and "frac" not in text
+        )
+        return text if simple and "+" not in text else rf"\left({text}\right)"
+
+    def _call(self, name: str, args: list[ast.expr]) -> tuple[str, int]:
+        if name == "rad":
+            text, level = self._emit(args[0])
+            if self.numbers is None:
+                return text, level
+            return (rf"{text}^{{\circ}}", _ATOM) if level == _ATOM else (text, level)
+        if name == "deg":
+            return self._emit(args[0])
+        if name in SCALE_FUNCTIONS:
+            return self._scale(name, args[0])
+        if name == "sqrt":
+            return rf"\sqrt{{{self.text(args[0])}}}", _ATOM
+        if name == "abs":
+            return rf"\left|{self.text(args[0])}\right|", _ATOM
+        if name in ("min", "max"):
+            parts = r";\, ".join(self.text(arg) for arg in args)
+            return rf"\{name}\left({parts}\right)", _ATOM
+        if name in _NAMES:
+            return f"{_NAMES[name]} {self._argument(args[0])}", _PRODUCT
+        if name in AGGREGATES:
+            return self._aggregate(name, args[0]), _ATOM
+        msg = f"no printed form: {name}"
+        raise NotPrintable(msg)
+
+    def _scale(self, name: str, arg: ast.expr) -> tuple[str, int]:
+        if self.numbers is None:
+            return self._emit(arg)
+        way, unit = name.split("_", 1)
+        exponent = round(math.log10(SCALES[unit])) * (1 if way == "of" else -1)
+        return rf"{self._wrap(arg, _PRODUCT)} \cdot 10^{{{exponent}}}", _PRODUCT
+
+    def _aggregate(self, name: str, arg: ast.expr) -> str:
+        symbol = _Printer(self.symbols, None).text(arg)
+        if name == "col_mean":
+            return rf"\dfrac{{1}}{{m}}\sum_{{j=1}}^{{m}} {symbol}"
+        if name == "col_sum":
+            return rf"\sum_{{j=1}}^{{m}} {symbol}"
+        return {"col_max": r"\max ", "col_min": r"\min "}.get(name, "") + symbol

@@ -1,0 +1,129 @@
+"""Reading the input cells of a workbook that ``build`` made and a person edited.
+
+The workbook is found out by its defined names: every input field has one.  Only
+values are read; formulas in input cells are refused, since their cached values
+are a claim that nobody has checked.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+from pathlib import Path
+from typing import Any
+
+from reports.errors import InputError, Problem
+from reports.inputs.load import Loaded, load_mapping
+from reports.layout import INPUT_SHEET, quoted
+from reports.workbook.intake import check_package
+
+_ADDRESS = re.compile(r"\$?([A-Z]{1,3})\$?([0-9]+)")
+_LISTS = {
+    "firing_offset": ("crankshaft", "firing_offsets_deg"),
+    "throw_angle": ("crankshaft", "throw_angles_deg"),
+    "force_offset": ("crankshaft", "force_offsets_deg"),
+    "main_length": ("crankshaft", "main_lengths_mm"),
+    "web": ("crankshaft", "webs"),
+    "throw": ("crankshaft", "arms"),
+    "gas_point": ("gas", "points"),
+}
+_SECTIONS = ("report", "engine", "calculation", "geometry", "regime", "gas", "masses", "crankshaft")
+
+
+def load_workbook_input(path: Path) -> Loaded:
+    """The checked input of an edited workbook.
+
+    Raises:
+        InputError: no workbook of ours, or its input cells are wrong; the
+            messages name sheet and cell.
+    """
+    data = check_package(path)
+    cells, places = _input_cells(data, path.name)
+    raw: dict[str, Any] = {}
+    wanted: dict[tuple[str | int, ...], str] = {}
+    for name, value in cells.items():
+        target = _path_of(name)
+        if target is None:
+            continue
+        wanted[target] = places[name]
+        _put(raw, target, value)
+    for section in ("gas", "crankshaft"):
+        _close_lists(raw.get(section, {}))
+
+    def locate(target: tuple[str | int, ...]) -> str:
+        for length in range(len(target), 0, -1):
+            if target[:length] in wanted:
+                return wanted[target[:length]]
+        nested = [place for at, place in wanted.items() if at[: len(target)] == target]
+        return nested[0] if nested else INPUT_SHEET
+
+    return load_mapping(raw, source=path.name, locate=locate)
+
+
+def _input_cells(data: bytes, source: str) -> tuple[dict[str, Any], dict[str, str]]:
+    """Values of all named input cells and their places as ``лист!ячейка``."""
+    from openpyxl import load_workbook
+
+    try:
+        book = load_workbook(io.BytesIO(data), read_only=False, data_only=False)
+    except Exception as error:  # openpyxl raises anything on a damaged book
+        what = "книга повреждена и не читается"
+        problem = Problem(source, what, "сохраните её заново в Excel или LibreOffice")
+        raise InputError(problem) from error
+    cells, places, problems = {}, {}, []
+    for name, defined in book.defined_names.items():
+        text = str(defined.attr_text or "")
+        sheet_text, _, address = text.rpartition("!")
+        if sheet_text not in (INPUT_SHEET, quoted(INPUT_SHEET)):
+            continue
+        match = _ADDRESS.fullmatch(address)
+        if match is None or INPUT_SHEET not in book.sheetnames:
+            what = f"имя {name} не указывает на ячейку"
+            problems.append(Problem(source, what, "восстановите лист исходных данных"))
+            continue
+        place = f"{INPUT_SHEET}!{match.group(1)}{match.group(2)}"
+        cell = book[INPUT_SHEET][match.group(1) + match.group(2)]
+        if cell.data_type == "f":
+            what = "в ячейке исходных данных стоит формула"
+            problems.append(Problem(f"{source}, {place}", what, "впишите число"))
+            continue
+        cells[name], places[name] = cell.value, place
+    if problems:
+        raise InputError(problems)
+    if "geometry_bore_mm" not in cells:
+        what = "это не книга, созданная командой kshm build"
+        raise InputError(Problem(source, what, "укажите файл .toml или книгу kshm"))
+    return cells, places
+
+
+def _path_of(name: str) -> tuple[str | int, ...] | None:
+    """Path of an input field from the name of its cell, see ``reports.inputs.fields``."""
+    for prefix, (section, key) in _LISTS.items():
+        match = re.fullmatch(rf"{prefix}_([0-9]+)_(\w+)", name)
+        if match is None:
+            continue
+        index, part = int(match.group(1)) - 1, match.group(2)
+        if prefix == "gas_point":
+            return section, key, index, {"deg": 0, "mpa": 1}[part]
+        if prefix in ("web", "throw") and not (prefix == "throw" and part == "angle"):
+            return section, key, index, part
+        return section, key, index
+    for section in _SECTIONS:
+        if name.startswith(section + "_"):
+            return section, name.removeprefix(section + "_")
+    return None
+
+
+def _put(raw: dict[str, Any], path: tuple[str | int, ...], value: Any) -> None:  # noqa: ANN401
+    """Put a value into nested dicts; lists are dicts of indices until ``_close_lists``."""
+    target: dict[Any, Any] = raw
+    for part in path[:-1]:
+        target = target.setdefault(part, {})
+    target[path[-1]] = value
+
+
+def _close_lists(section: dict[Any, Any]) -> None:
+    for key, value in section.items():
+        if isinstance(value, dict) and all(isinstance(part, int) for part in value):
+            _close_lists(value)
+            section[key] = [value[index] for index in sorted(value)]

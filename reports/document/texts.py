@@ -36,13 +36,12 @@ def plain(text: object) -> Markup:
     return escape(printable(Markup(text).striptags() if isinstance(text, Markup) else str(text)))
 
 
-def mathtext(text: str) -> str:
+def raised(text: str) -> str:
     """The same for labels of figures: raised signs become mathtext (``мин$^{-1}$``)."""
-
-    def raised(match: re.Match[str]) -> str:
-        return "$^{" + match.group().translate(_LOWER).replace("\u2212", "-") + "}$"
-
-    return _RUN.sub(raised, text)
+    return _RUN.sub(
+        lambda match: "$^{" + match.group().translate(_LOWER).replace("\u2212", "-") + "}$",
+        text,
+    )
 
 
 def _split(text: str) -> list[str]:

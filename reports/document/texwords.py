@@ -25,8 +25,16 @@ _DEGREE = re.compile(r"\^(?:\{\\circ\}|\\circ(?![A-Za-z]))")
 _NO_SPACE_AFTER_DOT = r".\hspace{-0.2}"
 
 
-def for_mathtext(tex: str) -> str:
-    """Translate one formula; spaces it out as TeX would."""
+def for_mathtext(tex: str, *, level_primes: bool = False) -> str:
+    """Translate one formula; spaces it out as TeX would.
+
+    Args:
+        tex: The formula without dollar signs.
+        level_primes: Set primes as letters, for figures: mathtext raises them too high and
+            only :mod:`mathsvg` can bring them down again.
+    """
+    if level_primes:
+        tex = tex.replace("'", r"{\prime}")
     translated, _ = _sequence(tokens(_DEGREE.sub("°", tex)), 0)
     return translated
 

@@ -1,0 +1,227 @@
+"""Schemes: the central crank mechanism with its forces, and the throws of the shaft."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+
+from reports.document.figures.labels import text_size
+from reports.document.figures.pen import CENTRE, DASHED, HAIR, THICK, Pen, Point, polar
+from reports.document.figures.style import FONT_SIZE, MM, SMALL, sheet
+
+_GREY = "#e4e4e4"
+_FAINT = "#b4b4b4"
+
+
+def mechanism_sketch(lam: float, phi: float = 50.0, *, width: float = 150.0) -> str:
+    """Central mechanism: а) geometry, б) forces; drawn to scale in λ, as SVG.
+
+    Args:
+        lam: Crank radius over rod length λ, between 0.1 and 0.6.
+        phi: Crank angle to draw [deg], best between 30 and 70.
+        width: Width of the figure [mm].
+
+    Raises:
+        ValueError: λ cannot be drawn.
+    """
+    if not 0.1 <= lam <= 0.6:
+        msg = f"Схема механизма: λ = {lam} вне пределов 0,1…0,6"
+        raise ValueError(msg)
+    radius = 45.0
+    rod = radius / lam
+    height = 2 * radius + rod + 78 + 22
+    with sheet(width, height / MM) as page:
+        pen = Pen(page)
+        for share, letter in ((0.27, "а)"), (0.75, "б)")):
+            origin = (page.width * share, radius + 36)
+            part = _Mechanism(pen, origin, radius, rod, math.radians(phi))
+            if letter == "а)":
+                part.links()
+                part.geometry()
+            else:
+                part.links(faint=True)
+                part.forces()
+            pen.text((origin[0], 9), letter)
+        return page.svg()
+
+
+class _Mechanism:
+    """One drawing of the mechanism with its joints O, A, B."""
+
+    def __init__(self, pen: Pen, origin: Point, radius: float, rod: float, phi: float) -> None:
+        self.pen, self.origin, self.radius, self.rod, self.phi = pen, origin, radius, rod, phi
+        self.beta = math.asin(radius / rod * math.sin(phi))
+        self.pin = polar(origin, radius, phi)
+        lift = radius * math.cos(phi) + rod * math.cos(self.beta)
+        self.piston = (origin[0], origin[1] + lift)
+        self.top = (origin[0], origin[1] + radius + rod)
+        self.bottom = (origin[0], origin[1] + rod - radius)
+        self.bore = radius * 0.52
+
+    def links(self, *, faint: bool = False) -> None:
+        """Cylinder, piston, rod, crank, circle of the crank pin; rod and crank faint or not."""
+        pen, (x, y) = self.pen, self.origin
+        crown = self.top[1] + 22
+        pen.line([(x, y - self.radius - 12), (x, crown + 12)], HAIR, CENTRE)
+        pen.line([(x - self.radius - 10, y), (x + self.radius + 10, y)], HAIR, CENTRE)
+        for side in (-1, 1):
+            wall = x + side * (self.bore + 2)
+            pen.line([(wall, self.bottom[1] - 14), (wall, crown)], 1.4)
+        left = (x - self.bore, self.piston[1] - 13)
+        right = (x + self.bore, self.piston[1] + 17)
+        corners = [left, (right[0], left[1]), right, (left[0], right[1])]
+        pen.shape(corners, fill=_GREY, width=1.3)
+        pen.axes.patches[-1].set_zorder(1.6)
+        pen.circle(self.origin, self.radius, width=HAIR)
+        pen.line([self.piston, self.pin, self.origin], THICK, colour=_FAINT if faint else "#000000")
+        for joint in (self.origin, self.pin, self.piston):
+            pen.circle(joint, 3.2, fill="#ffffff", width=1.2)
+
+    def geometry(self) -> None:
+        """Dead centres, r, L, φ, β, ω and the names of the joints."""
+        pen, (x, y) = self.pen, self.origin
+        edge = x - self.radius - 16
+        for place, name in ((self.top, "ВМТ"), (self.bottom, "НМТ")):
+            pen.line([(edge - 4, place[1]), (place[0], place[1])], HAIR, DASHED)
+            pen.text((edge - 20, place[1]), name, SMALL)
+        pen.measure((edge, self.bottom[1]), (edge, self.top[1]))
+        pen.text((edge - 22, (self.top[1] + self.bottom[1]) / 2), "$S=2r$", SMALL)
+        across = x + self.bore + 16
+        pen.line([(x, self.piston[1]), (across + 4, self.piston[1])], HAIR, DASHED)
+        pen.line([(x, self.top[1]), (across + 4, self.top[1])], HAIR, DASHED)
+        pen.measure((across, self.piston[1]), (across, self.top[1]))
+        pen.text((across + 10, (self.piston[1] + self.top[1]) / 2), r"$s_{\mathrm{п}}$")
+        pen.arc(self.origin, 19, 0.0, self.phi, arrow=True)
+        pen.text(polar(self.origin, 27, self.phi * 0.45), r"$\varphi$")
+        pen.arc(self.piston, self.rod * 0.42, math.pi, math.pi - self.beta, arrow=True)
+        pen.text(polar(self.piston, self.rod * 0.42 + 9, math.pi - self.beta / 2), r"$\beta$")
+        pen.text(_beside(self.origin, self.pin, 0.6, -9), "$r$")
+        pen.text(_beside(self.piston, self.pin, 0.62, 11), "$L$")
+        pen.text((x - 9, y - 9), "$O$")
+        pen.text((self.pin[0] + 11, self.pin[1] + 2), "$B$")
+        pen.text((x - self.bore + 8, self.piston[1] + 4), "$A$", halo=False)
+        spin = self.radius * 0.62
+        pen.arc(self.origin, spin, math.radians(110), math.radians(165), arrow=True)
+        pen.text(polar(self.origin, spin + 9, math.radians(140)), r"$\omega$")
+
+    def forces(self) -> None:
+        """P_s, N and S at the piston pin; S, K and T at the crank pin; the torque."""
+        pen, phi, beta = self.pen, self.phi, self.beta
+        total = 50.0
+        along = (math.sin(beta), -math.cos(beta))
+        toward, ahead = (-math.sin(phi), -math.cos(phi)), (math.cos(phi), -math.sin(phi))
+        rod_force = total / math.cos(beta)
+        side = total * math.tan(beta)
+        a, b = self.piston, self.pin
+        pen.arrow((a[0], a[1] + 17 + 44), (a[0], a[1] + 18), 1.5)
+        pen.text((a[0] + 14, a[1] + 17 + 32), "$P_s$")
+        reach = max(side, 10) + self.bore
+        pen.arrow(a, (a[0] - reach - 12, a[1]), 1.5)
+        pen.text((a[0] - reach - 20, a[1] + 7), "$N$")
+        tip = _shift(a, along, rod_force)
+        pen.arrow(a, tip, 1.5)
+        pen.text((tip[0] + 13, tip[1] + 6), "$S$")
+        radial = rod_force * math.cos(phi + beta)
+        tangential = rod_force * math.sin(phi + beta)
+        end = _shift(b, along, rod_force)
+        corner_k, corner_t = _shift(b, toward, radial), _shift(b, ahead, tangential)
+        for corner in (corner_k, corner_t):
+            pen.line([corner, end], HAIR, DASHED)
+        for corner, name, away in (
+            (end, "$S$", (7.0, -9.0)),
+            (corner_k, "$K$", (-9.0, 5.0) if radial > 0 else (6.0, 9.0)),
+            (corner_t, "$T$", (10.0, 4.0)),
+        ):
+            pen.arrow(b, corner, 1.5)
+            pen.text((corner[0] + away[0], corner[1] + away[1]), name)
+        pen.arc(self.origin, self.radius * 0.66, math.radians(200), math.radians(300), arrow=True)
+        place = polar(self.origin, self.radius + 17, math.radians(250))
+        pen.text(place, r"$M_{\mathrm{кр}}$")
+        pen.text((self.origin[0] + 9, self.origin[1] - 9), "$O$")
+        pen.text((b[0] + 8, b[1] + 9), "$B$")
+        pen.text((a[0] + self.bore - 7, a[1] + 9), "$A$", halo=False)
+
+
+def crank_scheme(throw_angles: Sequence[float], *, width: float = 150.0) -> str:
+    """Throws of the shaft from the side and from the nose, as SVG.
+
+    Args:
+        throw_angles: Angle γ of each throw from the first [deg], clockwise seen from the nose.
+        width: Width of the figure [mm].
+
+    Raises:
+        ValueError: No throws.
+    """
+    if not throw_angles:
+        msg = "Схема вала: нет ни одного колена"
+        raise ValueError(msg)
+    radius, star = 40.0, 34.0
+    with sheet(width, (2 * radius + 62) / MM) as page:
+        pen = Pen(page)
+        level = page.height / 2 + 4
+        right = page.width - star - 34
+        _side_view(pen, (12.0, level), right - star - 42, radius, throw_angles)
+        _star_view(pen, (right, level), star, throw_angles)
+        return page.svg()
+
+
+def _side_view(
+    pen: Pen, start: Point, length: float, radius: float, throw_angles: Sequence[float]
+) -> None:
+    """Broken line of the shaft: journals on the axis, pins at r·cos γ above or below it."""
+    (x, y), count = start, len(throw_angles)
+    pitch = (length - 16) / count
+    journal, web = pitch * 0.30, pitch * 0.10
+    pen.line([(x - 6, y), (x + length + 6, y)], HAIR, CENTRE)
+    points: list[Point] = [(x, y), (x + 8 + journal / 2, y)]
+    for number, angle in enumerate(throw_angles, 1):
+        left = x + 8 + (number - 1) * pitch + journal / 2
+        height = y + radius * math.cos(math.radians(angle))
+        inner = (left + web, left + pitch - journal - web)
+        points += [(left, y), (inner[0], height), (inner[1], height)]
+        points += [(left + pitch - journal, y), (left + pitch - journal / 2, y)]
+        middle = (inner[0] + inner[1]) / 2
+        above = 10 if height >= y else -10
+        pen.text((middle, height + above), str(number))
+    points[-1] = (x + length, y)
+    pen.line(points, THICK)
+    size = min(5.0, journal * 0.35)
+    for number in range(count + 1):
+        centre = x + 8 + number * pitch
+        for side in (-1, 1):
+            pen.line([(centre - size, y + side * 4), (centre + size, y + side * 4)], 1.4)
+
+
+def _star_view(pen: Pen, centre: Point, radius: float, throw_angles: Sequence[float]) -> None:
+    """Directions of the throws seen from the nose; throws of one direction share a ray."""
+    pen.circle(centre, radius, width=HAIR)
+    for dx, dy in ((radius + 8, 0.0), (0.0, radius + 8)):
+        ends = [(centre[0] - dx, centre[1] - dy), (centre[0] + dx, centre[1] + dy)]
+        pen.line(ends, HAIR, CENTRE)
+    numbered = sorted((round(angle % 360, 6) % 360, n) for n, angle in enumerate(throw_angles, 1))
+    for angle, members in itertools.groupby(numbered, key=lambda pair: pair[0]):
+        ray = math.radians(angle)
+        end = polar(centre, radius, ray)
+        pen.line([centre, end], THICK)
+        pen.circle(end, 3.2, fill="#ffffff", width=1.2)
+        name = ", ".join(str(number) for _, number in members)
+        wide = text_size(name, FONT_SIZE)[0]
+        pen.text(polar(centre, radius + 10 + abs(math.sin(ray)) * wide / 2, ray), name)
+    pen.circle(centre, 2.6, fill="#ffffff", width=1.2)
+    pen.arc(centre, radius * 0.5, math.radians(20), math.radians(70), arrow=True)
+    pen.text(polar(centre, radius * 0.5 + 9, math.radians(45)), r"$\omega$")
+
+
+def _beside(start: Point, end: Point, share: float, offset: float) -> Point:
+    """Point beside a segment, to the left of its direction for a positive offset."""
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    norm = math.hypot(dx, dy) or 1.0
+    return (
+        start[0] + dx * share - dy / norm * offset,
+        start[1] + dy * share + dx / norm * offset,
+    )
+
+
+def _shift(point: Point, along: Point, distance: float) -> Point:
+    return (point[0] + along[0] * distance, point[1] + along[1] * distance)

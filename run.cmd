@@ -1,0 +1,54 @@
+@echo off
+rem run test [ARGS]: lint, types and tests; run ARGS: kshm ARGS
+setlocal
+chcp 65001 >nul
+set "ROOT=%~dp0"
+set "VENV=%ROOT%.venv"
+set "PY="
+where py >nul 2>nul && set "PY=py -3"
+if not defined PY set "PY=python"
+%PY% -c "import sys; sys.exit(sys.version_info < (3, 11))" 2>nul
+if errorlevel 1 (
+  echo Нужен Python 3.11 или новее: winget install Python.Python.3.13 1>&2
+  exit /b 3
+)
+if not exist "%VENV%\Scripts\kshm.exe" goto install
+fc /b "%ROOT%pyproject.toml" "%VENV%\kshm-pyproject" >nul 2>nul || goto install
+fc /b "%ROOT%constraints.txt" "%VENV%\kshm-constraints" >nul 2>nul || goto install
+goto ready
+
+:install
+echo Устанавливаю пакеты Python в .venv 1>&2
+if exist "%VENV%" rmdir /s /q "%VENV%"
+%PY% -m venv "%VENV%"
+if errorlevel 1 exit /b 3
+"%VENV%\Scripts\python.exe" -m pip install --quiet --disable-pip-version-check --constraint "%ROOT%constraints.txt" --editable "%ROOT%.[dev]" 1>&2
+if errorlevel 1 (
+  echo Не удалось установить пакеты Python: проверьте сеть и повторите. 1>&2
+  exit /b 3
+)
+copy /y "%ROOT%pyproject.toml" "%VENV%\kshm-pyproject" >nul
+copy /y "%ROOT%constraints.txt" "%VENV%\kshm-constraints" >nul
+
+:ready
+rem System parts (pango for PDF, LibreOffice for tests) are a person's task here: kshm doctor names them.
+if /i "%~1"=="test" goto test
+"%VENV%\Scripts\kshm.exe" %*
+exit /b %errorlevel%
+
+:test
+set "FAILED=0"
+set "ARGS="
+:collect
+shift
+if "%~1"=="" goto tests
+set ARGS=%ARGS% %1
+goto collect
+:tests
+pushd "%ROOT%"
+"%VENV%\Scripts\ruff.exe" check . || set "FAILED=1"
+"%VENV%\Scripts\ruff.exe" format --check . || set "FAILED=1"
+"%VENV%\Scripts\mypy.exe" || set "FAILED=1"
+"%VENV%\Scripts\python.exe" -m pytest %ARGS% || set "FAILED=1"
+popd
+exit /b %FAILED%

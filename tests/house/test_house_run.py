@@ -1,0 +1,199 @@
+"""The `run` script with a ready environment and a pretended system."""
+
+import os
+import shutil
+import stat
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+BASH = shutil.which("bash")
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="run.cmd serves Windows")
+
+PANGO_COMMAND = (
+    "sudo apt-get update && sudo apt-get install -y "
+    "libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0"
+)
+ALL_LIBRARIES = "libpango-1.0.so.0 libpangoft2-1.0.so.0 libharfbuzz-subset.so.0"
+
+
+def script(path, text):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(f"#!{BASH}\n{text}\n")
+    path.chmod(path.stat().st_mode | stat.S_IXUSR)
+
+
+class House:
+    """A copy of the house whose tools only write down how they were called."""
+
+    def __init__(self, folder):
+        self.root = folder / "a house"
+        self.bin = folder / "bin"
+        self.log = folder / "log"
+        self.log.touch()
+        self.root.mkdir()
+        for name in ("run", "pyproject.toml", "constraints.txt"):
+            shutil.copy2(ROOT / name, self.root / name)
+        (self.root / ".ci").mkdir()
+        shutil.copy2(ROOT / ".ci/run", self.root / ".ci/run")
+        for tool in ("kshm", "ruff", "mypy"):
+            self.tool(self.root / ".venv/bin" / tool)
+        self.tool(self.root / ".venv/bin/python")
+        self.tool(self.bin / "apt-get")
+        self.tool(self.bin / "sudo", 'if [ "$1" = -n ]; then shift; fi; "$@"')
+        script(self.bin / "id", "echo 0")
+        self.libraries(ALL_LIBRARIES)
+        self.stamp()
+
+    def tool(self, path, more="", status=0):
+        script(path, f'echo "{path.name} $*" >>"{self.log}"\n{more}\nexit {status}')
+
+    def libraries(self, text):
+        script(self.bin / "ldconfig", f"echo {text}")
+
+    def stamp(self):
+        parts = f"{self.root}\n".encode()
+        for name in ("pyproject.toml", "constraints.txt"):
+            parts += (self.root / name).read_bytes()
+        total = subprocess.run(["cksum"], input=parts, capture_output=True, check=True).stdout
+        (self.root / ".venv/kshm-stamp").write_bytes(total)
+
+    def run(self, *args, command="run", **more):
+        keep = {"HOME": str(self.root), "PATH": f"{self.bin}:{os.environ['PATH']}"}
+        return subprocess.run(
+            [BASH, str(self.root / command), *args],
+            capture_output=True,
+            text=True,
+            check=False,
+            cwd=self.bin,
+            env=keep | more,
+            stdin=subprocess.DEVNULL,
+        )
+
+    def calls(self):
+        lines = [line.rstrip() for line in self.log.read_text().splitlines()]
+        return [line for line in lines if line != "python -c"]
+
+
+@pytest.fixture
+def house(tmp_path):
+    return House(tmp_path)
+
+
+def test_arguments_reach_kshm(house):
+    done = house.run("build", "a b.toml", "-o", "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert house.calls() == ["kshm build a b.toml -o out"]
+
+
+def test_the_exit_code_of_kshm_is_kept(house):
+    house.tool(house.root / ".venv/bin/kshm", status=2)
+    assert house.run("check", "x").returncode == 2
+
+
+def test_root_installs_pango_after_an_update(house):
+    house.libraries("libpango-1.0.so.0")
+    done = house.run("build", "x")
+    assert "Устанавливаю системные пакеты (для PDF)" in done.stderr
+    quiet = "apt-get -qq -o DPkg::Lock::Timeout=300"
+    packages = "libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0"
+    assert house.calls() == [
+        f"{quiet} update",
+        f"{quiet} install -y --no-install-recommends {packages}",
+        "kshm build x",
+    ]
+
+
+def test_sudo_without_a_password_installs(house):
+    script(house.bin / "id", "echo 1000")
+    house.libraries("nothing")
+    house.run("build", "x")
+    assert "sudo -n env DEBIAN_FRONTEND=noninteractive apt-get" in house.log.read_text()
+
+
+def test_sudo_with_a_password_only_tells(house):
+    script(house.bin / "id", "echo 1000")
+    house.tool(house.bin / "sudo", status=1)
+    house.libraries("nothing")
+    done = house.run("build", "x")
+    assert done.returncode == 0
+    assert PANGO_COMMAND in done.stderr
+    assert house.calls() == ["sudo -n true", "kshm build x"]
+
+
+def test_the_system_is_left_alone_on_demand(house):
+    house.libraries("nothing")
+    done = house.run("build", "x", KSHM_NO_SYSTEM="1")
+    assert done.stderr.count(PANGO_COMMAND) == 1
+    assert house.calls() == ["kshm build x"]
+
+
+def test_a_failing_apt_does_not_stop_the_workbook(house):
+    house.libraries("nothing")
+    script(house.bin / "apt-get", 'case "$*" in *install*) exit 100;; esac')
+    done = house.run("build", "x")
+    assert "Установить не удалось." in done.stderr
+    assert PANGO_COMMAND in done.stderr
+    assert house.calls()[-1] == "kshm build x"
+
+
+@pytest.mark.parametrize("command", ["doctor", "--help"])
+def test_looking_installs_nothing(house, command):
+    house.libraries("nothing")
+    house.run(command)
+    assert house.calls() == [f"kshm {command}"]
+
+
+def test_the_test_command_runs_all_and_fails_if_one_fails(house):
+    done = house.run("test", "-k", "x", KSHM_NO_SYSTEM="1")
+    checks = ["ruff check .", "ruff format --check .", "mypy", "python -m pytest -k x"]
+    assert (done.returncode, house.calls()) == (0, checks)
+    house.log.write_text("")
+    house.tool(house.root / ".venv/bin/mypy", status=1)
+    assert house.run("test", KSHM_NO_SYSTEM="1").returncode == 1
+    assert house.calls()[-1] == "python -m pytest"
+
+
+def test_ci_runs_the_test_command(house):
+    house.run(command=".ci/run", KSHM_NO_SYSTEM="1", CI="true")
+    assert house.calls()[-1] == "python -m pytest"
+
+
+@pytest.mark.parametrize("name", ["pyproject.toml", "constraints.txt"])
+def test_a_changed_requirement_reinstalls(house, name):
+    with (house.root / name).open("a") as stream:
+        stream.write("# changed\n")
+    broken = 'case "$*" in *version_info*) exit 0;; *ensurepip*) exit 0;; *venv*) exit 7;; esac'
+    house.tool(house.bin / "python3", broken)
+    done = house.run("build", "x")
+    assert done.returncode == 3
+    assert "Не удалось создать окружение" in done.stderr
+    assert "kshm build x" not in house.calls()
+
+
+def test_an_old_python_is_refused(house):
+    (house.root / ".venv/kshm-stamp").unlink()
+    for version in ("", ".11", ".12", ".13", ".14"):
+        house.tool(house.bin / f"python3{version}", status=1)
+    done = house.run("build", "x", KSHM_NO_SYSTEM="1")
+    assert done.returncode == 3
+    assert "sudo apt-get install -y python3 python3-venv" in done.stderr
+
+
+def test_no_address_in_the_constraints():
+    lines = (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines()
+    pinned = [line for line in lines if not line.startswith("#")]
+    assert len(pinned) > 40
+    for line in pinned:
+        name, version = line.split("==")
+        assert name
+        assert version[0].isdigit()
+        assert "/" not in line
+
+
+def test_windows_script_has_windows_line_ends():
+    data = (ROOT / "run.cmd").read_bytes()
+    assert data.count(b"\r\n") == data.count(b"\n") > 40

@@ -81,7 +81,8 @@ def polar_path(
             axes.yaxis.tick_right()
         if invert[1]:
             axes.xaxis.tick_top()
-        axes.tick_params(length=0)
+        axes.tick_params(axis="x", length=0, pad=6)
+        axes.tick_params(axis="y", length=0, pad=4)
         pen = Pen(page)
 
         def place(px: float, py: float) -> Point:

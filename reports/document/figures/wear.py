@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from reports.document.figures.axes import value_ticks
 from reports.document.figures.labels import text_size
 from reports.document.figures.pen import CENTRE, HAIR, THIN, Pen, Point, polar
-from reports.document.figures.style import FONT_SIZE, SMALL, sheet
+from reports.document.figures.style import FONT_SIZE, MM, SMALL, sheet
 from reports.document.numbers import fixed
 
 _DEPTH = 0.62  # part of the radius that the greatest sum takes
@@ -52,10 +52,11 @@ def wear_diagram(
         raise ValueError(msg)
     turn = 1.0 if clockwise else -1.0
     rays = np.radians(degrees) * turn
-    with sheet(size, size + 14) as page:
+    radius = size * MM / 2 - 34
+    above, below = 30 + (13 if top_label else 0), 52
+    with sheet(size, (2 * radius + above + below) / MM) as page:
         pen = Pen(page)
-        radius = page.width / 2 - 34
-        centre = (page.width / 2, page.height - radius - 30 - (13 if top_label else 0))
+        centre = (page.width / 2, page.height - radius - above)
         factor = _DEPTH * radius / (float(values.max()) or 1.0)
         outline = _outline(values, degrees)
         curve = [

@@ -1,0 +1,106 @@
+import logging
+import re
+
+import pytest
+
+from reports.document.mathsvg import Formula, FormulaError, formula, formula_lines, plain
+from reports.document.texsplit import balanced, break_points
+from reports.document.texwords import for_mathtext
+
+LONG = (
+    r"j_{\mathrm{п}}=r\omega^2\left(\cos\varphi+\lambda\cos2\varphi\right)"
+    r"=0{,}047\cdot460{,}77^2\left(\cos30^{\circ}+0{,}3176\cdot\cos60^{\circ}\right)"
+    r"=10\,213\,\mathrm{м/с^2}"
+)
+
+
+def text_of(result: Formula) -> str:
+    return "".join(re.findall(r"<text[^>]*>([^<]*)</text>", result.svg))
+
+
+def test_glyphs_are_text_in_stix():
+    result = formula(r"P_{\mathrm{г}}=-1{,}5")
+    families = set(re.findall(r'font-family="([^"]*)"', result.svg))
+    assert families == {"STIXGeneral"}
+    assert set(text_of(result)) == set("Pг=−1,5")
+    assert "<path" not in result.svg
+
+
+def test_box_sits_on_the_baseline():
+    flat, deep = formula("a"), formula("y_{y}")
+    assert flat.depth_em < 0.05 < deep.depth_em
+    assert f"vertical-align:{-deep.depth_em:.3f}em" in deep.svg
+    assert flat.height_em == pytest.approx(0.47, abs=0.05)
+    fraction = formula(r"\dfrac{a}{b}")
+    assert fraction.height_em > 1.5 and fraction.svg.count("<rect") == 1
+
+
+def test_width_scales_with_the_text_not_with_pixels():
+    assert formula("11").width_em == pytest.approx(1.0 + 0.08, abs=0.06)
+
+
+def test_decimal_comma_takes_no_space_and_dot_neither():
+    assert formula("1{,}5").width_em < formula("1,5").width_em - 0.05
+    tight = formula(r"R_{\mathrm{ш.ш}}").width_em - formula(r"R_{\mathrm{шш}}").width_em
+    assert tight == pytest.approx(0.25 * 0.7, abs=0.02)
+
+
+def test_space_before_functions_and_round_fractions():
+    assert for_mathtext(r"\lambda\cos\varphi") == r"\lambda\,\cos\varphi"
+    assert for_mathtext(r"\left(\cos\varphi\right)") == r"\left(\cos\varphi\right)"
+    assert for_mathtext(r"2\cdot\cos x") == r"2\cdot\cos x"
+    assert for_mathtext(r"r\dfrac{a}{b}c") == r"r\,\dfrac{a}{b}\,c"
+    assert for_mathtext(r"\sum_{i=1}^{3}M_i") == r"\sum_{i=1}^{3}\,M_{i}"
+    assert for_mathtext(r"\tg\psi") == r"\operatorname{tg}\psi"
+    assert for_mathtext(r"30^{\circ}") == "30°"
+    assert for_mathtext(r"R''_x") == r"R^{\prime\prime}_{x}"
+
+
+@pytest.mark.parametrize(
+    "tex",
+    ["", "  ", "a$b", "{a", "a}", r"\nonsense{x}", r"x^2^3", "1.5", "漢", r"\frac{a}"],
+)
+def test_wrong_tex_is_refused_quietly(tex, caplog):
+    with caplog.at_level(logging.WARNING), pytest.raises(FormulaError, match="Формула"):
+        formula(tex)
+    assert not caplog.records
+
+
+def test_equal_formulas_are_set_once():
+    assert formula(r"a+b") is formula(r"a+b")
+
+
+def test_same_bytes_in_a_fresh_cache():
+    first = formula(LONG).svg
+    formula.cache_clear()
+    assert formula(LONG).svg == first
+
+
+def test_long_formula_breaks_at_relations_and_repeats_the_sign():
+    lines = formula_lines(LONG, 24)
+    assert len(lines) >= 2
+    assert all(line.width_em <= 24 for line in lines)
+    assert text_of(lines[0]).endswith("=") or "=" in text_of(lines[0])
+    assert lines[0].tex.rstrip().endswith("=")
+    assert lines[1].tex.startswith("{}=")
+    assert formula_lines(LONG, 100) == (formula(LONG),)
+
+
+def test_break_prefers_relations_over_sums_and_never_cuts_groups():
+    points = break_points(r"a=b+\dfrac{c=d}{e+f}-\left(g+h\right)")
+    assert [point.rank for point in points] == [0, 1, 1]
+    assert [point.end for point in break_points("x=-1")] == [2]
+    assert break_points(r"a\cdot b")[0].carried == r"{}\times "
+
+
+def test_forced_lines():
+    assert len(formula_lines(r"a=b\\c=d")) == 2
+
+
+def test_balanced():
+    assert balanced(r"\{a") and balanced("{a}") and not balanced("}{")
+
+
+def test_label_for_readers():
+    assert plain(r"P_{\mathrm{г}}=\dfrac{a}{b}\cdot 10^{-6}") == "P_г=(a)/(b)·10^−6"
+    assert 'aria-label="a &lt; b"' in formula("a < b").svg

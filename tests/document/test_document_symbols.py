@@ -1,0 +1,40 @@
+import pytest
+
+from reports.document.symbols import SymbolError, inline_html
+
+NB = "\u00a0"
+
+
+@pytest.mark.parametrize(
+    ("tex", "html"),
+    [
+        ("r", "<i>r</i>"),
+        (r"R_{\mathrm{ш.ш}}", "<i>R</i><sub>ш.ш</sub>"),
+        (r"P_{\mathrm{г}}", "<i>P</i><sub>г</sub>"),
+        (r"p'_{\mathrm{г}}", "<i>p</i>′<sub>г</sub>"),
+        (r"R'_{\Sigma i}", "<i>R</i>′<sub>Σ<i>i</i></sub>"),
+        (r"K_{r\mathrm{ш}}", "<i>K</i><sub><i>r</i>ш</sub>"),
+        (r"\varphi", "<i>φ</i>"),
+        (r"m_j r\omega^2", "<i>m</i><sub><i>j</i></sub><i>rω</i><sup>2</sup>"),
+        ("10^{-6}", "10<sup>−6</sup>"),
+        ("0{,}5", "0,5"),
+        (r"\varphi=30^\circ", f"<i>φ</i>{NB}={NB}30°"),
+        (r"\bar{R}", '<span class="bar"><i>R</i></span>'),
+        (r"M_{\mathrm{к.ш2}}", "<i>M</i><sub>к.ш2</sub>"),
+        ("x<y", f"<i>x</i>{NB}&lt;{NB}<i>y</i>"),
+        (r"n\leq 4", f"<i>n</i>{NB}≤{NB}4"),
+        (r"a-b", f"<i>a</i>{NB}−{NB}<i>b</i>"),
+    ],
+)
+def test_symbols(tex, html):
+    assert inline_html(tex) == html
+
+
+@pytest.mark.parametrize("tex", ["{", "a}", "x_", r"\dfrac{a}{b}", "a$b", r"\href{x}{y}", "a&b"])
+def test_anything_else_is_refused(tex):
+    with pytest.raises(SymbolError):
+        inline_html(tex)
+
+
+def test_markup_cannot_pass():
+    assert "<script" not in inline_html(r"\mathrm{<script>}")

@@ -18,5 +18,8 @@ class CycleError(ValueError):
 
 
 def ru(value: float, digits: int = 4) -> str:
-    """Number with a decimal comma and ``digits`` significant digits."""
-    return f"{value:.{digits}g}".replace(".", ",")
+    """Number with a decimal comma and ``digits`` significant digits, never as 2e+04."""
+    text = f"{value:.{digits}g}"
+    if "e" in text:
+        text = f"{float(text):.12f}".rstrip("0").rstrip(".")
+    return text.replace(".", ",")

@@ -58,6 +58,8 @@ def test_rounding_and_recalculation(engine):
         (0.0880001, 0.001, "up", 0.089),
         (0.0873, 0.0005, "nearest", 0.0875),
         (0.0873, 0.005, "up", 0.090),
+        (0.1000, 0.003, "nearest", 33 * 0.003),
+        (0.1000, 0.003, "up", 34 * 0.003),
     ],
 )
 def test_series(size, step, rounding, expected):

@@ -115,3 +115,23 @@ def test_temperature_is_the_root(t, extra):
     heat = mixture_heat({"CO2": 0.12, "H2O": 0.13, "N2": 0.75})
     content = 1.04 * (heat.mean(t) + extra) * t
     assert temperature_of(heat, content, 1.04, extra) == pytest.approx(t, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", sorted(SPECIES))
+def test_printed_formulas_hold_outside_the_blend(name):
+    gas = SPECIES[name]
+    (a, b, c), (a_up, b_up) = gas.lower, gas.upper
+    assert gas.mean(1400.0) == pytest.approx(a + b * 1400 + c * 1400**2, rel=1e-14)
+    assert gas.mean(1500.0) == pytest.approx(a_up + b_up * 1500, rel=1e-14)
+    half = (a + b * 1450 + c * 1450**2 + a_up + b_up * 1450) / 2
+    assert gas.mean(1450.0) == pytest.approx(half, rel=1e-14)
+
+
+def test_exhaust_carries_enthalpy_above_the_charge(engine):
+    r = cycle(engine)
+    t_r, t_k = engine.t_residual - ZERO_C, r.charge.t_k - ZERO_C
+    out = r.mixture.products * (r.combustion.products.mean(t_r) + R_GAS) * t_r
+    come = r.mixture.fresh * (AIR.mean(t_k) + R_GAS) * t_k
+    flow = r.effective.fuel_flow
+    assert heat_balance(r).exhaust == pytest.approx(1e3 * flow * (out - come), rel=1e-12)
+    assert heat_balance(r).total == pytest.approx(flow * engine.fuel.heating_value, rel=1e-14)

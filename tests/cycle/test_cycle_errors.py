@@ -1,11 +1,13 @@
 """Bad input gets one Russian line: which input, which way to change it."""
 
+import math
 import re
 from dataclasses import replace
 
 import pytest
 
 from kshm.cycle import CycleError, Listing, cycle
+from kshm.cycle_errors import ru
 from kshm.cycle_fuel import FUELS
 from kshm.cycle_model import FrictionLaw
 
@@ -120,3 +122,30 @@ def test_warnings_do_not_stop_the_calculation(engines):
     assert any("мощность турбины" in w for w in cycle(weak).warnings)
     hot = replace(engines["petrol"], xi_z=1.0, xi_b=1.0, excess_air=1.0)
     assert any("2800" in w for w in cycle(hot).warnings)
+
+
+def test_messages_name_their_numbers_in_user_units(engines):
+    diesel, petrol = engines["turbo_diesel"], engines["petrol"]
+    cases = {
+        "H_u = 4,25 МДж/кг": replace(diesel, fuel=replace(diesel.fuel, heating_value=4.25e6)),
+        "p_м = 2,157 МПа не меньше p_i = 1,352 МПа": replace(
+            diesel, mechanical=FrictionLaw(0.397e6, 0.04e6), stroke=0.3
+        ),
+        "n = 30 мин⁻¹: допускается от 50 до 20000; увеличьте n": replace(petrol, omega=math.pi),
+    }
+    for text, inputs in cases.items():
+        with pytest.raises(CycleError) as caught:
+            cycle(inputs)
+        assert text in str(caught.value)
+    warning = cycle(replace(diesel, exhaust_factor=0.75)).warnings[-1]
+    turbo = cycle(replace(diesel, exhaust_factor=0.75)).turbo
+    for number in (turbo.turbine_power / 1e3, turbo.compressor_power / 1e3, turbo.c2_balance):
+        assert f"{number:.3g}".replace(".", ",") in warning
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(1.5, "1,5"), (20000, "20000"), (123456.0, "123500"), (2e-5, "0,00002"), (8, "8")],
+)
+def test_numbers_are_written_out(value, text):
+    assert ru(value) == text

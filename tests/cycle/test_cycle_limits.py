@@ -156,3 +156,15 @@ def test_stoichiometric_air_of_the_listing():
     assert fuel.stoichiometric_air == pytest.approx(0.4994, abs=5e-5)
     assert fuel.stoichiometric_air_mass == pytest.approx(14.46, abs=5e-3)
     assert burn(fuel, 1.45, external=False).mu_0 == pytest.approx(1.04367, abs=5e-6)
+
+
+@pytest.mark.parametrize("h2_co", [0.3, 20.0])
+def test_too_little_air_even_for_incomplete_combustion(h2_co):
+    """Small H2/CO runs out of carbon, large H2/CO out of hydrogen."""
+    fuel = FUELS["petrol"]
+    limit = 1 - min(fuel.carbon / 12, fuel.hydrogen / 2 / h2_co) * (1 + h2_co) / (
+        2 * 0.208 * fuel.stoichiometric_air
+    )
+    assert burn(fuel, limit + 1e-6, external=True, h2_co=h2_co)
+    with pytest.raises(CycleError, match="увеличьте α"):
+        burn(fuel, limit - 1e-6, external=True, h2_co=h2_co)

@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 
 from kshm.cycle import CycleError
-from kshm.speed_characteristic import LEIDERMAN, curve, from_adaptability, regimes, speed_grid
+from kshm.speed_characteristic import (
+    LEIDERMAN,
+    Leiderman,
+    curve,
+    from_adaptability,
+    regimes,
+    speed_grid,
+)
 
 RATED = 4400 * math.pi / 30
 POWER, G_E = 70e3, 263 / 3.6e9
@@ -104,3 +111,36 @@ def test_curves_are_read_only():
     found = curve(POWER, RATED, G_E, LEIDERMAN["petrol"], np.array([100.0, 200.0]))
     with pytest.raises(ValueError, match="read-only"):
         found.torque[0] = 0
+
+
+@pytest.mark.parametrize(
+    ("name", "torque", "consumption"),
+    [("petrol", 1.25, 0.85), ("diesel", 1.185, 1.025), ("diesel_swirl", 1.10, 1.025)],
+)
+def test_half_speed(name, torque, consumption):
+    found = curve(POWER, RATED, G_E, LEIDERMAN[name], np.array([RATED / 2]))
+    assert found.torque[0] * RATED / POWER == pytest.approx(torque, rel=1e-12)
+    assert found.consumption[0] / G_E == pytest.approx(consumption, rel=1e-12)
+    assert found.fuel_flow[0] / G_E / POWER == pytest.approx(torque * consumption / 2, rel=1e-12)
+
+
+def test_torque_that_still_rises_at_the_rated_speed():
+    law = Leiderman(0.2, 1.2, 0.4, (1.2, -1.2, 1.0), "memory")
+    assert (law.x_torque, law.adaptability) == (1.0, pytest.approx(1.0))
+
+
+def test_grid_does_not_repeat_an_end_on_a_step():
+    grid = speed_grid(800 * math.pi / 30, 4400 * math.pi / 30, 200.0) * 30 / math.pi
+    assert list(np.round(grid, 6)) == list(range(800, 4401, 200))
+
+
+@pytest.mark.parametrize(("kind", "share"), [("diesel", 0.20), ("petrol", 0.16)])
+def test_idle_is_a_share_of_the_rated_speed(kind, share):
+    _, _, idle = regimes(POWER, RATED, LEIDERMAN[kind], kind=kind)
+    assert idle.omega == pytest.approx(share * RATED)
+
+
+def test_message_names_the_three_speeds():
+    with pytest.raises(CycleError) as caught:
+        regimes(POWER, RATED, LEIDERMAN["diesel"], kind="diesel", omega_torque=2 * RATED)
+    assert "880, наибольший момент 8800, номинал 4400 мин⁻¹" in str(caught.value)

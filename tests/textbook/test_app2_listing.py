@@ -67,8 +67,10 @@ def test_codes_of_the_listing_are_all_used():
     assert codes - {q.code for q in INPUTS} == {"КО", "BNE", "SD"}
 
 
-def test_31_of_34_outputs_to_the_printed_digit():
-    found = differing(FITTED)
+@pytest.mark.parametrize("fitted", [FITTED, Listing(1.0782, 1.22775)])
+def test_31_of_34_outputs_to_the_printed_digit(fitted):
+    """The second pair fits the scalars as well, but not all 55 temperatures."""
+    found = differing(fitted)
     assert set(found) == UNEXPLAINED
     assert len(OUTPUTS) - len(found) == 31
 

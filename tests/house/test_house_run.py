@@ -89,6 +89,23 @@ def test_arguments_reach_kshm(house):
     assert house.calls() == ["kshm build a b.toml -o out"]
 
 
+def test_both_streams_of_kshm_are_kept(house):
+    house.tool(house.root / ".venv/bin/kshm", "echo result; echo message >&2")
+    done = house.run("check", "x")
+    assert (done.stdout, done.stderr) == ("result\n", "message\n")
+
+
+def test_both_streams_of_the_tests_are_kept(house):
+    house.tool(house.root / ".venv/bin/mypy", "echo message >&2")
+    assert house.run("test", KSHM_NO_SYSTEM="1").stderr.endswith("message\n")
+
+
+def test_the_lock_is_not_held_while_kshm_works(house):
+    lock = f'flock --nonblock "{house.root}" echo free'
+    house.tool(house.root / ".venv/bin/kshm", lock)
+    assert house.run("build", "x").stdout == "free\n"
+
+
 def test_the_exit_code_of_kshm_is_kept(house):
     house.tool(house.root / ".venv/bin/kshm", status=2)
     assert house.run("check", "x").returncode == 2

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -95,7 +96,10 @@ def _translated(error: click.ClickException) -> str:
     )
 
 
-def _file(text: str = "INPUT") -> Any:  # noqa: ANN401
+_Command = Callable[..., int]
+
+
+def _file(text: str = "INPUT") -> Callable[[_Command], _Command]:
     return click.argument("source", metavar=text, type=click.Path(path_type=Path))
 
 

@@ -1,0 +1,79 @@
+"""Comparison of recalculated workbooks with caches and with the solver."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from kshm import solve
+from reports.inputs.convert import to_engine
+from reports.inputs.model import InputFile
+from reports.layout import FIRST_ROW, Layout
+from reports.recalculation.protocol import Book, cached_values
+from reports.tables.registry import build_model
+from reports.tables.spec import Model
+
+TOLERANCE = 1e-9
+
+
+def close(ours: float, theirs: float, scale: float) -> bool:
+    return abs(ours - theirs) <= TOLERANCE * max(1.0, scale)
+
+
+def differences_from_caches(book: bytes, recalculated: Book) -> list[str]:
+    """Formula cells whose recalculated value is not their cached value."""
+    wrong = []
+    for sheet, cells in cached_values(book).items():
+        numbers = [abs(v) for v in cells.values() if isinstance(v, float)]
+        scale = max(numbers, default=1.0)
+        for cell, cached in cells.items():
+            value = recalculated[sheet][cell]
+            if isinstance(cached, float):
+                fits = isinstance(value, float) and close(
+                    value, cached, min(scale, 1 + abs(cached))
+                )
+            else:
+                fits = cached is not None and value == cached
+            if not fits:
+                wrong.append(f"{sheet}!{cell}: cached {cached!r}, recalculated {value!r}")
+    return wrong
+
+
+def differences_from_solver(model: Model, recalculated: Book) -> tuple[int, list[str]]:
+    """Cells compared with the solver and those that differ by more than the tolerance."""
+    solution = solve(to_engine(model.input))
+    layout = Layout.of(model)
+    compared, wrong = 0, []
+    for table in model.tables.values():
+        ours = solution.columns.get(table.id, {})
+        for column in table.columns[1:]:
+            if column.helper or table.helper:
+                continue
+            expected = ours[column.key]
+            scale = float(np.abs(expected).max())
+            letters = layout.range_of(f"{table.id}.{column.key}").split("$")[1]
+            for index, value in enumerate(expected):
+                compared += 1
+                got = recalculated[table.sheet][f"{letters}{FIRST_ROW + index}"]
+                if not isinstance(got, float) or not close(got, float(value), scale):
+                    wrong.append(f"{table.id}.{column.key}[{index}]: {got!r}, solver {value!r}")
+    for key, value in solution.scalars.items():
+        cell = layout.cells[key]
+        compared += 1
+        got = recalculated[cell.sheet][cell.coordinate]
+        if not isinstance(got, float) or not close(got, value, abs(value)):
+            wrong.append(f"{key}: {got!r}, solver {value!r}")
+    return compared, wrong
+
+
+def errors_in(recalculated: Book) -> list[str]:
+    """Cells with an error value or without a value."""
+    return [
+        f"{sheet}!{cell}: {value!r}"
+        for sheet, cells in recalculated.items()
+        for cell, value in cells.items()
+        if value is None or (isinstance(value, str) and value.startswith("#"))
+    ]
+
+
+def model_of(data: InputFile) -> Model:
+    return build_model(data)

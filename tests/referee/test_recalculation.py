@@ -1,0 +1,131 @@
+"""Workbooks recalculated by two engines against their caches and against the solver."""
+
+from __future__ import annotations
+
+import io
+import random
+import zipfile
+
+import pytest
+
+from reports.inputs.fields import to_mapping
+from reports.inputs.load import load_mapping
+from reports.recalculation.by_formualizer import Formualizer
+from reports.recalculation.by_libreoffice import LibreOffice
+from reports.recalculation.protocol import formula_cells
+from reports.tables.registry import build_model
+from reports.workbook.caches import sheet_parts
+from reports.workbook.write import workbook_bytes
+from tests.conftest import sample, sample_names
+from tests.referee.changes import random_change, type_into
+from tests.referee.compare import (
+    differences_from_caches,
+    differences_from_solver,
+    errors_in,
+)
+
+CHANGES = 20
+
+
+@pytest.fixture(scope="module")
+def books() -> dict[str, bytes]:
+    return {name: workbook_bytes(build_model(sample(name))) for name in sample_names()}
+
+
+def check(name: str, book: bytes, recalculated: dict) -> None:
+    model = build_model(sample(name))
+    assert errors_in(recalculated) == []
+    assert differences_from_caches(book, recalculated) == []
+    compared, wrong = differences_from_solver(model, recalculated)
+    assert wrong == []
+    assert compared > 1000
+
+
+@pytest.mark.parametrize("name", sample_names())
+def test_formualizer_agrees(name: str, books: dict[str, bytes]) -> None:
+    check(name, books[name], Formualizer().recalculate([books[name]])[0])
+
+
+@pytest.mark.libreoffice
+def test_libreoffice_agrees(books: dict[str, bytes], libreoffice: LibreOffice) -> None:
+    results = libreoffice.recalculate(list(books.values()))
+    for name, result in zip(books, results, strict=True):
+        check(name, books[name], result)
+
+
+def changed_books(name: str) -> list[tuple]:
+    """Random changes of a sample on a coarse grid: the same formulas in fewer rows."""
+    raw = to_mapping(sample(name))
+    raw["calculation"]["step_deg"] = 30
+    coarse = load_mapping(raw, source=name).model
+    book = workbook_bytes(build_model(coarse))
+    rng = random.Random(f"changes of {name}")
+    made = []
+    for _ in range(CHANGES):
+        change, data = random_change(coarse, rng)
+        made.append((change, data, type_into(book, coarse, change)))
+    return made
+
+
+@pytest.mark.parametrize("name", sample_names())
+def test_formualizer_follows_random_changes(name: str) -> None:
+    for change, data, book in changed_books(name):
+        (result,) = Formualizer().recalculate([book])
+        assert errors_in(result) == [], change
+        compared, wrong = differences_from_solver(build_model(data), result)
+        assert wrong == [], change
+        assert compared > 1000
+
+
+@pytest.mark.libreoffice
+def test_libreoffice_follows_random_changes(libreoffice: LibreOffice) -> None:
+    made = [made for name in sample_names() for made in changed_books(name)[:CHANGES]]
+    results = libreoffice.recalculate([book for _, _, book in made])
+    for (change, data, _), result in zip(made, results, strict=True):
+        assert errors_in(result) == [], change
+        assert differences_from_solver(build_model(data), result)[1] == [], change
+
+
+def tampered(book: bytes, sheet: str, cell: str) -> bytes:
+    """The workbook with one cached value replaced by a lie."""
+    stream = io.BytesIO()
+    with (
+        zipfile.ZipFile(io.BytesIO(book)) as source,
+        zipfile.ZipFile(stream, "w") as target,
+    ):
+        part = sheet_parts(source)[sheet]
+        for name in source.namelist():
+            data = source.read(name)
+            if name == part:
+                before, found, after = data.partition(f'r="{cell}"'.encode())
+                start = after.index(b"<v>") + 3
+                after = after[:start] + b"123456.5" + after[after.index(b"</v>") :]
+                data = before + found + after
+            target.writestr(name, data)
+    return stream.getvalue()
+
+
+def test_formualizer_does_not_believe_a_tampered_cache(books: dict[str, bytes]) -> None:
+    book = tampered(books["gots-diesel"], "П4.1", "H20")
+    (result,) = Formualizer().recalculate([book])
+    (difference,) = differences_from_caches(book, result)
+    assert difference.startswith("П4.1!H20: cached 123456.5")
+
+
+@pytest.mark.libreoffice
+def test_libreoffice_does_not_believe_a_tampered_cache(
+    books: dict[str, bytes], libreoffice: LibreOffice
+) -> None:
+    book = tampered(books["gots-diesel"], "П4.1", "H20")
+    (result,) = libreoffice.recalculate([book])
+    (difference,) = differences_from_caches(book, result)
+    assert difference.startswith("П4.1!H20: cached 123456.5")
+
+
+def test_size_of_the_textbook_diesel(books: dict[str, bytes]) -> None:
+    """At least 8,000 formula cells and 25 charts at 10°."""
+    book = books["gots-diesel"]
+    assert sum(len(cells) for cells in formula_cells(book).values()) >= 8000
+    with zipfile.ZipFile(io.BytesIO(book)) as archive:
+        charts = [name for name in archive.namelist() if name.startswith("xl/charts/chart")]
+    assert len(charts) >= 25

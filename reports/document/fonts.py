@@ -9,11 +9,11 @@ from pathlib import Path
 
 SCHEME = "kshm-font"
 FAMILY = "STIXGeneral"
-UPRIGHT = "STIXUpright"
+UPRIGHT = "STIXGeneralUpright"
 STACK = f"{FAMILY}, {UPRIGHT}"
 REPLACEMENT = "\u25a1"
 
-# family, style, weight, file.  STIXUpright serves the signs that the slanted and bold
+# family, style, weight, file.  UPRIGHT serves the signs that the slanted and bold
 # faces lack (≈ ≤ √ ∑ …) from the regular face, so that no system font is ever asked.
 _TEXT_FACES = (
     (FAMILY, "normal", "normal", "STIXGeneral.ttf"),

@@ -142,7 +142,8 @@ def column(values: Iterable[float], digits: int, *, group: bool = True) -> list[
     return [fixed(float(value), digits, group=group) for value in values]
 
 
-_QUARTERS = {",": 1, NBSP: 1, MINUS: 3}  # widths in quarters of an em; a digit has two
+# Widths of STIX in quarters of an em; a digit has two, the minus really 2.74.
+_QUARTERS = {",": 1, NBSP: 1, MINUS: 3, "+": 3} | dict.fromkeys("0123456789", 2)
 
 
 def aligned(texts: Iterable[str]) -> list[str]:
@@ -152,8 +153,18 @@ def aligned(texts: Iterable[str]) -> list[str]:
     the column stays centred under its heading, without a style on every cell.
     """
     column_texts = list(texts)
-    widths = [sum(_QUARTERS.get(char, 2) for char in text) for text in column_texts]
+    widths = [quarters(text) for text in column_texts]
     widest = max(widths, default=0)
     return [
         NBSP * (widest - width) + text for text, width in zip(column_texts, widths, strict=True)
     ]
+
+
+def quarters(text: str) -> int:
+    """Width of a written number in quarters of an em of STIX."""
+    return sum(_QUARTERS.get(char, 2) for char in text)
+
+
+def is_number(text: str) -> bool:
+    """Whether a text consists of signs of numbers only, whose widths are known."""
+    return all(char in _QUARTERS for char in text)

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from markupsafe import Markup
 
@@ -100,7 +100,9 @@ def render(
     return Rendered(pdf, len(document.pages), tuple(warnings))
 
 
-def environment(overrides: Path | None = None) -> Environment:
+def environment(
+    overrides: Path | None = None, *, media: Literal["print", "screen"] = "print"
+) -> Environment:
     """Jinja environment of the templates: autoescape on, unknown names refused.
 
     Every text put in is made printable first (no control characters, nothing that STIX
@@ -109,6 +111,8 @@ def environment(overrides: Path | None = None) -> Environment:
 
     Args:
         overrides: A folder whose files replace templates of the same name.
+        media: "print" writes long tables the way that is fast on paper and names the fonts by
+            ``kshm-font:``; "screen" writes plain tables and embeds the fonts.
     """
     import jinja2
 
@@ -127,6 +131,7 @@ def environment(overrides: Path | None = None) -> Environment:
         keep_trailing_newline=False,
     )
     result.globals.update(_globals())
+    result.globals["media"] = media
     result.filters["plain"] = texts.plain
     result.filters["sym"] = _symbol
     result.filters["tex"] = _formula

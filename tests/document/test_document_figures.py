@@ -90,6 +90,7 @@ def test_fit_to_stand_in_a_page_with_others(drawn, name):
 def test_everything_lies_on_the_sheet(drawn, name):
     tree = ET.fromstring(drawn[name])
     width, height = map(float, tree.attrib["viewBox"].split()[2:])
+    assert width <= 165.01 / 25.4 * 72 and height <= 190 / 25.4 * 72
     for node in tree.iter():
         for x, y in re.findall(r"[ML] ?(-?[\d.]+) (-?[\d.]+)", node.attrib.get("d", "")):
             assert -1 <= float(x) <= width + 1 and -1 <= float(y) <= height + 1

@@ -35,6 +35,17 @@ def test_box_sits_on_the_baseline():
     assert fraction.height_em > 1.5 and fraction.svg.count("<rect") == 1
 
 
+def test_indices_stand_above_and_below_the_baseline():
+    result = formula("x_a^b")
+    places = {
+        chars: [float(y) for y in ys.split()]
+        for ys, chars in re.findall(r'y="([^"]*)">([^<]*)</text>', result.svg)
+    }
+    (base,), ends = places["x"], dict(zip("ba", places["ba"], strict=True))
+    assert base == pytest.approx(1000 * (result.height_em - result.depth_em), abs=2)
+    assert ends["b"] < base - 200 and ends["a"] > base + 100
+
+
 def test_width_scales_with_the_text_not_with_pixels():
     assert formula("11").width_em == pytest.approx(1.0 + 0.08, abs=0.06)
 

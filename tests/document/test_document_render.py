@@ -1,6 +1,7 @@
 """Rendering is shut off from the world, deterministic, and sets in STIX alone."""
 
 import http.server
+import re
 import threading
 
 import pytest
@@ -50,6 +51,7 @@ def test_same_bytes_with_attachments():
     html = page(EVERYTHING)
     first = render_pdf(html, attachments=files)
     assert render_pdf(html, attachments=files) == first
+    assert set(re.findall(rb"D:(\d{4})", first)) == {b"2000"}, "no clock"
     assert render_pdf(page(EVERYTHING + "!"), attachments=files) != first
 
 

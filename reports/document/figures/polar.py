@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from reports.document.figures import axes as ax
 from reports.document.figures.labels import Room, dense, label_point, text_size
 from reports.document.figures.pen import THIN, Pen, Point
-from reports.document.figures.style import FONT_SIZE, GRID, MM, sheet
+from reports.document.figures.style import FONT_SIZE, GRID, MM, PAGE_WIDTH, sheet
 from reports.document.numbers import fixed
 
 Values = NDArray[np.float64]
@@ -66,10 +66,11 @@ def polar_path(
         ax.bounds([xs, [pole.x for pole in poles]]), ax.bounds([ys, [pole.y for pole in poles]])
     )
     spans = (x_ticks.high - x_ticks.low, y_ticks.high - y_ticks.low)
-    scale = min(most * MM / spans[0], most * 0.95 * MM / spans[1])
-    width, height = spans[0] * scale, spans[1] * scale
     side = y_ticks.width() + 10
     name = max(text_size(x_label, FONT_SIZE)[0] + 24, 24.0)
+    widest = min(most * MM, PAGE_WIDTH * MM - side - name)
+    scale = min(widest / spans[0], most * MM / spans[1])
+    width, height = spans[0] * scale, spans[1] * scale
     left, right = (name, side) if invert[0] else (side, name)
     low, high = (26.0, 18.0) if invert[1] else (18.0, 26.0)
     with sheet((left + width + right) / MM, (low + height + high) / MM) as page:

@@ -55,6 +55,8 @@ def finish(book: bytes, caches: CacheValues) -> bytes:
             data = source.read(name)
             if name in titles:
                 data = _fill(data, titles[name], caches.get(titles[name], {}))
+            elif name == "xl/styles.xml":
+                data = _order_fonts(data)
             elif name == "docProps/core.xml":
                 data = _fix_times(data)
             target.writestr(zipfile.ZipInfo(name, _EPOCH), data, zipfile.ZIP_DEFLATED)
@@ -80,6 +82,19 @@ def _fill(data: bytes, title: str, values: dict[str, float | str]) -> bytes:
         else:
             cell.attrib.pop("t", None)
             element.text = repr(float(value))
+    return bytes(etree.tostring(root, xml_declaration=True, encoding="UTF-8", standalone=True))
+
+
+# openpyxl writes the parts of a font in another order than the schema names them.
+_FONT_ORDER = ("b", "i", "strike", "condense", "extend", "outline", "shadow", "u", "vertAlign",
+               "sz", "color", "name", "family", "charset", "scheme")  # fmt: skip
+
+
+def _order_fonts(data: bytes) -> bytes:
+    root = etree.fromstring(data)
+    for font in root.iter(f"{{{_MAIN}}}font"):
+        parts = sorted(font, key=lambda part: _FONT_ORDER.index(etree.QName(part).localname))
+        font[:] = parts
     return bytes(etree.tostring(root, xml_declaration=True, encoding="UTF-8", standalone=True))
 
 

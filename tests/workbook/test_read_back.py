@@ -1,0 +1,123 @@
+"""A workbook edited by a person and built again."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+import pytest
+from openpyxl import load_workbook
+
+from reports.errors import InputError
+from reports.inputs.fields import to_mapping
+from reports.layout import Layout
+from reports.recalculation.by_libreoffice import LibreOffice
+from reports.recalculation.protocol import formula_cells
+from reports.workbook.read import load_workbook_input
+from tests.conftest import sample, sample_names
+from tests.workbook.made import book, model
+
+
+def edited(tmp_path: Path, changes: dict[str, object], name: str = "gots-diesel") -> Path:
+    opened = load_workbook(io.BytesIO(book(name)))
+    layout = Layout.of(model(name))
+    for field, value in changes.items():
+        cell = layout.cells[field]
+        opened[cell.sheet][cell.coordinate].value = value
+    path = tmp_path / "edited.xlsx"
+    opened.save(path)
+    return path
+
+
+@pytest.mark.parametrize("name", sample_names())
+def test_an_untouched_workbook_gives_its_input_back(tmp_path: Path, name: str) -> None:
+    path = tmp_path / "book.xlsx"
+    path.write_bytes(book(name))
+    assert to_mapping(load_workbook_input(path).model) == to_mapping(sample(name))
+
+
+def test_edited_cells_are_read(tmp_path: Path) -> None:
+    path = edited(
+        tmp_path,
+        {
+            "masses_reciprocating_kg": 1.75,
+            "regime_speed_rpm": 3000,
+            "calculation_method": "точное ускорение",
+            "web_3_counterweight_kg": 0.5,
+        },
+    )
+    changed = load_workbook_input(path).model
+    assert changed.masses.reciprocating_kg == 1.75
+    assert changed.regime.speed_rpm == 3000
+    assert changed.calculation.method == "exact"
+    assert changed.crankshaft.webs[2].counterweight_kg == 0.5
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("geometry_bore_mm", -88),
+        ("geometry_bore_mm", None),
+        ("regime_speed_rpm", "быстро"),
+        ("gas_max_pressure_mpa", 0.5),
+        ("throw_angle_2_deg", 90),
+    ],
+)
+def test_what_check_refuses_is_refused_with_sheet_and_cell(
+    tmp_path: Path, field: str, value: object
+) -> None:
+    path = edited(tmp_path, {field: value})
+    with pytest.raises(InputError) as caught:
+        load_workbook_input(path)
+    cell = Layout.of(model()).cells[field]
+    assert f"{cell.sheet}!{cell.coordinate}" in "\n".join(caught.value.lines())
+    assert all("\n" not in line for line in caught.value.lines())
+
+
+def test_a_formula_in_an_input_cell_is_refused(tmp_path: Path) -> None:
+    path = edited(tmp_path, {"geometry_bore_mm": "=80+8"})
+    with pytest.raises(InputError, match="формула"):
+        load_workbook_input(path)
+
+
+def test_a_foreign_workbook_is_refused(tmp_path: Path) -> None:
+    from openpyxl import Workbook
+
+    path = tmp_path / "foreign.xlsx"
+    Workbook().save(path)
+    with pytest.raises(InputError, match="не книга, созданная"):
+        load_workbook_input(path)
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b"", "не книга"),
+        (b"PK\x03\x04 broken", "повреждён"),
+        (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + b"\0" * 100, "зашифрована"),
+        (b"[engine]\n", "не книга"),
+    ],
+)
+def test_files_that_are_no_workbooks(tmp_path: Path, content: bytes, message: str) -> None:
+    path = tmp_path / "x.xlsx"
+    path.write_bytes(content)
+    with pytest.raises(InputError, match=message):
+        load_workbook_input(path)
+
+
+@pytest.mark.libreoffice
+def test_saved_by_libreoffice_nothing_is_lost(tmp_path: Path, libreoffice: LibreOffice) -> None:
+    """All formulas survive, and the input cells read back the same."""
+    (saved,) = libreoffice.converted([book()])
+    assert {sheet: set(cells) for sheet, cells in formula_cells(saved).items()} == {
+        sheet: set(cells) for sheet, cells in formula_cells(book()).items()
+    }
+    path = tmp_path / "saved.xlsx"
+    path.write_bytes(saved)
+    assert to_mapping(load_workbook_input(path).model) == to_mapping(sample("gots-diesel"))
+
+
+def test_the_same_input_gives_the_same_bytes() -> None:
+    from reports.workbook.write import workbook_bytes
+
+    assert workbook_bytes(model()) == book()

@@ -1,0 +1,33 @@
+"""Microsoft's schema validator on finished workbooks, where node is present."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.workbook.made import book
+
+VALIDATOR = "@ooxml-tools/validate@0.4.6"
+
+
+def test_the_schema_validator_finds_nothing(tmp_path: Path) -> None:
+    npx = shutil.which("npx")
+    if npx is None:
+        pytest.skip("node не установлен: проверка схемой Microsoft пропущена")
+    path = tmp_path / "book.xlsx"
+    path.write_bytes(book("d-240"))
+    ready = subprocess.run(
+        [npx, "--yes", "-p", VALIDATOR, "ooxml-validate", "--help"],
+        capture_output=True, text=True, timeout=300, check=False,
+    )  # fmt: skip
+    if "ooxml-validate" not in ready.stdout + ready.stderr:
+        pytest.skip("пакет проверки схемой недоступен")
+    done = subprocess.run(
+        [npx, "--yes", "-p", VALIDATOR, "ooxml-validate", str(path),
+         "-f", "xlsx", "--office-version", "Microsoft365"],
+        capture_output=True, text=True, timeout=600, check=False,
+    )  # fmt: skip
+    assert "Found 0 errors" in done.stdout + done.stderr, done.stdout[-3000:]

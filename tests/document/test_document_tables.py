@@ -170,3 +170,33 @@ def test_group_headings_span():
         ("R", 1, 2),
     ]
     assert [c.head for c in lower] == ["K", "T"]
+
+
+@pytest.mark.parametrize("size", ["", "dense", "tiny"])
+def test_lines_stand_under_their_headings(size, tmp_path):
+    count = 9
+    columns = [Column(f"H{k}") for k in range(count)]
+    rows = [[f"{k + 1}{row:02d},{k}" for k in range(count)] for row in range(20)]
+    block = table_block(columns, rows)
+    assert block.tabbed(size) is not None
+    source = (
+        '{% extends "report/base.html.j2" %}{% import "report/macros.html.j2" as m with context %}'
+        "{% block body %}{{ m.table(b, l, 'x', size=size) }}{% endblock %}"
+    )
+    html = (
+        environment()
+        .from_string(source)
+        .render(b=block, l=Label("table", "x", "1", "tab-x"), size=size, doc=DocumentInfo("x"))
+    )
+    path = tmp_path / "a.pdf"
+    path.write_bytes(render(html).pdf)
+    words = re.findall(
+        r'<word xMin="([\d.]+)" yMin="[\d.]+" xMax="([\d.]+)" yMax="[\d.]+">([^<]*)<',
+        poppler("pdftotext", "-bbox", str(path), "-"),
+    )
+    middle = {text.strip("\u00a0"): (float(a) + float(b)) / 2 for a, b, text in words}
+    ends = {text.strip("\u00a0"): float(b) for _, b, text in words}
+    for k in range(count):
+        cells = [f"{k + 1}{row:02d},{k}" for row in range(20)]
+        assert all(abs(middle[cell] - middle[f"H{k}"]) < 6 for cell in cells)
+        assert max(ends[cell] for cell in cells) - min(ends[cell] for cell in cells) < 0.5

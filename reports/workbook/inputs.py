@@ -33,7 +33,7 @@ def write_inputs(sheet: Worksheet, model: Model, layout: Layout) -> None:
             _entry(sheet, item, cell.row, cell.column, place.row + 1)
         else:
             _labels(sheet, item, cell.row)
-        target = sheet.cell(cell.row, cell.column, shown(item))
+        target = styles.as_text(sheet.cell(cell.row, cell.column, shown(item)))
         target.style = styles.STRUCTURE if item.structural else styles.INPUT
         target.number_format = "@" if isinstance(item.value, str) else "General"
         _validate(sheet, item, cell.coordinate)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from openpyxl.cell.cell import Cell
 from openpyxl.styles import Alignment, Border, Font, NamedStyle, PatternFill, Protection, Side
 from openpyxl.workbook import Workbook
 
@@ -22,6 +23,13 @@ LEGEND = (
 )  # fmt: skip
 
 _COLOURS = {INPUT: "FFF2CC", STRUCTURE: "F8CBAD", HELPER: "EDEDED", HEADER: "D9E2F3"}
+
+
+def as_text(cell: Cell) -> Cell:
+    """A person's text stays text even where it looks like a formula."""
+    if isinstance(cell.value, str):
+        cell.data_type = "s"
+    return cell
 
 
 def add_styles(book: Workbook) -> None:

@@ -74,7 +74,7 @@ def workbook_bytes(model: Model, values: Values | None = None) -> bytes:
 
 
 def _heading(sheet: Worksheet, title: str) -> None:
-    sheet.cell(TITLE_ROW, 1, title).style = styles.TITLE
+    styles.as_text(sheet.cell(TITLE_ROW, 1, title)).style = styles.TITLE
     if sheet.title != CONTENTS_SHEET:
         link = sheet.cell(NOTE_ROW, 1, "← Содержание")
         link.hyperlink = f"#{quoted(CONTENTS_SHEET)}!A1"
@@ -126,7 +126,7 @@ def _contents(sheet: Worksheet, model: Model) -> None:
     for label, text in people:
         if text:
             sheet.cell(row, 1, label).style = styles.TEXT
-            sheet.cell(row, 2, text).style = styles.TEXT
+            styles.as_text(sheet.cell(row, 2, text)).style = styles.TEXT
             row += 1
     row += 1
     sheet.cell(row, 1, "Листы").style = styles.SUBTITLE

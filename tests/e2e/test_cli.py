@@ -1,0 +1,246 @@
+"""The command line as a person meets it: results, messages, exit codes, nothing half-written."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+SAMPLES = ROOT / "samples"
+
+
+def kshm(*args: object, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONIOENCODING": "utf-8"}
+    return subprocess.run(
+        [sys.executable, "-m", "reports", *map(str, args)],
+        capture_output=True, text=True, cwd=cwd or ROOT, env=environment, timeout=300, check=False,
+    )  # fmt: skip
+
+
+def refused(done: subprocess.CompletedProcess[str]) -> list[str]:
+    """Lines of a refusal: exit code 2, no traceback, nothing on stdout."""
+    assert done.returncode == 2, (done.stdout, done.stderr)
+    assert "Traceback" not in done.stderr
+    assert done.stdout == ""
+    lines = done.stderr.splitlines()
+    assert lines
+    return lines
+
+
+def edited(tmp_path: Path, *replacements: tuple[str, str], name: str = "gots-diesel") -> Path:
+    text = (SAMPLES / f"{name}.toml").read_text(encoding="utf-8")
+    for old, new in replacements:
+        assert old in text, old
+        text = text.replace(old, new, 1)
+    path = tmp_path / "engine.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def line_of(name: str, key: str) -> str:
+    """The line of a sample that sets a key, comment included."""
+    text = (SAMPLES / f"{name}.toml").read_text(encoding="utf-8")
+    return next(line for line in text.splitlines() if line.split("=")[0].strip() == key)
+
+
+def with_key(tmp_path: Path, key: str, value: str) -> Path:
+    return edited(tmp_path, (line_of("gots-diesel", key), f"{key} = {value}"))
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "words"),
+    [
+        ("bore_mm", "-88.0", ["geometry.bore_mm", "допустимо"]),
+        ("bore_mm", "0", ["geometry.bore_mm", "допустимо"]),
+        ("bore_mm", '"88"', ["geometry.bore_mm"]),
+        ("bore_mm", "nan", ["geometry.bore_mm"]),
+        ("bore_mm", "inf", ["geometry.bore_mm"]),
+        ("rod_length_mm", "40.0", ["geometry"]),
+        ("firing_offsets_deg", "[0, 240]", ["firing_offsets_deg"]),
+        ("firing_offsets_deg", "[0, 480, 240]", ["firing_offsets_deg", "240", "120"]),
+        ("throw_angles_deg", "[0, 90, 240]", ["throw_angles_deg"]),
+        ("max_pressure_mpa", "1.0", ["gas.max_pressure_mpa"]),
+        ("main_lengths_mm", "[32, 32]", ["main_lengths_mm"]),
+        ("step_deg", "7", ["calculation.step_deg"]),
+        ("cylinders", "0", ["engine.cylinders"]),
+    ],
+)
+def test_a_bad_value_is_refused_with_its_key(
+    tmp_path: Path, key: str, value: str, words: list[str]
+) -> None:
+    path = with_key(tmp_path, key, value)
+    out = tmp_path / "out"
+    lines = refused(kshm("build", path, "-o", out))
+    assert all(any(word in line for line in lines) for word in words), lines
+    assert not out.exists()
+
+
+@pytest.mark.parametrize(
+    ("content", "word"),
+    [
+        (b"", "пуст"),
+        (b"[engine", "обрывается"),
+        (bytes(range(256)) * 20, ""),
+        (b"\xff\xfe[\x00e\x00", ""),
+        (b"[engine]\ncylinders = 3\n", "geometry"),
+    ],
+)
+def test_a_file_that_is_no_input_is_refused(tmp_path: Path, content: bytes, word: str) -> None:
+    path = tmp_path / "engine.toml"
+    path.write_bytes(content)
+    lines = refused(kshm("build", path, "-o", tmp_path / "out"))
+    assert word in " ".join(lines)
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_misspelt_key_is_refused_with_the_likely_one(tmp_path: Path) -> None:
+    path = edited(tmp_path, ("bore_mm", "boer_mm"))
+    lines = refused(kshm("check", path))
+    assert any("boer_mm" in line and "bore_mm" in line for line in lines)
+
+
+def test_all_errors_are_told_at_once(tmp_path: Path) -> None:
+    path = edited(
+        tmp_path,
+        (line_of("gots-diesel", "bore_mm"), "bore_mm = -1"),
+        (line_of("gots-diesel", "speed_rpm"), "speed_rpm = 0"),
+    )
+    lines = refused(kshm("check", path))
+    assert any("bore_mm" in line for line in lines)
+    assert any("speed_rpm" in line for line in lines)
+
+
+def test_r_l_and_lambda_that_disagree(tmp_path: Path) -> None:
+    bore = line_of("gots-diesel", "bore_mm")
+    path = edited(tmp_path, (bore, bore + "\nlambda = 0.25"))
+    assert any("lambda" in line for line in refused(kshm("check", path)))
+
+
+def test_unusual_lambda_is_a_warning_and_exit_code_1(tmp_path: Path) -> None:
+    path = with_key(tmp_path, "rod_length_mm", "100.0")
+    done = kshm("check", path)
+    assert done.returncode == 1
+    assert "Внимание" in done.stderr
+
+
+def test_a_missing_file_and_an_unknown_command() -> None:
+    assert len(refused(kshm("build", "no-such.toml"))) == 1
+    assert len(refused(kshm("bild", "x.toml"))) == 1
+    assert len(refused(kshm("build"))) == 1
+    assert len(refused(kshm("build", "x.toml", "--colour"))) == 1
+
+
+def test_old_files_survive_a_failed_build(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    assert kshm("build", SAMPLES / "gots-diesel.toml", "-o", out, "--only", "xlsx").returncode == 0
+    book = out / "gots-diesel.xlsx"
+    before = book.read_bytes()
+    bad = with_key(tmp_path, "bore_mm", "-1")
+    bad.rename(tmp_path / "gots-diesel.toml")
+    refused(kshm("build", tmp_path / "gots-diesel.toml", "-o", out))
+    assert book.read_bytes() == before
+    assert [path.name for path in out.iterdir()] == ["gots-diesel.xlsx"]
+
+
+def test_an_output_place_that_cannot_be_written(tmp_path: Path) -> None:
+    blocker = tmp_path / "file"
+    blocker.write_text("x")
+    lines = refused(kshm("build", SAMPLES / "gots-diesel.toml", "-o", blocker, "--only", "xlsx"))
+    assert "file" in lines[0]
+    assert blocker.read_text() == "x"
+
+
+def test_build_does_not_write_over_the_edited_book(tmp_path: Path) -> None:
+    kshm("build", SAMPLES / "gots-diesel.toml", "-o", tmp_path, "--only", "xlsx")
+    lines = refused(kshm("build", tmp_path / "gots-diesel.xlsx", "-o", tmp_path))
+    assert "-o" in lines[0]
+
+
+def test_names_with_slashes_and_markup_are_text(tmp_path: Path) -> None:
+    name = line_of("gots-diesel", "name")
+    path = edited(tmp_path, (name, 'name = "a/b <script>alert(1)</script> =1+1 &amp;"'))
+    done = kshm("build", path, "-o", tmp_path / "out", "--only", "xlsx")
+    assert done.returncode == 0, done.stderr
+    from openpyxl import load_workbook
+
+    book = load_workbook(tmp_path / "out" / "engine.xlsx")
+    values = [cell.value for row in book["Содержание"].iter_rows() for cell in row if cell.value]
+    assert "a/b <script>alert(1)</script> =1+1 &amp;" in values
+
+
+def test_a_name_that_looks_like_a_formula_stays_text(tmp_path: Path) -> None:
+    name = line_of("gots-diesel", "name")
+    path = edited(tmp_path, (name, 'name = "=1+1"'))
+    done = kshm("build", path, "-o", tmp_path / "out", "--only", "xlsx")
+    assert done.returncode == 0, done.stderr
+    from openpyxl import load_workbook
+
+    book = load_workbook(tmp_path / "out" / "engine.xlsx")
+    cells = [
+        cell for sheet in book for row in sheet.iter_rows() for cell in row if cell.value == "=1+1"
+    ]
+    assert cells
+    assert {cell.data_type for cell in cells} == {"s"}
+
+
+def test_solve_writes_csv_in_the_golden_shape(tmp_path: Path) -> None:
+    done = kshm(
+        "solve", SAMPLES / "gots-diesel.toml", "--csv", tmp_path, "--json", tmp_path / "a.json"
+    )
+    assert done.returncode == 0, done.stderr
+    golden = ROOT / "tests" / "textbook" / "data"
+    for table in ("P3_1", "P3_2", "P4_1", "P4_2", "P4_3", "P4_4", "P4_5", "table_1", "table_2",
+                  "table_3", "table_5", "table_6", "table_7", "table_8", "table_14"):  # fmt: skip
+        ours = (tmp_path / f"{table}.csv").read_text(encoding="utf-8").splitlines()
+        theirs = (golden / f"{table}.csv").read_text(encoding="utf-8").splitlines()
+        assert ours[0] == theirs[0], table
+    with (tmp_path / "P4_1.csv").open(encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    assert [row["phi_deg"] for row in rows][:2] == ["0", "10"]
+    assert len(rows[1]["Pj_MPa"]) > 10
+    data = json.loads((tmp_path / "a.json").read_text(encoding="utf-8"))
+    assert set(data) == {"engine", "summary", "tables"}
+    columns = data["tables"]["P4_1"]["columns"]
+    assert columns[0]["key"] == "phi_deg"
+    assert set(columns[0]) == {"key", "symbol", "unit", "title"}
+    assert len(data["tables"]["P4_1"]["rows"]) == 73
+
+
+def test_solve_json_to_stdout_is_json_alone() -> None:
+    done = kshm("solve", SAMPLES / "gots-diesel.toml", "--json", "-")
+    assert done.returncode == 0
+    json.load(io.StringIO(done.stdout))
+
+
+def test_new_gives_an_input_that_check_accepts(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    assert kshm("new", "-o", path).returncode == 0
+    assert kshm("check", path).returncode in (0, 1)
+    assert len(refused(kshm("new", "-o", path))) == 1
+    for sample in SAMPLES.glob("*.toml"):
+        done = kshm("new", "--sample", sample.stem)
+        assert done.returncode == 0
+        assert "#" in done.stdout
+
+
+def test_check_json(tmp_path: Path) -> None:
+    good = json.loads(kshm("check", SAMPLES / "gots-diesel.toml", "--json").stdout)
+    assert good == {"ok": True, "errors": [], "warnings": []}
+    bad = json.loads(kshm("check", with_key(tmp_path, "bore_mm", "-1"), "--json").stdout)
+    assert not bad["ok"]
+    assert "bore_mm" in bad["errors"][0]["where"]
+
+
+def test_help_is_russian() -> None:
+    done = kshm("--help")
+    assert done.returncode == 0
+    assert "Использование:" in done.stdout
+    for word in ("Usage", "Options", "Commands", "Show this"):
+        assert word not in done.stdout + kshm("build", "--help").stdout

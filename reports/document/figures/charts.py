@@ -293,7 +293,8 @@ def _name(
     room.curves.extend(lines)
     ends = np.array([axes.get_xlim()[0], axes.get_xlim()[1]])
     level_lines = [dense(to_sheet(np.column_stack([ends, [lv.y, lv.y]]))) for lv in levels]
-    room.curves.extend(level_lines)
+    zero = [dense(to_sheet(np.column_stack([ends, [0.0, 0.0]])))]
+    room.curves.extend(level_lines + zero)
     for mark in marks:
         _mark(axes, room, mark)
     for level, line in zip(levels, level_lines, strict=True):

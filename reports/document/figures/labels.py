@@ -103,13 +103,9 @@ def box_at(
 ) -> tuple[float, float, float, float]:
     """Box of a text set off from a point in a direction so that it clears it by ``gap``."""
     width, height = size
-    norm = float(np.hypot(*direction)) or 1.0
-    ux, uy = direction[0] / norm, direction[1] / norm
-    reach = min(
-        (width / 2 + gap) / abs(ux) if ux else float("inf"),
-        (height / 2 + gap) / abs(uy) if uy else float("inf"),
-    )
-    x, y = point[0] + ux * reach, point[1] + uy * reach
+    norm = max(abs(direction[0]), abs(direction[1])) or 1.0
+    x = point[0] + direction[0] / norm * (width / 2 + gap)
+    y = point[1] + direction[1] / norm * (height / 2 + gap)
     return (x - width / 2, y - height / 2, x + width / 2, y + height / 2)
 
 

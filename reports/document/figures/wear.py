@@ -139,7 +139,7 @@ def _hole(pen: Pen, centre: Point, radius: float, degrees: float, turn: float) -
     pen.shape([at(deep, 1), at(radius, 1), at(radius, -1), at(deep, -1)], fill="#ffffff", width=0)
     for side in (1, -1):
         pen.line([at(deep, side), at(radius, side)], 1.3)
-    pen.line([at(deep, 1), at(deep - 4, 0), at(deep, -1)], 1.3)
+    pen.line([at(deep, 1), at(deep, -1)], 1.3)
     pen.line([centre, at(radius + 10, 0)], THIN, CENTRE)
     shorter = (degrees + 180) % 360 - 180
     if abs(shorter) > 1:

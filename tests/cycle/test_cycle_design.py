@@ -82,6 +82,13 @@ def test_no_bore_in_range(engine, power, part):
     assert "\n" not in str(caught.value)
 
 
+def test_the_refusal_names_power_and_bore(diesel):
+    with pytest.raises(CycleError) as caught:
+        design(diesel, 70e3, 1.068, bore_range=(0.1, 0.2))
+    text = "N_e = 70 кВт требует D = 89,22 мм, допускается от 100 до 200 мм; увеличьте мощность"
+    assert text in str(caught.value)
+
+
 def test_friction_that_leaves_nothing(gasoline):
     fast = replace(gasoline, omega=2000.0, mechanical=FRICTION["petrol"])
     with pytest.raises(CycleError, match="механические потери") as caught:

@@ -135,3 +135,21 @@ def test_exhaust_carries_enthalpy_above_the_charge(engine):
     flow = r.effective.fuel_flow
     assert heat_balance(r).exhaust == pytest.approx(1e3 * flow * (out - come), rel=1e-12)
     assert heat_balance(r).total == pytest.approx(flow * engine.fuel.heating_value, rel=1e-14)
+
+
+# Mean heat capacities worked out by hand from the two columns at 1000 and 2000 °C
+TABLE = {
+    "air": (23.238, 25.285),
+    "O2": (24.731, 26.823),
+    "N2": (22.898, 24.865),
+    "H2": (21.478, 23.194),
+    "CO": (23.267, 25.350),
+    "CO2": (41.454, 45.821),
+    "H2O": (30.312, 35.546),
+}
+
+
+@pytest.mark.parametrize("name", sorted(SPECIES))
+def test_heat_capacities_of_the_species(name):
+    found = [SPECIES[name].mean(t) for t in (1000.0, 2000.0)]
+    assert found == pytest.approx(TABLE[name], abs=5e-4)

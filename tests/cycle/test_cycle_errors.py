@@ -69,6 +69,11 @@ PETROL = [
 BOOST = [
     ({"pressure_ratio": 9.0}, "boost.pressure_ratio", "уменьшите π_k"),
     ({"cooler_temperature_drop": 200.0}, "boost.cooler_temperature_drop", "уменьшите ΔT_охл"),
+    (
+        {"pressure_ratio": 1.0, "cooler_pressure_loss": 0.06e6},
+        "boost.cooler_pressure_loss",
+        "p_k = 0,04 МПа; уменьшите Δp_охл",
+    ),
     ({"cooler_pressure_loss": NAN}, "boost.cooler_pressure_loss", "задайте число"),
     ({"turbine_efficiency": 0.0}, "boost.turbine_efficiency", "увеличьте η_т"),
 ]

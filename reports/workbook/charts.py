@@ -88,13 +88,14 @@ def _axes(chart: ScatterChart, spec: ChartSpec) -> None:
     # Square plot, equal axes; journal axes run to the left, K runs down to the crank axis.
     chart.layout = PlotLayout(
         manualLayout=ManualLayout(
-            layoutTarget="inner", xMode="edge", yMode="edge", x=0.14, y=0.13, w=0.76, h=0.76
+            layoutTarget="inner", xMode="edge", yMode="edge", x=0.16, y=0.17, w=0.74, h=0.74
         )
     )
     if spec.kind == "path":
         for axis in (chart.x_axis, chart.y_axis):
-            axis.scaling.min, axis.scaling.max = -1.2, 1.2
-            axis.majorUnit = 0.4
+            axis.scaling.min, axis.scaling.max = -1, 1
+            axis.majorUnit = 0.5
+            axis.number_format = "0.0"
     if spec.kind == "path" or spec.series[0].x.endswith("Rx_MPa"):
         chart.x_axis.scaling.orientation = "maxMin"
     if spec.series[0].y.endswith("Krod_MPa"):

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 from openpyxl.utils import get_column_letter
 
+from reports.formula.excel import number
 from reports.inputs.fields import Field
 from reports.tables.spec import Block, Grid, Model, ScalarTable, TableSpec, scalars_of
 
@@ -234,9 +235,10 @@ class Layout:
                 return item.name
         return None
 
-    def step_formula(self, row: int, column: int) -> str:
-        """Angle of a row from the row above and the step of the grid."""
-        return f"={Cell('', row - 1, column).coordinate}+calculation_step_deg"
+    def step_formula(self, table: TableSpec, row: int, column: int) -> str:
+        """First column of a row from the row above and the step of the table's grid."""
+        step = "calculation_step_deg" if table.step is None else number(table.step)
+        return f"={Cell('', row - 1, column).coordinate}+{step}"
 
     def area(self, first: Cell, last: Cell) -> str:
         """Range between two cells of a sheet, without the sheet."""
@@ -286,6 +288,16 @@ class RowReferences:
         if found is None:
             raise KeyError(key)
         return self._cell(found, _NEXT)
+
+    def down_to_here(self, key: str) -> str:
+        """Column from its first row down to this row."""
+        found = self._column(key)
+        if found is None:
+            raise KeyError(key)
+        here = self._cell(found, _ROW)
+        letter = get_column_letter(found[1])
+        prefix, separator, last = here.rpartition("!")
+        return f"{prefix}{separator}${letter}${FIRST_ROW}:{last}"
 
     def _qualified(self, key: str) -> str:
         local = f"{self._table.id}.{key}" if self._table is not None else key

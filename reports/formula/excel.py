@@ -24,6 +24,9 @@ class References(Protocol):
     def following(self, key: str) -> str:
         """Reference to the next row's cell of a column; in the last row to its own."""
 
+    def down_to_here(self, key: str) -> str:
+        """Range of a column from its first row down to this one."""
+
 
 _FUNCTIONS = {
     "sin": "SIN", "cos": "COS", "tan": "TAN", "asin": "ASIN", "acos": "ACOS", "sqrt": "SQRT",
@@ -113,6 +116,10 @@ def _call(name: str, args: list[ast.expr], refs: References) -> tuple[str, int]:
         return _aggregate(name, args[0], refs), _ATOM
     if name == "following":
         return refs.following(_key(args[0])), _ATOM
+    if name == "running_sum":
+        return f"SUM({refs.down_to_here(_key(args[0]))})", _ATOM
+    if name in ("fourier_cos", "fourier_sin"):
+        return _fourier(name, args, refs), 3
     if name == "atan2":
         # Excel takes (x, y) where everybody else takes (y, x).
         y, x = (_emit(arg, refs)[0] for arg in args)
@@ -142,6 +149,14 @@ def _aggregate(name: str, node: ast.expr, refs: References) -> str:
         "col_last": lambda: refs.last(key),
     }
     return functions[name]()
+
+
+def _fourier(name: str, args: list[ast.expr], refs: References) -> str:
+    """Fourier coefficient of a column over an angle in degrees, without the repeated last row."""
+    values = refs.column(_key(args[0]), repeat_last=False)
+    angles = refs.column(_key(args[1]), repeat_last=False)
+    turn = f"{name.removeprefix('fourier_').upper()}({angles}*({_emit(args[2], refs)[0]}*PI()/180))"
+    return f"2*SUMPRODUCT({values},{turn})/COUNT({values})"
 
 
 def _interpolate(args: list[ast.expr], refs: References) -> str:

@@ -21,6 +21,19 @@ _FUNCTIONS: dict[str, Callable[..., Value]] = {
     "interpolate": np.interp,
 }  # fmt: skip
 
+
+def _fourier(turn: Callable[[Value], Value]) -> Callable[[Value, Value, Value], Value]:
+    """Fourier coefficient of a column over an angle in degrees; one order or one per row."""
+
+    def coefficient(column: Value, degrees: Value, order: Value) -> Value:
+        waves = turn(np.multiply.outer(order, np.radians(degrees[:-1])))
+        return 2 * (waves @ column[:-1]) / (len(column) - 1)
+
+    return coefficient
+
+
+_FUNCTIONS |= {"fourier_cos": _fourier(np.cos), "fourier_sin": _fourier(np.sin)}
+
 _OPERATORS: dict[type[ast.AST], Callable[[Value, Value], Value]] = {
     ast.Add: np.add, ast.Sub: np.subtract, ast.Mult: np.multiply, ast.Div: np.divide,
     ast.Pow: np.power, ast.Lt: np.less, ast.LtE: np.less_equal, ast.Gt: np.greater,
@@ -91,6 +104,8 @@ def _call(name: str, args: list[Value]) -> Value:
         return args[0] / SCALES[unit] if way == "to" else args[0] * SCALES[unit]
     if name == "following":
         return np.append(args[0][1:], args[0][-1])
+    if name == "running_sum":
+        return np.cumsum(args[0])
     if name in AGGREGATES:
         return _aggregate(name, np.asarray(args[0], dtype=float))
     if name in ("min", "max", "total"):

@@ -12,6 +12,7 @@ FUNCTIONS: dict[str, tuple[int, int]] = {
     "mod": (2, 2), "min": (1, 40), "max": (1, 40), "total": (1, 40),
     "rad": (1, 1), "deg": (1, 1),
     "interpolate": (3, 3),
+    "fourier_cos": (3, 3), "fourier_sin": (3, 3),
 }  # fmt: skip
 
 # Functions of a whole column; the last row repeats the first angle and is left out of
@@ -24,8 +25,9 @@ SCALES: dict[str, float] = {
 }  # fmt: skip
 SCALE_FUNCTIONS = frozenset(f"{way}_{unit}" for unit in SCALES for way in ("to", "of"))
 
-# Values of the following row of a column; in the last row the row itself.
-SHIFTS = frozenset({"following"})
+# Values of the following row of a column (in the last row the row itself) and the sum of a
+# column from its first row down to this one.
+SHIFTS = frozenset({"following", "running_sum"})
 
 CONSTANTS = frozenset({"pi"})
 

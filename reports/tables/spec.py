@@ -34,7 +34,11 @@ class Column:
 
 @dataclass(frozen=True, slots=True)
 class TableSpec:
-    """A table over the crank angle.  ``number`` is the book's, ``sheet`` where it stands."""
+    """A table over the crank angle.  ``number`` is the book's, ``sheet`` where it stands.
+
+    ``step`` is the distance of the rows of a table on its own grid, None the step of
+    the calculation.
+    """
 
     id: str
     number: str
@@ -44,6 +48,7 @@ class TableSpec:
     rows: tuple[float, ...]
     note: str = ""
     helper: bool = False
+    step: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

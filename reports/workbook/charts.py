@@ -49,7 +49,7 @@ def make_chart(spec: ChartSpec, layout: Layout, values: Values) -> ScatterChart:
     for number, series in enumerate(spec.series):
         chart.series.append(_series(series, number, layout, values, spec))
     chart.display_blanks = "gap"
-    _axes(chart, spec)
+    _axes(chart, spec, values)
     if spec.kind == "line" and len(spec.series) > 1:
         chart.legend.position = "b"
         chart.legend.overlay = False
@@ -67,7 +67,7 @@ def _title(text: str, size: int) -> Title:
     return Title(tx=Text(rich=RichText(p=[paragraph])), overlay=False)
 
 
-def _axes(chart: ScatterChart, spec: ChartSpec) -> None:
+def _axes(chart: ScatterChart, spec: ChartSpec, values: Values) -> None:
     for axis, title in ((chart.x_axis, spec.x_title), (chart.y_axis, spec.y_title)):
         axis.delete = False
         axis.tickLblPos = "low"
@@ -79,8 +79,9 @@ def _axes(chart: ScatterChart, spec: ChartSpec) -> None:
         )
         if title:
             axis.title = _title(title, 1000)
-    if spec.x_title.startswith("φ"):
-        last = 360 if spec.sheet.startswith("П3") else 720
+    if spec.x_title.startswith(("φ", "α")):
+        table, column = spec.series[0].x.split(".")
+        last = float(values.columns[table][column][-1])
         chart.x_axis.scaling.min, chart.x_axis.scaling.max = 0, last
         chart.x_axis.majorUnit = last / 12
     if spec.kind == "line":

@@ -70,7 +70,7 @@ class Writer:
                 elif row == FIRST_ROW:
                     text = None
                 else:
-                    text = self.layout.step_formula(row, index)
+                    text = self.layout.step_formula(table, row, index)
                 value = float(values[row - FIRST_ROW])
                 if text is None:
                     sheet.cell(row, index, value)

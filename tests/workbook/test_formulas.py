@@ -16,9 +16,9 @@ from reports.layout import INPUT_SHEET, Layout
 from tests.workbook.made import book, model
 
 ALLOWED = {
-    "ABS", "ACOS", "AND", "ASIN", "ATAN2", "AVERAGE", "COS", "DEGREES", "EXP", "IF", "INDEX",
+    "ABS", "ACOS", "AND", "ASIN", "ATAN2", "AVERAGE", "COS", "COUNT", "DEGREES", "EXP", "IF", "INDEX",
     "INT", "LN", "MATCH", "MAX", "MIN", "MOD", "NOT", "OR", "PI", "RADIANS", "SIN", "SQRT", "SUM",
-    "TAN",
+    "SUMPRODUCT", "TAN",
 }  # fmt: skip
 
 
@@ -58,7 +58,7 @@ def test_results_are_formulas_and_never_typed_numbers() -> None:
     opened = load_workbook(io.BytesIO(book()))
     layout = Layout.of(model())
     first_angles = {
-        (table.sheet, 6, layout.column_of(f"{table.id}.phi_deg"))
+        (table.sheet, 6, layout.column_of(f"{table.id}.{table.columns[0].key}"))
         for table in model().tables.values()
     }
     for sheet in opened.worksheets:

@@ -41,9 +41,3 @@ def running_on_pin_statics(before: Array, tangential: Array, r: Array) -> Array:
         r: crank radius [m].
     """
     return before + r * tangential
-
-
-def cycle_mean(values: Array) -> Array:
-    """Mean over the cycle; the last angle repeats the first and is left out."""
-    mean: Array = values[..., :-1].mean(axis=-1)
-    return mean

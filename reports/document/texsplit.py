@@ -56,7 +56,8 @@ def break_points(tex: str) -> list[BreakPoint]:
             rounds -= 1
         elif groups == 0 and previous:
             point = _point(token, match.end(), previous, rounds)
-            if point is not None:
+            # Nothing but a carried sign stands before: such a break would repeat for ever.
+            if point is not None and tex[: match.start()].strip() != "{}":
                 points.append(point)
         if not token.isspace():
             previous = token

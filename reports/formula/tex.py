@@ -23,6 +23,17 @@ _COMPARISONS = {
 _SUM, _PRODUCT, _POWER, _ATOM = 1, 2, 3, 4
 
 
+# Constants below this are tolerances of comparisons; a printed formula leaves them out.
+_TOLERANCE = 1e-5
+_WIDEST = 40  # signs of a numerator that still fits a line
+
+
+class Raw(str):
+    """A value that is TeX already and is put in as it stands."""
+
+    __slots__ = ()
+
+
 class NotPrintable(ValueError):  # noqa: N818
     """The expression has no plain printed form (a choice, an interpolation)."""
 
@@ -65,6 +76,19 @@ def pieces(text: str, symbols: Symbols) -> list[Piece]:
     return found
 
 
+def chosen(text: str, holds: Callable[[str], bool]) -> str:
+    """The branch of a nested choice that is in force; the expression itself without a choice.
+
+    Args:
+        text: the expression.
+        holds: tells whether a condition, given as an expression, is true.
+    """
+    node = parse(text)
+    while isinstance(node, ast.IfExp):
+        node = node.body if holds(ast.unparse(node.test)) else node.orelse
+    return ast.unparse(node)
+
+
 def number_tex(value: float, digits: int = 4) -> str:
     """A number for TeX: significant digits, decimal comma, powers of ten for extremes."""
     if value == 0:
@@ -92,6 +116,23 @@ def input_symbol_tex(symbol: str) -> str:
         return text
     body = rf"\mathrm{{{index}}}" if re.search("[а-яА-Я.]", index) else index
     return f"{text}_{{{body}}}"
+
+
+def _is_tolerance(node: ast.expr) -> bool:
+    return (
+        isinstance(node, ast.Constant)
+        and isinstance(node.value, float)
+        and 0 < abs(node.value) < _TOLERANCE
+    )
+
+
+def _is_long(node: ast.expr, text: str) -> bool:
+    """Whether the numerator is a sum too wide for a line."""
+    return (
+        isinstance(node, ast.BinOp)
+        and isinstance(node.op, ast.Add | ast.Sub)
+        and len(re.sub(r"\\[A-Za-z]+|[{}_^ ]", "", text)) > _WIDEST
+    )
 
 
 class _Printer:
@@ -135,6 +176,8 @@ class _Printer:
         if self.numbers is None:
             return self.symbols(name), _ATOM
         value = self.numbers(name)
+        if isinstance(value, Raw):
+            return value, _POWER if value.startswith("-") else _ATOM
         if isinstance(value, str):
             return rf"\mathrm{{{value}}}", _ATOM
         text = number_tex(value)
@@ -143,25 +186,50 @@ class _Printer:
     def _binary(self, node: ast.BinOp) -> tuple[str, int]:
         left, right = node.left, node.right
         match node.op:
+            case ast.Add() if _is_tolerance(right):
+                return self._emit(left)
             case ast.Add():
                 return f"{self.text(left)} + {self._wrap(right, _SUM)}", _SUM
             case ast.Sub():
                 return f"{self.text(left)} - {self._wrap(right, _PRODUCT)}", _SUM
             case ast.Mult():
                 first, second = self._wrap(left, _PRODUCT), self._wrap(right, _PRODUCT)
-                dot = self.numbers is not None or second[:1].isdigit()
-                sign = r"\cdot" if dot else r"\,"
-                return f"{first} {sign} {second}", _PRODUCT
+                if isinstance(left, ast.UnaryOp):  # −a·b, not (−a)·b
+                    first = self.text(left)
+                return f"{first}{self._times(left, first, second)}{second}", _PRODUCT
+            case ast.Div() if _is_long(left, self.text(left)):
+                # Brackets without \left may be broken between lines, a fraction may not.
+                return rf"\dfrac{{1}}{{{self.text(right)}}} \,[{self.text(left)}]", _PRODUCT
+            case ast.Div() if isinstance(left, ast.UnaryOp):
+                over = self._emit(left.operand)[0]
+                return rf"-\dfrac{{{over}}}{{{self.text(right)}}}", _PRODUCT
             case ast.Div():
                 return rf"\dfrac{{{self.text(left)}}}{{{self.text(right)}}}", _PRODUCT
         return self._power(left, right)
+
+    def _times(self, left: ast.expr, first: str, second: str) -> str:
+        if self.numbers is not None or second[:1].isdigit():
+            return r" \cdot "
+        # A coefficient stands close to its symbol, brackets and functions keep their own room.
+        close = isinstance(left, ast.Constant) or second.startswith((r"\left", r"\sin", r"\cos"))
+        if second.startswith(r"\dfrac") or first.endswith(r"\right)"):
+            return r" \, "
+        return " " if close else r" \, "
 
     def _power(self, base: ast.expr, exponent: ast.expr) -> tuple[str, int]:
         power = self.text(exponent)
         match base:
             case ast.Call(func=ast.Name(id=name), args=[argument]) if name in ("sin", "cos"):
                 return rf"{_NAMES[name]}^{{{power}}} {self._argument(argument)}", _PRODUCT
-        return f"{self._wrap(base, _ATOM)}^{{{power}}}", _POWER
+            case ast.Call(func=ast.Name(id="sqrt"), args=[argument]):
+                inside = self._power(argument, exponent)[0]
+                return rf"\sqrt{{{inside}}}", _ATOM
+        text = self._wrap(base, _ATOM)
+        if "'" in text and not text.startswith(r"\left"):
+            text = rf"\left({text}\right)"  # a prime and a power on one letter collide
+        if text.startswith(r"\dfrac"):
+            text = rf"\left({text}\right)"
+        return f"{text}^{{{power}}}", _POWER
 
     def _argument(self, node: ast.expr) -> str:
         """Argument of a function: without brackets where it is one symbol or number."""
@@ -169,7 +237,10 @@ class _Printer:
         simple = level == _ATOM or (
             self.numbers is None and level == _PRODUCT and "frac" not in text
         )
-        return text if simple and "+" not in text else rf"\left({text}\right)"
+        function = any(name in text for name in (r"\sin", r"\cos", r"\tg"))
+        if simple and not function and "+" not in text:
+            return text
+        return rf"\left({text}\right)"
 
     def _call(self, name: str, args: list[ast.expr]) -> tuple[str, int]:
         if name == "rad":
@@ -188,6 +259,14 @@ class _Printer:
         if name in ("min", "max"):
             parts = r";\, ".join(self.text(arg) for arg in args)
             return rf"\{name}\left({parts}\right)", _ATOM
+        if name == "mod":
+            inside, modulus = self.text(args[0]), self.text(args[1])
+            return rf"{inside} \;\left(\mathrm{{mod}}\; {modulus}^{{\circ}}\right)", _SUM
+        if name == "atan2":
+            ratio = rf"\dfrac{{{self.text(args[0])}}}{{{self.text(args[1])}}}"
+            return rf"\mathrm{{arctg}}\,{ratio}", _PRODUCT
+        if name == "total":
+            return " + ".join(self._wrap(arg, _SUM) for arg in args), _SUM
         if name in _NAMES:
             return f"{_NAMES[name]} {self._argument(args[0])}", _PRODUCT
         if name in AGGREGATES:

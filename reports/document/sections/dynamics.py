@@ -1,0 +1,122 @@
+"""Chapter on dynamics: masses, gas pressure, forces (figures 46-48 of the textbook)."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+from markupsafe import Markup
+
+from reports.document.figures import Level, Mark, line_chart, pv_diagram
+from reports.document.sections.chapter import Chapter
+from reports.document.sections.plots import PHI, over_phi, phi, series
+from reports.document.spec_tables import scalar_table
+from reports.document.terms import Terms
+from reports.document.writer import Figure, TablePlan
+from reports.inputs.model import PolytropicGasSection
+
+EXAMPLE = 390.0  # shortly after the greatest pressure
+
+
+def dynamics(chapter: Chapter) -> Markup:
+    """Masses, pressure of the gases and the forces of one cylinder."""
+    terms, gas = chapter.terms, chapter.input.gas
+    polytropic = isinstance(gas, PolytropicGasSection)
+    figures = {
+        "pv": _pv(terms),
+        "p_phi": _p_phi(terms),
+        "specific": over_phi(terms, "Удельные силы давления газов, инерции и их сумма",
+                             "$p'$, МПа", "P4_1.Pg_MPa", "P4_1.Pj_MPa", "P4_1.Ps_MPa", height=95.0),
+        "ns": over_phi(terms, "Удельные силы, действующие на стенку цилиндра и вдоль шатуна",
+                       "МПа", "P4_1.N_MPa", "P4_1.S_MPa", height=90.0),
+        "kt": over_phi(terms, "Удельные нормальная и тангенциальная силы на кривошипе",
+                       "МПа", "P4_1.K_MPa", "P4_1.T_MPa", height=90.0),
+    }  # fmt: skip
+    points = TablePlan(partial(_points, terms), "Характерные точки индикаторной диаграммы")
+    masses = [key for key in ("m_1", "m_2", "m_j") if _is_computed(chapter, key)]
+    inertia = terms.column("P4_1.Pj_MPa")
+    tables_at = {"tdc": terms.num("P4_1.Pj_MPa", 360.0), "bdc": terms.num("P4_1.Pj_MPa", 180.0)}
+    return chapter.page(
+        "dynamics.html.j2",
+        figures=figures,
+        points=points,
+        polytropic=polytropic,
+        pressure=_pressure_tex(terms) if polytropic else "",
+        masses=masses,
+        at=EXAMPLE,
+        exact=chapter.input.calculation.method == "exact",
+        inertia=tables_at | {"size": float(np.ptp(inertia))},
+    )
+
+
+def _is_computed(chapter: Chapter, key: str) -> bool:
+    """Whether a mass follows from others and is not simply given."""
+    scalar = chapter.model.scalars.get(key)
+    return (
+        scalar is not None
+        and not scalar.expr.startswith("masses_")
+        or (scalar is not None and any(sign in scalar.expr for sign in "+-*/"))
+    )
+
+
+def _points(terms: Terms):  # type: ignore[no-untyped-def]
+    names = [
+        "phi_c_deg", "p_start", "p_c_end", "gas_max_pressure_mpa",
+        "phi_open_deg", "p_open", "phi_close_deg",
+    ]  # fmt: skip
+    return scalar_table(terms, names)
+
+
+def _pressure_tex(terms: Terms) -> str:
+    """All branches of the pressure with the ranges of angles in which they hold."""
+    lines, low = [], ""
+    for piece in terms.branches("gas.p_MPa"):
+        left = rf"{terms.tex('gas.p_MPa')} = {piece.formula},\quad "
+        if piece.condition is None:
+            lines.append(rf"{left}\varphi > {low}")
+            continue
+        limit = piece.condition.split(r"\leq ")[1]
+        limit += r"^{\circ}" if limit.isdigit() and limit != "0" else ""
+        lines.append(rf"{left}{low} < \varphi \leq {limit}" if low else rf"{left}\varphi = {limit}")
+        low = limit
+    return r" \\ ".join(lines)
+
+
+def _marks(terms: Terms, x: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> tuple[Mark, ...]:
+    """Points of the cycle that lie on the grid: a, z, b, r."""
+    p = terms.column("gas.p_MPa")
+    angles = np.asarray(phi(terms, "gas"))
+    rows = {"$a$": terms.row("gas", 180.0), "$z$": int(np.argmax(p)), "$r$": 0}
+    if terms.has("phi_open_deg"):
+        opening = terms.value("phi_open_deg")
+        rows["$b$"] = int(np.flatnonzero(angles <= opening + 1e-9)[-1])
+    return tuple(Mark(name, float(x[row]), float(p[row])) for name, row in rows.items())
+
+
+def _pv(terms: Terms) -> Figure:
+    volume = terms.column("gas.volume_dm3")
+    draw = partial(
+        pv_diagram,
+        volume,
+        terms.column("gas.p_MPa"),
+        marks=_marks(terms, volume),
+        volume_label="$V$, дм³",
+        pressure_label=rf"${terms.tex('gas.p_MPa')}$, МПа",
+        ambient=terms.value("gas_ambient_pressure_mpa"),
+    )
+    return Figure(draw, "Индикаторная диаграмма в координатах p–V")
+
+
+def _p_phi(terms: Terms) -> Figure:
+    angles = np.asarray(phi(terms, "gas"))
+    draw = partial(
+        line_chart,
+        phi(terms, "gas"),
+        series(terms, "gas.p_MPa"),
+        PHI,
+        rf"${terms.tex('gas.p_MPa')}$, МПа",
+        height=80.0,
+        levels=(Level("$p_0$", terms.value("gas_ambient_pressure_mpa")),),
+        marks=_marks(terms, angles),
+    )
+    return Figure(draw, "Индикаторная диаграмма, развёрнутая по углу поворота вала")

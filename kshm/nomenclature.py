@@ -11,6 +11,8 @@ import re
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
+from kshm.nomenclature_companions import COMPANION_ROWS
+
 
 @dataclass(frozen=True, slots=True)
 class Unit:
@@ -265,7 +267,9 @@ _THROWS: tuple[tuple[str, str, str, str, str, str], ...] = (
 _ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X", "XI", "XII",
           "XIII", "XIV", "XV", "XVI", "XVII", "XVIII")  # fmt: skip
 
-_ALL: dict[str, Quantity] = {row[0]: Quantity(*row) for row in (*_ROWS, *_SCALARS, *_THROWS)}
+_ALL: dict[str, Quantity] = {
+    row[0]: Quantity(*row) for row in (*_ROWS, *_SCALARS, *_THROWS, *COMPANION_ROWS)
+}
 
 
 def roman(number: int) -> str:

@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kshm import kinematics
+from kshm.companions import companion_columns, companion_scalars
+from kshm.cycle_summary import cycle_columns
 from kshm.engine import Engine
 from kshm.nomenclature import quantity, ray_key
 from kshm.summary import summarise
@@ -62,18 +64,20 @@ class Solution:
                 for k in range(self._journals)
             },
         }
+        if self.engine.cycle is not None:
+            made = cycle_columns(self.engine.cycle, self.engine.step_deg)
+            tables |= {name: self._units(columns) for name, columns in made.items()}
         worst = int(self.scalars["worst_main_load"])
         chosen = tables[f"P4_3_{worst}"]
         tables["P4_3"] = {key: chosen[key] for key in ("phi_deg", "Rx_MPa", "Ry_MPa")}
-        return tables
+        return tables | companion_columns(self.engine, self.raw, self._index)
 
     @cached_property
     def scalars(self) -> dict[str, float]:
         """Scalar key → value in the unit of its quantity."""
-        return {
-            key: value / quantity(key).si
-            for key, value in summarise(self.engine, self.raw, self._index).items()
-        }
+        found = summarise(self.engine, self.raw, self._index)
+        found |= companion_scalars(self.engine, self.raw, self._index)
+        return {key: value / quantity(key).si for key, value in found.items()}
 
     @cached_property
     def tables(self) -> dict[str, pd.DataFrame]:

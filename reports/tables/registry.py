@@ -6,6 +6,7 @@ from reports.inputs.fields import iter_fields
 from reports.inputs.model import InputFile
 from reports.tables import mechanism
 from reports.tables.charts import charts
+from reports.tables.companions import companion_blocks, companion_charts
 from reports.tables.cylinder import cylinder_blocks
 from reports.tables.journals import journal_blocks
 from reports.tables.spec import Model
@@ -28,6 +29,9 @@ def build_model(model: InputFile) -> Model:
     turn = angle_rows(model.calculation.step_deg, 360)
     forced = model.crankshaft.force_offsets_deg is not None
     blocks = (
+        *process_blocks(model),
+        *result_blocks(model),
+        *speed_blocks(model),
         mechanism.geometry(model),
         mechanism.masses(model),
         *mechanism.kinematic_tables(turn),
@@ -35,6 +39,9 @@ def build_model(model: InputFile) -> Model:
         *torque_tables(cylinders, cycle),
         *journal_blocks(throws, cycle, forced=forced),
         *wear_blocks(throws + 1, rays, cycle),
+        *companion_blocks(model, cycle),
         *summary_blocks(model, throws),
     )
-    return Model(model, tuple(iter_fields(model)), blocks, charts(throws, rays))
+    return Model(
+        model, tuple(iter_fields(model)), blocks, (*charts(throws, rays), *companion_charts(model))
+    )

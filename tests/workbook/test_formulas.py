@@ -16,9 +16,9 @@ from reports.layout import INPUT_SHEET, Layout
 from tests.workbook.made import book, model
 
 ALLOWED = {
-    "ABS", "ACOS", "AND", "ASIN", "ATAN2", "AVERAGE", "COS", "COUNT", "DEGREES", "EXP", "IF", "INDEX",
-    "INT", "LN", "MATCH", "MAX", "MIN", "MOD", "NOT", "OR", "PI", "RADIANS", "SIN", "SQRT", "SUM",
-    "SUMPRODUCT", "TAN",
+    "ABS", "ACOS", "AND", "ASIN", "ATAN2", "AVERAGE", "COS", "COUNT", "DEGREES", "EXP", "IF",
+    "INDEX", "INT", "LN", "MATCH", "MAX", "MIN", "MOD", "NOT", "OR", "PI", "RADIANS", "SIN",
+    "SQRT", "SUM", "SUMPRODUCT", "TAN",
 }  # fmt: skip
 
 

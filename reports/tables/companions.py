@@ -1,0 +1,18 @@
+"""Sheets of the companion sources: Segal, Neiman, reduced inertia, torque orders, balance."""
+
+from __future__ import annotations
+
+from reports.inputs.model import InputFile
+from reports.tables.neiman import neiman_blocks, neiman_charts
+from reports.tables.segal import segal_blocks, segal_charts
+from reports.tables.spec import Block, ChartSpec
+
+
+def companion_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block, ...]:
+    """All blocks of the companion sources."""
+    return *segal_blocks(), *neiman_blocks()
+
+
+def companion_charts(model: InputFile) -> tuple[ChartSpec, ...]:
+    """All charts of the companion sources."""
+    return *segal_charts(), *neiman_charts()

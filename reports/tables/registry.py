@@ -29,9 +29,6 @@ def build_model(model: InputFile) -> Model:
     turn = angle_rows(model.calculation.step_deg, 360)
     forced = model.crankshaft.force_offsets_deg is not None
     blocks = (
-        *process_blocks(model),
-        *result_blocks(model),
-        *speed_blocks(model),
         mechanism.geometry(model),
         mechanism.masses(model),
         *mechanism.kinematic_tables(turn),

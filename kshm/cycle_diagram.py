@@ -109,6 +109,18 @@ def indicator_diagram(cycle: Cycle, step_deg: int = 1) -> IndicatorDiagram:
     return _points(cycle, phi, phi, up.size, z)
 
 
+def diagram_at(cycle: Cycle, phi: Array) -> IndicatorDiagram:
+    """Points of the unrounded diagram at given angles [rad] from π to 3π, rising.
+
+    At 2π stands the end of compression c.
+
+    Raises:
+        CycleError: the cycle has no stroke.
+    """
+    rising = int(np.searchsorted(phi, 2 * np.pi + EDGE))
+    return _points(cycle, phi, phi, rising, isobar_angle(cycle))
+
+
 def tabulated_gas(cycle: Cycle, step_deg: int = 1, *, peak_factor: float = 1.0) -> TabulatedGas:
     """Gas pressure over the whole cycle 0…720° for the dynamics.
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from kshm.cycle_model import Kind
 from kshm.cycle_names import value_of
 from kshm.cycle_result import Cycle
 
@@ -97,17 +98,24 @@ _BOOST_CHANGES = {
 }
 
 
+def usual_ranges(kind: Kind, *, boosted: bool) -> dict[str, Range]:
+    """Usual ranges of the results of this kind of engine, by path in `Cycle`."""
+    group: Group = "petrol"
+    if kind == "diesel":
+        group = "diesel_turbo" if boosted else "diesel_na"
+    return {
+        key: table[group]
+        for key, table in RANGES.items()
+        if group in table and not (group == "petrol" and boosted and key in _BOOST_CHANGES)
+    }
+
+
 def assess(cycle: Cycle) -> tuple[Assessment, ...]:
     """Every result that has a usual range for this kind of engine, inside or outside."""
-    boosted = cycle.inputs.boost is not None
-    group: Group = "petrol"
-    if cycle.inputs.kind == "diesel":
-        group = "diesel_turbo" if boosted else "diesel_na"
     found = []
-    for key, table in RANGES.items():
-        if group not in table or (group == "petrol" and boosted and key in _BOOST_CHANGES):
-            continue
-        usual, value = table[group], value_of(cycle, key)
+    ranges = usual_ranges(cycle.inputs.kind, boosted=cycle.inputs.boost is not None)
+    for key, usual in ranges.items():
+        value = value_of(cycle, key)
         slack = _SLACK * max(1.0, abs(usual.high))
         inside = usual.low - slack <= value <= usual.high + slack
         found.append(Assessment(key, value, usual, inside))

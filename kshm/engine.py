@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
+
+if TYPE_CHECKING:
+    from kshm.cycle_run import CycleRun
 
 Method = Literal["textbook", "exact"]
 
@@ -171,6 +174,7 @@ class Engine:
     fullness: float = 1.0  # φ_п: how much the power was rounded down by
     force_offsets: tuple[float, ...] | None = None
     name: str = field(default="engine")
+    cycle: CycleRun | None = None  # the cycle calculation that the gas comes from
 
     @property
     def cylinders(self) -> int:

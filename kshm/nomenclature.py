@@ -12,6 +12,8 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from kshm.nomenclature_companions import COMPANION_ROWS
+from kshm.nomenclature_cycle import ROWS as CYCLE_ROWS
+from kshm.nomenclature_cycle import UNITS as CYCLE_UNITS
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +47,7 @@ UNITS: dict[str, Unit] = {
     "kW": Unit("кВт", 1e3),
     "kg": Unit("кг"),
     "percent": Unit("%", 0.01),
+    **{key: Unit(*row) for key, row in CYCLE_UNITS.items()},
 }
 
 
@@ -268,7 +271,7 @@ _ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X", "XI", "XI
           "XIII", "XIV", "XV", "XVI", "XVII", "XVIII")  # fmt: skip
 
 _ALL: dict[str, Quantity] = {
-    row[0]: Quantity(*row) for row in (*_ROWS, *_SCALARS, *_THROWS, *COMPANION_ROWS)
+    row[0]: Quantity(*row) for row in (*_ROWS, *_SCALARS, *_THROWS, *COMPANION_ROWS, *CYCLE_ROWS)
 }
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kshm import inertia, kinematics
+from kshm.cycle_summary import summarise_cycle
 from kshm.engine import Engine, PolytropicGas
 from kshm.wear import ray_angles
 
@@ -39,6 +40,7 @@ def summarise(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float
         **_journals(engine, raw, index),
         **_running(raw, index),
         **_throws(raw, index),
+        **(summarise_cycle(engine.cycle) if engine.cycle is not None else {}),
     }
 
 

@@ -144,7 +144,7 @@ class Layout:
         column = self.next_column.get(block.sheet, 1) if beside_table else 1
         self.places[block.id] = Place(block.sheet, row, column, len(block.scalars) + 1, 5)
         offset = 1
-        if block.id == "checks":
+        if block.id in ("checks", "cycle_ranges"):
             self._checks(block, row)
             return
         for scalar in block.scalars:

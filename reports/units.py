@@ -50,6 +50,11 @@ DEG = Unit("deg", "°", times=math.pi, over=180.0)
 MPA = Unit("mpa", "МПа", times=1e6)
 RPM = Unit("rpm", "мин⁻¹", times=math.pi, over=30.0)
 KW = Unit("kw", "кВт", times=1000.0)
+KELVIN = Unit("k", "К")
+MJ_KG = Unit("mj_kg", "МДж/кг", times=1e6)
+KG_KMOL = Unit("kg_kmol", "кг/кмоль")
+KJ_KG_K = Unit("kj_kg_k", "кДж/(кг·К)", times=1000.0)
+MPA_S_M = Unit("mpa_s_m", "МПа·с/м", times=1e6)
 
 
 def number_text(value: float) -> str:

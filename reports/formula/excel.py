@@ -120,6 +120,8 @@ def _call(name: str, args: list[ast.expr], refs: References) -> tuple[str, int]:
         return f"SUM({refs.down_to_here(_key(args[0]))})", _ATOM
     if name in ("fourier_cos", "fourier_sin"):
         return _fourier(name, args, refs), 3
+    if name == "round":
+        return f"ROUND({_emit(args[0], refs)[0]},0)", _ATOM
     if name == "atan2":
         # Excel takes (x, y) where everybody else takes (y, x).
         y, x = (_emit(arg, refs)[0] for arg in args)

@@ -106,6 +106,9 @@ def _call(name: str, args: list[Value]) -> Value:
         return np.append(args[0][1:], args[0][-1])
     if name == "running_sum":
         return np.cumsum(args[0])
+    if name == "round":
+        # As a spreadsheet rounds: halves away from zero.
+        return np.copysign(np.floor(np.abs(args[0]) + 0.5), args[0])
     if name in AGGREGATES:
         return _aggregate(name, np.asarray(args[0], dtype=float))
     if name in ("min", "max", "total"):

@@ -9,6 +9,7 @@ from functools import lru_cache
 FUNCTIONS: dict[str, tuple[int, int]] = {
     "sin": (1, 1), "cos": (1, 1), "tan": (1, 1), "asin": (1, 1), "acos": (1, 1),
     "atan2": (2, 2), "sqrt": (1, 1), "exp": (1, 1), "ln": (1, 1), "abs": (1, 1), "floor": (1, 1),
+    "round": (1, 1),
     "mod": (2, 2), "min": (1, 40), "max": (1, 40), "total": (1, 40),
     "rad": (1, 1), "deg": (1, 1),
     "interpolate": (3, 3),

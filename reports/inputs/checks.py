@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from reports.inputs.checks_cycle import check_cycle
 from reports.inputs.checks_gas import check_gas
 from reports.inputs.findings import Finding, Path, Values, radius_and_rod
 from reports.inputs.model import LAMBDA_MAX, LAMBDA_MIN
@@ -28,11 +29,16 @@ def check(values: Values) -> Iterator[Finding]:
     yield from _arms(values)
     yield from _masses(values)
     yield from check_gas(values)
+    yield from check_cycle(values)
 
 
 def _geometry(values: Values) -> Iterator[Finding]:
     keys = ("crank_radius_mm", "stroke_mm", "rod_length_mm", "lambda")
     if not values.sure("geometry", *keys):
+        return
+    if "crank_radius_mm" not in values.sections["geometry"]:  # sizes follow from the power
+        lam = values.get("geometry", "lambda")
+        yield from () if lam is None else _ratio(lam, ("geometry", "lambda"))
         return
     radius, stroke, rod, lam = (values.get("geometry", key) for key in keys)
     if radius is not None and stroke is not None and abs(stroke - 2 * radius) > 1e-9 * stroke:

@@ -15,7 +15,10 @@ PRESSURE_TOLERANCE_MPA = 1e-6
 
 def check_gas(values: Values) -> Iterator[Finding]:
     """Yield what is wrong or odd about timing, pressures or the table of points."""
-    if values.get("gas", "source") == "polytropic":
+    source = values.get("gas", "source")
+    if source == "cycle":
+        yield from _timing(values)
+    elif source == "polytropic":
         yield from _timing(values)
         yield from _pressures(values)
         yield from _odd_pressures(values)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from kshm.cycle_diagram import polytropic_gas
+from kshm.cycle_run import CycleRun
 from kshm.engine import (
     Crankshaft,
     DirectMasses,
@@ -16,7 +18,15 @@ from kshm.engine import (
     Throw,
     Web,
 )
-from reports.inputs.model import GasSection, GeometrySection, InputFile, TableGasSection
+from reports.inputs.cycle import cycle_run
+from reports.inputs.model import (
+    CycleGasSection,
+    GasSection,
+    GeometrySection,
+    InputFile,
+    PolytropicGasSection,
+    TableGasSection,
+)
 from reports.inputs.model_crankshaft import ArmsSection, CrankshaftSection, WebSection
 from reports.units import DEG, KG, KW, MM, MPA, RPM
 
@@ -28,30 +38,52 @@ def to_engine(model: InputFile) -> Engine:
     """Return the engine in SI units; the input must have passed `reports.inputs.load`."""
     regime = model.regime
     shaft = model.crankshaft
-    power = regime.indicated_power_kw
     forces = shaft.force_offsets_deg
+    run = cycle_run(model)
+    geometry = _geometry(model, run)
+    power, efficiency, fullness = _power(model, run)
     return Engine(
-        geometry=Geometry(
-            bore=MM.to_si(model.geometry.bore_mm),
-            crank_radius=MM.to_si(crank_radius_mm(model.geometry)),
-            rod_length=MM.to_si(rod_length_mm(model.geometry)),
-            compression_ratio=float(model.geometry.compression_ratio),
-        ),
+        geometry=geometry,
         omega=RPM.to_si(regime.speed_rpm),
-        gas=_gas(model.gas),
-        masses=_masses(model),
+        gas=_gas(model.gas, run),
+        masses=_masses(model, geometry.rod_length),
         crankshaft=_crankshaft(shaft),
         firing_offsets=tuple(DEG.to_si(value) for value in shaft.firing_offsets_deg),
         strokes=model.engine.strokes,
         method=model.calculation.method,
         step_deg=model.calculation.step_deg,
         rays=model.calculation.wear_rays,
-        mechanical_efficiency=float(regime.mechanical_efficiency),
-        indicated_power=None if power is None else KW.to_si(power),
-        fullness=float(regime.fullness),
+        mechanical_efficiency=efficiency,
+        indicated_power=power,
+        fullness=fullness,
         force_offsets=None if forces is None else tuple(DEG.to_si(value) for value in forces),
         name=model.engine.name,
+        cycle=run,
     )
+
+
+def _geometry(model: InputFile, run: CycleRun | None) -> Geometry:
+    given = model.geometry
+    if isinstance(given, GeometrySection):
+        bore = MM.to_si(given.bore_mm)
+        radius, rod = MM.to_si(crank_radius_mm(given)), MM.to_si(rod_length_mm(given))
+    else:
+        if run is None or run.design is None:
+            msg = "geometry without bore needs a wanted power"
+            raise ValueError(msg)
+        bore, radius = run.design.bore, run.design.stroke / 2
+        rod = radius / given.lambda_
+    return Geometry(bore, radius, rod, float(given.compression_ratio))
+
+
+def _power(model: InputFile, run: CycleRun | None) -> tuple[float | None, float, float]:
+    """Indicated power [W], mechanical efficiency and fullness, from the cycle if there is one."""
+    if run is not None:
+        return run.gas_power, run.cycle.effective.eta_m, 1.0
+    regime = model.regime
+    power = regime.indicated_power_kw
+    efficiency, fullness = float(regime.mechanical_efficiency), float(regime.fullness)
+    return None if power is None else KW.to_si(power), efficiency, fullness
 
 
 def crank_radius_mm(geometry: GeometrySection) -> float:
@@ -76,7 +108,7 @@ def rod_length_mm(geometry: GeometrySection) -> float:
     return crank_radius_mm(geometry) / geometry.lambda_
 
 
-def _gas(gas: GasSection) -> Gas:
+def _gas(gas: GasSection, run: CycleRun | None) -> Gas:
     p_ambient = MPA.to_si(gas.ambient_pressure_mpa)
     if isinstance(gas, TableGasSection):
         return TabulatedGas(
@@ -84,9 +116,19 @@ def _gas(gas: GasSection) -> Gas:
             angles=tuple(DEG.to_si(angle) for angle, _ in gas.points),
             pressures=tuple(MPA.to_si(pressure) for _, pressure in gas.points),
         )
-    start = gas.combustion_start_deg
-    if start is None:
-        start = FIRING_TDC_DEG - gas.injection_advance_deg + gas.ignition_delay_deg
+    if run is not None:
+        advance, start, opens, closes = _angles(gas)
+        return polytropic_gas(
+            run.cycle,
+            ignition_advance=advance,
+            combustion_start=start,
+            exhaust_open=opens,
+            exhaust_close=closes,
+        )
+    if isinstance(gas, CycleGasSection):
+        msg = "gas from a cycle needs its section"
+        raise TypeError(msg)
+    advance, start, opens, closes = _angles(gas)
     return PolytropicGas(
         p_ambient=p_ambient,
         p_intake=MPA.to_si(gas.intake_pressure_mpa),
@@ -95,14 +137,27 @@ def _gas(gas: GasSection) -> Gas:
         n_compression=float(gas.compression_exponent),
         n_expansion=float(gas.expansion_exponent),
         rho=float(gas.preexpansion_ratio),
-        combustion_start=DEG.to_si(start),
-        ignition_advance=DEG.to_si(gas.injection_advance_deg),
-        exhaust_open=DEG.to_si(BDC_DEG - gas.exhaust_start_before_bdc_deg),
-        exhaust_close=DEG.to_si(BDC_DEG + gas.exhaust_end_after_bdc_deg),
+        combustion_start=start,
+        ignition_advance=advance,
+        exhaust_open=opens,
+        exhaust_close=closes,
     )
 
 
-def _masses(model: InputFile) -> Masses:
+def _angles(gas: PolytropicGasSection | CycleGasSection) -> tuple[float, float, float, float]:
+    """Advance, start of combustion, start and end of the exhaust [rad]."""
+    start = gas.combustion_start_deg
+    if start is None:
+        start = FIRING_TDC_DEG - gas.injection_advance_deg + gas.ignition_delay_deg
+    return (
+        DEG.to_si(gas.injection_advance_deg),
+        DEG.to_si(start),
+        DEG.to_si(BDC_DEG - gas.exhaust_start_before_bdc_deg),
+        DEG.to_si(BDC_DEG + gas.exhaust_end_after_bdc_deg),
+    )
+
+
+def _masses(model: InputFile, rod_length: float) -> Masses:
     masses = model.masses
     if masses.reciprocating_kg is not None and masses.rod_big_end_kg is not None:
         return DirectMasses(
@@ -116,7 +171,7 @@ def _masses(model: InputFile) -> Masses:
         centre = MM.to_si(masses.rod_centre_mm)
     elif masses.rod_small_end_share is not None:
         # m_1 / m = (L - l_1) / L, Gots (20)
-        centre = (1 - masses.rod_small_end_share) * MM.to_si(rod_length_mm(model.geometry))
+        centre = (1 - masses.rod_small_end_share) * rod_length
     else:
         msg = "masses do not fix the rod's centre of mass"
         raise ValueError(msg)

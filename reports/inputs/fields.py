@@ -44,6 +44,7 @@ SECTIONS = {
     "geometry": "Геометрия",
     "regime": "Режим",
     "gas": "Газы",
+    "cycle": "Рабочий цикл",
     "masses": "Массы",
     "crankshaft": "Коленчатый вал",
 }
@@ -122,7 +123,9 @@ def key_text(path: Path) -> str:
 def iter_fields(model: InputFile) -> Iterator[Field]:
     """Yield the fields that are given or defaulted, in the order of the file."""
     for section, title in SECTIONS.items():
-        part: BaseModel = getattr(model, section)
+        part: BaseModel | None = getattr(model, section)
+        if part is None:
+            continue
         yield from _fields_of(part, (section,), title, number=None)
 
 

@@ -8,7 +8,7 @@ warnings about what is allowed but odd.  Errors come together in one
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path as FilePath
 from typing import Any, cast
@@ -17,12 +17,15 @@ from pydantic import ValidationError
 
 from reports.errors import InputError, Problem, one_line
 from reports.inputs import cells, checks, messages
+from reports.inputs.cycle import cycle_findings
 from reports.inputs.fields import SECTIONS, Path, key_text
-from reports.inputs.findings import Values
+from reports.inputs.findings import Finding, Values
 from reports.inputs.meta import Strictly, hints, submodel
 from reports.inputs.model import (
     SOURCES,
     Calculation,
+    CycleGasSection,
+    DesignGeometrySection,
     EngineSection,
     GeometrySection,
     InputFile,
@@ -33,6 +36,7 @@ from reports.inputs.model import (
     TableGasSection,
 )
 from reports.inputs.model_crankshaft import CrankshaftSection
+from reports.inputs.model_cycle import CycleSection
 from reports.inputs.source import read_text, refuse_bomb, refused
 
 MAX_PROBLEMS = 200
@@ -45,11 +49,16 @@ SECTION_MODELS: dict[str, type[Strictly]] = {
     "calculation": Calculation,
     "geometry": GeometrySection,
     "regime": Regime,
+    "cycle": CycleSection,
     "masses": MassesSection,
     "crankshaft": CrankshaftSection,
 }
-_OPTIONAL_SECTIONS = ("report", "calculation")
-_GASES: dict[str, type[Strictly]] = {"polytropic": PolytropicGasSection, "table": TableGasSection}
+_OPTIONAL_SECTIONS = ("report", "calculation", "cycle")
+_GASES: dict[str, type[Strictly]] = {
+    "polytropic": PolytropicGasSection,
+    "table": TableGasSection,
+    "cycle": CycleGasSection,
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,13 +112,16 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
     if locate is not None:
         data = reader.from_cells(data)
     models = reader.sections(data)
-    for finding in checks.check(reader.values):
-        problem = reader.problem(finding.path, finding.what, finding.hint)
-        (reader.warnings if finding.warning else reader.problems).append(problem)
+    reader.take(checks.check(reader.values))
     if reader.problems:
         raise InputError(_capped(source, reader.problems, reader.uncounted))
     parts = cast(dict[str, Any], models)
-    return Loaded(InputFile(**parts), tuple(reader.warnings))
+    model = InputFile(**parts)
+    if model.cycle is not None:
+        reader.take(cycle_findings(model))
+        if reader.problems:
+            raise InputError(reader.problems)
+    return Loaded(model, tuple(reader.warnings))
 
 
 class _Reader:
@@ -129,6 +141,11 @@ class _Reader:
         cell = self.locate(path) if self.locate is not None and path else ""
         place = f"{cell} ({key})" if cell else key
         return Problem(": ".join(part for part in (self.source, place) if part), what, hint)
+
+    def take(self, findings: Iterable[Finding]) -> None:
+        for finding in findings:
+            problem = self.problem(finding.path, finding.what, finding.hint)
+            (self.warnings if finding.warning else self.problems).append(problem)
 
     def from_cells(self, data: dict[str, Any]) -> dict[str, Any]:
         source = str(data["gas"].get("source")) if isinstance(data.get("gas"), dict) else ""
@@ -158,7 +175,11 @@ class _Reader:
                     hint = f"добавьте раздел [{name}]"
                     self.problems.append(self.problem((name,), "нет раздела", hint))
                 continue
+            if name == "cycle" and name not in data:
+                continue
             model = self._model_of(name, data.get(name, {}))
+            if name == "geometry" and model is not None and _sizes_are_wanted(data):
+                model = DesignGeometrySection
             if model is not None:
                 section = self._section(name, model, data.get(name, {}))
                 if section is not None:
@@ -223,6 +244,12 @@ class _Reader:
             what, hint = messages.explain(item, messages.meta_at(model, loc))
             if (name, *loc) not in self.empty:
                 self.problems.append(self.problem((name, *loc), what, hint))
+
+
+def _sizes_are_wanted(data: dict[str, Any]) -> bool:
+    """Whether bore and stroke are to be found for a given power."""
+    cycle = data.get("cycle")
+    return isinstance(cycle, dict) and "power_kw" in cycle
 
 
 def _owner(model: type[Strictly], parents: Path) -> type[Strictly]:

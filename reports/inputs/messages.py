@@ -14,6 +14,7 @@ from reports.errors import one_line
 from reports.inputs.meta import MAX_TEXT, Meta, Strictly, find_meta, hints, submodel
 from reports.inputs.model import (
     Calculation,
+    CycleGasSection,
     EngineSection,
     GeometrySection,
     MassesSection,
@@ -23,6 +24,7 @@ from reports.inputs.model import (
     TableGasSection,
 )
 from reports.inputs.model_crankshaft import ArmsSection, CrankshaftSection, WebSection
+from reports.inputs.model_cycle import CycleSection
 
 _HOMES: dict[str, tuple[type[Strictly], ...]] = {
     "[report]": (Report,),
@@ -30,7 +32,8 @@ _HOMES: dict[str, tuple[type[Strictly], ...]] = {
     "[calculation]": (Calculation,),
     "[geometry]": (GeometrySection,),
     "[regime]": (Regime,),
-    "[gas]": (PolytropicGasSection, TableGasSection),
+    "[gas]": (PolytropicGasSection, TableGasSection, CycleGasSection),
+    "[cycle]": (CycleSection,),
     "[masses]": (MassesSection,),
     "[crankshaft]": (CrankshaftSection,),
     "[[crankshaft.webs]]": (WebSection,),

@@ -6,7 +6,7 @@ import functools
 import typing
 import unicodedata
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler
@@ -44,7 +44,7 @@ class Meta:
     unit: Unit = units.NONE
     minimum: float | None = None
     maximum: float | None = None
-    choices: Mapping[str, str] | None = None
+    choices: Mapping[str, str] | None = field(default=None, hash=False)  # a dict: no hash
     structural: bool = False
 
     def __get_pydantic_core_schema__(

@@ -14,6 +14,7 @@ from pydantic import Field, Strict
 
 from reports.inputs.meta import Strictly, choice, number, text
 from reports.inputs.model_crankshaft import CrankshaftSection
+from reports.inputs.model_cycle import CycleSection
 from reports.units import DEG, KG, KW, MM, MPA, NONE, RPM
 
 MAX_CYLINDERS = 12
@@ -25,7 +26,11 @@ METHODS = {
     "exact": "точное ускорение",
 }
 LAYOUTS = {"inline": "рядный"}
-SOURCES = {"polytropic": "по политропам", "table": "по точкам диаграммы"}
+SOURCES = {
+    "polytropic": "по политропам",
+    "table": "по точкам диаграммы",
+    "cycle": "по расчету цикла",
+}
 
 
 def _this_year() -> int:
@@ -98,6 +103,15 @@ class GeometrySection(Strictly):
     rod_length_mm: Annotated[float, number("Длина шатуна", "L", MM, 10, 6000)] | None = None
     lambda_: Annotated[float, number("Отношение r/L", "λ", NONE, LAMBDA_MIN, LAMBDA_MAX)] | None = (
         Field(default=None, alias="lambda")
+    )
+    compression_ratio: Annotated[float, number("Степень сжатия", "ε", NONE, 2, 50)]
+
+
+class DesignGeometrySection(Strictly):
+    """[geometry] of an engine whose bore and stroke follow from the wanted power."""
+
+    lambda_: Annotated[float, number("Отношение r/L", "λ", NONE, LAMBDA_MIN, LAMBDA_MAX)] = Field(
+        alias="lambda"
     )
     compression_ratio: Annotated[float, number("Степень сжатия", "ε", NONE, 2, 50)]
 
@@ -176,7 +190,31 @@ class TableGasSection(Strictly):
     ]
 
 
-GasSection = PolytropicGasSection | TableGasSection
+class CycleGasSection(Strictly):
+    """[gas], source = "cycle": pressures from the [cycle] section, the angles of Dinn."""
+
+    source: Annotated[Literal["cycle"], choice("Индикаторная диаграмма", SOURCES, structural=True)]
+    ambient_pressure_mpa: Annotated[
+        float, number("Давление окружающей среды", "p_0", MPA, 0.03, 0.2)
+    ] = 0.1
+    injection_advance_deg: Annotated[
+        float, number("Угол опережения впрыска (зажигания)", "θ_оп", DEG, 0.5, 90)
+    ]
+    ignition_delay_deg: Annotated[
+        float, number("Период задержки воспламенения", "Δφ_з", DEG, 0, 90)
+    ]
+    combustion_start_deg: (
+        Annotated[float, number("Угол начала сгорания", "φ_c", DEG, 270, 360)] | None
+    ) = None
+    exhaust_start_before_bdc_deg: Annotated[
+        float, number("Начало выпуска до НМТ", "φ_в1", DEG, 0, 150)
+    ]
+    exhaust_end_after_bdc_deg: Annotated[
+        float, number("Конец свободного выпуска после НМТ", "φ_в2", DEG, 0, 180)
+    ]
+
+
+GasSection = PolytropicGasSection | TableGasSection | CycleGasSection
 
 
 class MassesSection(Strictly):
@@ -212,8 +250,9 @@ class InputFile(Strictly):
     report: Report = Field(default_factory=Report)
     engine: EngineSection
     calculation: Calculation = Field(default_factory=Calculation)
-    geometry: GeometrySection
+    geometry: GeometrySection | DesignGeometrySection
     regime: Regime
     gas: Annotated[GasSection, Field(discriminator="source")]
+    cycle: CycleSection | None = None
     masses: MassesSection
     crankshaft: CrankshaftSection

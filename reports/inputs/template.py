@@ -25,6 +25,12 @@ _HEAD = (
 )
 
 
+_CYCLE_HINT = (
+    'Давления можно взять из расчета цикла: раздел [cycle] и source = "cycle"; '
+    "пример дает kshm new --sample cycle-turbo-diesel"
+)
+
+
 def list_samples() -> tuple[str, ...]:
     """Return the names of the samples, sorted."""
     return tuple(sorted(path.stem for path in samples_dir().glob("*.toml")))
@@ -71,6 +77,10 @@ def _explained() -> str:
         document.add(tomlkit.comment(line))
     models: dict[str, type[Strictly]] = {**SECTION_MODELS, "gas": PolytropicGasSection}
     for name, title in SECTIONS.items():
+        if name == "cycle":  # an alternative to the pressures of [gas]
+            document.add(tomlkit.nl())
+            document.add(tomlkit.comment(_CYCLE_HINT))
+            continue
         document.add(tomlkit.nl())
         document.add(tomlkit.comment(title))
         document.add(name, _table(models[name], values.get(name, {})))

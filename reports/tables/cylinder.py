@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from reports.inputs.model import InputFile, PolytropicGasSection
+from reports.inputs.model import InputFile, TableGasSection
+from reports.tables.cycle_names import from_cycle
 from reports.tables.mechanism import acceleration
 from reports.tables.spec import Block, Column, Scalar, ScalarTable, TableSpec
 
@@ -11,7 +12,7 @@ EDGE = "0.0000001"  # degrees: the angles come from whole degrees and sums of th
 
 def gas_scalars(model: InputFile) -> tuple[ScalarTable, ...]:
     """Corner points of the polytropic diagram; none for a table of points."""
-    if not isinstance(model.gas, PolytropicGasSection):
+    if isinstance(model.gas, TableGasSection):
         return ()
     start = (
         "gas_combustion_start_deg"
@@ -30,20 +31,30 @@ def gas_scalars(model: InputFile) -> tuple[ScalarTable, ...]:
                 Scalar("x_start", volume_ratio("phi_c_deg"), "Гоц (1)"),
                 Scalar(
                     "p_start",
-                    "gas_intake_pressure_mpa"
-                    "*(geometry_compression_ratio/x_start)**gas_compression_exponent",
+                    from_cycle(
+                        model,
+                        "gas_intake_pressure_mpa"
+                        "*(geometry_compression_ratio/x_start)**gas_compression_exponent",
+                    ),
                     "политропа сжатия",
                 ),
                 Scalar(
                     "p_c_end",
-                    "gas_intake_pressure_mpa*geometry_compression_ratio**gas_compression_exponent",
+                    from_cycle(
+                        model,
+                        "gas_intake_pressure_mpa"
+                        "*geometry_compression_ratio**gas_compression_exponent",
+                    ),
                     "политропа сжатия",
                 ),
                 Scalar("x_open", volume_ratio("phi_open_deg"), "Гоц (1)"),
                 Scalar(
                     "p_open",
-                    "gas_max_pressure_mpa"
-                    "*min(1, (gas_preexpansion_ratio/x_open)**gas_expansion_exponent)",
+                    from_cycle(
+                        model,
+                        "gas_max_pressure_mpa"
+                        "*min(1, (gas_preexpansion_ratio/x_open)**gas_expansion_exponent)",
+                    ),
                     "политропа расширения",
                 ),
             ),
@@ -61,7 +72,7 @@ def volume_ratio(phi: str) -> str:
 
 def pressure(model: InputFile, phi: str, ratio: str) -> str:
     """Absolute gas pressure [MPa] at the angle and volume ratio of the named columns."""
-    if not isinstance(model.gas, PolytropicGasSection):
+    if isinstance(model.gas, TableGasSection):
         return f"interpolate({phi}, gas_points_deg, gas_points_mpa)"
     eps, rho = "geometry_compression_ratio", "gas_preexpansion_ratio"
     p_z, p_r = "gas_max_pressure_mpa", "gas_residual_pressure_mpa"
@@ -80,7 +91,7 @@ def pressure(model: InputFile, phi: str, ratio: str) -> str:
     text = p_r
     for limit, value in reversed(steps):
         text = f"({value}) if {phi} <= {limit} + {EDGE} else ({text})"
-    return text
+    return from_cycle(model, text)
 
 
 def gas_table(model: InputFile, rows: tuple[float, ...]) -> TableSpec:

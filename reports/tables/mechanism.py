@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from reports.inputs.model import InputFile
+from reports.inputs.model import DesignGeometrySection, InputFile
 from reports.tables.spec import Block, Column, Scalar, ScalarTable, TableSpec
 
 EXACT_LABEL_FIELD = "calculation_method"
@@ -17,6 +17,9 @@ EXACT = (
 def geometry(model: InputFile) -> ScalarTable:
     """Derived geometry and kinematic scalars."""
     given = model.geometry
+    bore = "of_mm(geometry_bore_mm)"
+    if isinstance(given, DesignGeometrySection):
+        return _geometry("of_mm(cyc_S)/2", "r_crank/geometry_lambda", "of_mm(cyc_D)")
     if given.crank_radius_mm is not None:
         radius = "of_mm(geometry_crank_radius_mm)"
     elif given.stroke_mm is not None:
@@ -27,6 +30,10 @@ def geometry(model: InputFile) -> ScalarTable:
         length = "of_mm(geometry_rod_length_mm)"
     else:
         length = "r_crank/geometry_lambda"
+    return _geometry(radius, length, bore)
+
+
+def _geometry(radius: str, length: str, bore: str) -> ScalarTable:
     return ScalarTable(
         "geometry",
         "Размеры и кинематика механизма",
@@ -36,7 +43,7 @@ def geometry(model: InputFile) -> ScalarTable:
             Scalar("L_rod", length, "Гоц, 1.1"),
             Scalar("lam", "r_crank/L_rod", "Гоц, 1.1"),
             Scalar("S_stroke", "2*r_crank", "Гоц, 1.1"),
-            Scalar("F_piston", "pi*of_mm(geometry_bore_mm)**2/4", "Гоц, введение"),
+            Scalar("F_piston", f"pi*({bore})**2/4", "Гоц, введение"),
             Scalar("V_h", "to_dm3(F_piston*S_stroke)", "Гоц, введение"),
             Scalar("V_c", "V_h/(geometry_compression_ratio - 1)", "Гоц, введение"),
             Scalar("V_engine", "V_h*engine_cylinders", "Гоц, введение"),

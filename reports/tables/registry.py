@@ -7,6 +7,9 @@ from reports.inputs.model import InputFile
 from reports.tables import mechanism
 from reports.tables.charts import charts
 from reports.tables.companions import companion_blocks, companion_charts
+from reports.tables.cycle import process_blocks
+from reports.tables.cycle_results import result_blocks
+from reports.tables.cycle_speed import cycle_charts, speed_blocks
 from reports.tables.cylinder import cylinder_blocks
 from reports.tables.journals import journal_blocks
 from reports.tables.spec import Model
@@ -29,6 +32,9 @@ def build_model(model: InputFile) -> Model:
     turn = angle_rows(model.calculation.step_deg, 360)
     forced = model.crankshaft.force_offsets_deg is not None
     blocks = (
+        *process_blocks(model),
+        *result_blocks(model),
+        *speed_blocks(model),
         mechanism.geometry(model),
         mechanism.masses(model),
         *mechanism.kinematic_tables(turn),
@@ -40,5 +46,8 @@ def build_model(model: InputFile) -> Model:
         *summary_blocks(model, throws),
     )
     return Model(
-        model, tuple(iter_fields(model)), blocks, (*charts(throws, rays), *companion_charts(model))
+        model,
+        tuple(iter_fields(model)),
+        blocks,
+        (*cycle_charts(model), *charts(throws, rays), *companion_charts(model)),
     )

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from reports.inputs.model import InputFile
+from reports.tables.cycle_names import section_of
+from reports.tables.cycle_speed import cycle_checks
 from reports.tables.extremes import extreme_scalars, first_number
 from reports.tables.spec import Block, Scalar, ScalarTable
 from reports.tables.wear import hole_scalars
@@ -26,26 +28,34 @@ def summary_blocks(model: InputFile, throws: int) -> tuple[Block, ...]:
 
 
 def _torque(model: InputFile) -> ScalarTable:
+    efficiency, power, fullness = (
+        "regime_mechanical_efficiency",
+        "regime_indicated_power_kw",
+        "regime_fullness",
+    )
+    if section_of(model) is not None:
+        efficiency, power, fullness = "cyc_eta_m", "cyc_N_gas", "1"
     scalars = [
         Scalar("M_mean", "col_mean(P4_2.Msum_Nm)", "Гоц, 2.8"),
         *extreme_scalars("P4_2", "Msum_Nm", "M", "Гоц, 2.9"),
-        Scalar("M_e", "M_mean*regime_mechanical_efficiency", "Гоц (59), 2.8"),
+        Scalar("M_e", f"M_mean*{efficiency}", "Гоц (59), 2.8"),
         Scalar("N_i_calc", "to_kW(M_mean*omega)", "Гоц, 2.8"),
         Scalar("p_i_calc", "to_MPa(M_mean*4*pi/of_dm3(V_engine))", "Гоц, 2.8"),
         Scalar("T_mean", "to_MPa(M_mean/(F_piston*r_crank))", "Гоц, 2.8"),
         Scalar("W_cycle", "col_sum(gas.work_J)", "∫p dV"),
         Scalar("W_torque", "4*pi*M_mean/engine_cylinders", "Гоц, 2.8"),
     ]
-    if model.regime.indicated_power_kw is not None:
-        reference = (
-            "30/pi*of_kW(regime_indicated_power_kw)"
-            "/(regime_speed_rpm*r_crank*F_piston*regime_fullness)"
-        )
+    if _power_is_known(model):
+        reference = f"30/pi*of_kW({power})/(regime_speed_rpm*r_crank*F_piston*{fullness})"
         scalars += [
             Scalar("T_ref", f"to_MPa({reference})", "Гоц, 2.8"),
             Scalar("T_error", "(T_mean/T_ref - 1)*100", "Гоц, 2.8"),
         ]
     return ScalarTable("summary_torque", "Крутящий момент двигателя", SHEET, tuple(scalars))
+
+
+def _power_is_known(model: InputFile) -> bool:
+    return model.regime.indicated_power_kw is not None or section_of(model) is not None
 
 
 def _pin(rays: int) -> ScalarTable:
@@ -134,7 +144,9 @@ def checks(model: InputFile, throws: int) -> ScalarTable:
          f"max({', '.join(f'abs(throw{i}_share - 0.5)' for i in range(1, throws + 1))})",
          "{value} <= 0.000001"),
     ]  # fmt: skip
-    if model.regime.indicated_power_kw is not None:
+    if section_of(model) is not None:
+        tests += cycle_checks()
+    if _power_is_known(model):
         tests.append(
             ("power", "Средняя тангенциальная сила сходится с мощностью цикла: расхождение, %",
              "T_error", "abs({value}) <= 2")

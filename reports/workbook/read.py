@@ -27,7 +27,17 @@ _LISTS = {
     "throw": ("crankshaft", "arms"),
     "gas_point": ("gas", "points"),
 }
-_SECTIONS = ("report", "engine", "calculation", "geometry", "regime", "gas", "masses", "crankshaft")
+_SECTIONS = (
+    "report",
+    "engine",
+    "calculation",
+    "geometry",
+    "regime",
+    "gas",
+    "cycle",
+    "masses",
+    "crankshaft",
+)
 
 
 def load_workbook_input(path: Path) -> Loaded:
@@ -90,7 +100,7 @@ def _input_cells(data: bytes, source: str) -> tuple[dict[str, Any], dict[str, st
         cells[name], places[name] = cell.value, place
     if problems:
         raise InputError(problems)
-    if "geometry_bore_mm" not in cells:
+    if "engine_cylinders" not in cells:
         what = "это не книга, созданная командой kshm build"
         raise InputError(Problem(source, what, "укажите файл .toml или книгу kshm"))
     return cells, places

@@ -237,7 +237,9 @@ class Layout:
 
     def step_formula(self, table: TableSpec, row: int, column: int) -> str:
         """First column of a row from the row above and the step of the table's grid."""
-        step = "calculation_step_deg" if table.step is None else number(table.step)
+        # A fraction, because 0.1 in a formula would look like an input typed into it.
+        own = f"1/{round(1 / table.step)}" if table.step and table.step < 1 else None
+        step = "calculation_step_deg" if table.step is None else own or number(table.step)
         return f"={Cell('', row - 1, column).coordinate}+{step}"
 
     def area(self, first: Cell, last: Cell) -> str:

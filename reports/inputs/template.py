@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Iterator
 from datetime import UTC, datetime
 from typing import Any
 
@@ -15,6 +16,7 @@ from reports.inputs.load import SECTION_MODELS
 from reports.inputs.messages import likely_word, shown
 from reports.inputs.meta import Meta, Strictly, find_meta, hints, submodel
 from reports.inputs.model import PolytropicGasSection
+from reports.inputs.model_cycle import CycleSection
 from reports.resources import samples_dir
 
 BLANK_SAMPLE = "gots-diesel"
@@ -26,8 +28,9 @@ _HEAD = (
 
 
 _CYCLE_HINT = (
-    'Давления можно взять из расчета цикла: раздел [cycle] и source = "cycle"; '
-    "пример дает kshm new --sample cycle-turbo-diesel"
+    'Давления газов можно взять из расчета цикла: gas.source = "cycle" и раздел [cycle];',
+    "готовый пример дает команда kshm new --sample cycle-turbo-diesel.",
+    "[cycle]",
 )
 
 
@@ -79,12 +82,20 @@ def _explained() -> str:
     for name, title in SECTIONS.items():
         if name == "cycle":  # an alternative to the pressures of [gas]
             document.add(tomlkit.nl())
-            document.add(tomlkit.comment(_CYCLE_HINT))
+            for line in _cycle_lines():
+                document.add(tomlkit.comment(line))
             continue
         document.add(tomlkit.nl())
         document.add(tomlkit.comment(title))
         document.add(name, _table(models[name], values.get(name, {})))
     return tomlkit.dumps(document)
+
+
+def _cycle_lines() -> Iterator[str]:
+    """The section [cycle] as comments: an alternative to the pressures of [gas]."""
+    yield from _CYCLE_HINT
+    for key, annotation in hints(CycleSection).items():
+        yield f"{key} = … {_note(find_meta(annotation))}"
 
 
 def _table(model: type[Strictly], values: dict[str, Any]) -> Table:

@@ -208,11 +208,11 @@ CASES = {
     ),
     "unknown source": (
         {"gas.source": "x"},
-        "gas.source: недопустимое значение «x»; допустимо: polytropic, table",
+        "gas.source: недопустимое значение «x»; допустимо: polytropic, table, cycle",
     ),
     "no source": (
         {"gas.source": GONE},
-        "gas.source: обязательный ключ не задан; допустимо: polytropic, table",
+        "gas.source: обязательный ключ не задан; допустимо: polytropic, table, cycle",
     ),
     "masses mixed": (
         {"masses.rod_kg": 1.7},

@@ -15,7 +15,17 @@ from reports.resources import samples_dir
 
 
 def test_samples():
-    assert list_samples() == ("d-240", "gots-appendix1", "gots-diesel", "gots-p3", "gots-p43")
+    assert list_samples() == (
+        "cycle-petrol",
+        "cycle-tractor-diesel",
+        "cycle-turbo-diesel",
+        "cycle-turbo-petrol",
+        "d-240",
+        "gots-appendix1",
+        "gots-diesel",
+        "gots-p3",
+        "gots-p43",
+    )
 
 
 def test_the_blank_file_explains_every_key():

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from kshm import kinematics
 from kshm.companions import companion_columns, companion_scalars
+from kshm.cycle_summary import cycle_columns
 from kshm.engine import Engine
 from kshm.nomenclature import quantity, ray_key
 from kshm.summary import summarise
@@ -63,6 +64,9 @@ class Solution:
                 for k in range(self._journals)
             },
         }
+        if self.engine.cycle is not None:
+            made = cycle_columns(self.engine.cycle, self.engine.step_deg)
+            tables |= {name: self._units(columns) for name, columns in made.items()}
         worst = int(self.scalars["worst_main_load"])
         chosen = tables[f"P4_3_{worst}"]
         tables["P4_3"] = {key: chosen[key] for key in ("phi_deg", "Rx_MPa", "Ry_MPa")}

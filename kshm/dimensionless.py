@@ -49,7 +49,8 @@ def _rod_along_axis(alpha: Array, lam: Array) -> Array:
 
 def displacement_two_term(alpha: Array, lam: Array) -> Array:
     """Approximate displacement [-], Segal (1.8)."""
-    return 1 - np.cos(alpha) + lam / 2 * np.sin(alpha) ** 2
+    result: Array = 1 - np.cos(alpha) + lam / 2 * np.sin(alpha) ** 2
+    return result
 
 
 def velocity_two_term(alpha: Array, lam: Array) -> Array:
@@ -60,7 +61,8 @@ def velocity_two_term(alpha: Array, lam: Array) -> Array:
 
 def acceleration_two_term(alpha: Array, lam: Array) -> Array:
     """Approximate acceleration [-], Segal (1.14)."""
-    return np.cos(alpha) + lam * (2 * np.cos(alpha) ** 2 - 1)
+    result: Array = np.cos(alpha) + lam * (2 * np.cos(alpha) ** 2 - 1)
+    return result
 
 
 def angle_two_term(s: Array, lam: Array) -> Array:

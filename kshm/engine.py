@@ -150,6 +150,22 @@ class Crankshaft:
 
 
 @dataclass(frozen=True, slots=True)
+class Balancing:
+    """What a person chooses for balancing and for the flywheel; SI units."""
+
+    counterweight_share: float = 0.5
+    first_shafts_share: float = 0.0
+    second_shafts_share: float = 1.0
+    suppression: float = 0.5
+    shaft_radius: float = 0.02
+    irregularity: float = 0.015
+    rod_small_end_share: float = 0.275
+    rod_mass_factor: float = 1.0
+    web_width_share: float = 1.125
+    web_thickness_share: float = 0.175
+
+
+@dataclass(frozen=True, slots=True)
 class Engine:
     """A four-stroke in-line engine with a central mechanism, SI units.
 
@@ -173,6 +189,7 @@ class Engine:
     indicated_power: float | None = None  # W, from a cycle calculation
     fullness: float = 1.0  # φ_п: how much the power was rounded down by
     force_offsets: tuple[float, ...] | None = None
+    balancing: Balancing = field(default_factory=Balancing)
     name: str = field(default="engine")
     cycle: CycleRun | None = None  # the cycle calculation that the gas comes from
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from kshm.cycle_diagram import polytropic_gas
 from kshm.cycle_run import CycleRun
 from kshm.engine import (
+    Balancing,
     Crankshaft,
     DirectMasses,
     EndMass,
@@ -27,6 +28,7 @@ from reports.inputs.model import (
     PolytropicGasSection,
     TableGasSection,
 )
+from reports.inputs.model_balance import BalanceSection
 from reports.inputs.model_crankshaft import ArmsSection, CrankshaftSection, WebSection
 from reports.units import DEG, KG, KW, MM, MPA, RPM
 
@@ -57,6 +59,7 @@ def to_engine(model: InputFile) -> Engine:
         indicated_power=power,
         fullness=fullness,
         force_offsets=None if forces is None else tuple(DEG.to_si(value) for value in forces),
+        balancing=_balancing(model.balance),
         name=model.engine.name,
         cycle=run,
     )
@@ -180,6 +183,12 @@ def _masses(model: InputFile, rod_length: float) -> Masses:
         rod=KG.to_si(masses.rod_kg),
         centre=centre,
     )
+
+
+def _balancing(section: BalanceSection) -> Balancing:
+    values = {key: float(value) for key, value in section.model_dump().items()}
+    radius = MM.to_si(values.pop("shaft_radius_mm"))
+    return Balancing(**values, shaft_radius=radius)
 
 
 def _crankshaft(shaft: CrankshaftSection) -> Crankshaft:

@@ -35,6 +35,7 @@ from reports.inputs.model import (
     Report,
     TableGasSection,
 )
+from reports.inputs.model_balance import BalanceSection
 from reports.inputs.model_crankshaft import CrankshaftSection
 from reports.inputs.model_cycle import CycleSection
 from reports.inputs.source import read_text, refuse_bomb, refused
@@ -52,8 +53,9 @@ SECTION_MODELS: dict[str, type[Strictly]] = {
     "cycle": CycleSection,
     "masses": MassesSection,
     "crankshaft": CrankshaftSection,
+    "balance": BalanceSection,
 }
-_OPTIONAL_SECTIONS = ("report", "calculation", "cycle")
+_OPTIONAL_SECTIONS = ("report", "calculation", "cycle", "balance")
 _GASES: dict[str, type[Strictly]] = {
     "polytropic": PolytropicGasSection,
     "table": TableGasSection,

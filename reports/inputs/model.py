@@ -13,6 +13,7 @@ from typing import Annotated, Literal
 from pydantic import Field, Strict
 
 from reports.inputs.meta import Strictly, choice, number, text
+from reports.inputs.model_balance import BalanceSection
 from reports.inputs.model_crankshaft import CrankshaftSection
 from reports.inputs.model_cycle import CycleSection
 from reports.units import DEG, KG, KW, MM, MPA, NONE, RPM
@@ -256,3 +257,4 @@ class InputFile(Strictly):
     cycle: CycleSection | None = None
     masses: MassesSection
     crankshaft: CrankshaftSection
+    balance: BalanceSection = Field(default_factory=BalanceSection)

@@ -112,12 +112,12 @@ def indicator_diagram(cycle: Cycle, step_deg: int = 1) -> IndicatorDiagram:
 def diagram_at(cycle: Cycle, phi: Array) -> IndicatorDiagram:
     """Points of the unrounded diagram at given angles [rad] from π to 3π, rising.
 
-    At 2π stands the end of compression c.
+    At 2π stands the start of the isobar z', not the end of compression c.
 
     Raises:
         CycleError: the cycle has no stroke.
     """
-    rising = int(np.searchsorted(phi, 2 * np.pi + EDGE))
+    rising = int(np.searchsorted(phi, 2 * np.pi - EDGE))
     return _points(cycle, phi, phi, rising, isobar_angle(cycle))
 
 

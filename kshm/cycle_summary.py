@@ -135,18 +135,21 @@ def speed_rows(kind: str) -> Array:
     return np.arange(20.0, _SPEED_LAST[kind] + SPEED_STEP, SPEED_STEP)
 
 
-def diagram_rows(step_deg: int) -> Array:
+DIAGRAM_STEP = 5.0  # deg
+
+
+def diagram_rows() -> Array:
     """Crank angles of the diagram's table [deg]: compression and expansion."""
-    return np.arange(180.0, 540.0 + step_deg, step_deg)
+    return np.arange(180.0, 540.0 + DIAGRAM_STEP, DIAGRAM_STEP)
 
 
-def cycle_columns(run: CycleRun, step_deg: int) -> dict[str, dict[str, Array]]:
+def cycle_columns(run: CycleRun) -> dict[str, dict[str, Array]]:
     """Tables of the cycle by id: the speed characteristic and the indicator diagram."""
     inputs: CycleInputs = run.cycle.inputs
     figures = run.cycle.effective
     shares = speed_rows(inputs.kind) / 100
     speeds = curve(figures.power_e, inputs.omega, figures.g_e, run.law, shares * inputs.omega)
-    degrees = diagram_rows(step_deg)
+    degrees = diagram_rows()
     diagram = diagram_at(run.cycle, np.radians(degrees))
     clearance = figures.displacement / (inputs.compression_ratio - 1)
     return {

@@ -65,7 +65,7 @@ class Solution:
             },
         }
         if self.engine.cycle is not None:
-            made = cycle_columns(self.engine.cycle, self.engine.step_deg)
+            made = cycle_columns(self.engine.cycle)
             tables |= {name: self._units(columns) for name, columns in made.items()}
         worst = int(self.scalars["worst_main_load"])
         chosen = tables[f"P4_3_{worst}"]

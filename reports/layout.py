@@ -166,6 +166,8 @@ class Layout:
 
     def _grid(self, grid: Grid, *, below_table: bool) -> None:
         row = self.next_row.get(grid.sheet, HEADER_ROW)
+        if any(cell.row == row - 2 for cell in self.cells.values() if cell.sheet == grid.sheet):
+            row += 1  # the title stands above the header: keep it off the list before
         first = 2 if below_table else 3  # aligned with the columns of the table above
         self.places[grid.id] = Place(
             grid.sheet, row, 1, len(grid.rows) + 1, len(grid.labels) + first - 1

@@ -96,7 +96,7 @@ def _fuel(section: CycleSection) -> ScalarTable:
         source = {
             "listing": "Гоц, прил. 2",
             "stoichiometry": "по молекуле",
-            "memory": "обычное значение, с книгой не сверено",
+            "memory": "по памяти, не сверено",
         }[fuel.source]
     if fuel is None:
         parts = ["cycle_fuel_carbon", "cycle_fuel_hydrogen", "cycle_fuel_oxygen"]

@@ -6,7 +6,7 @@ from reports.inputs.model import DesignGeometrySection, InputFile
 from reports.inputs.model_cycle import CycleSection
 
 SHEET = "Цикл"
-SOURCE = "метод Гриневецкого — Мазинга"
+SOURCE = "Гриневецкий и Мазинг"
 R = "8.315"  # kJ/(kmol·K), the method's constant; its 0 °C is 273 K
 
 # What the formulas of the indicator diagram call their parameters when the cycle gives them.

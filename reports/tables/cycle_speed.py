@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from kshm.cycle_names import EXTRA, INPUTS, OUTPUTS
 from kshm.cycle_ranges import usual_ranges
-from kshm.cycle_summary import SPEED_STEP, diagram_rows, speed_rows
+from kshm.cycle_summary import DIAGRAM_STEP, SPEED_STEP, diagram_rows, speed_rows
 from kshm.speed_characteristic import IDLE_SHARE, LEIDERMAN
 from reports.inputs.model import InputFile
 from reports.inputs.model_cycle import CycleSection
-from reports.tables.cycle_names import SOURCE, is_boosted, section_of
+from reports.tables.cycle_names import SHEET, SOURCE, is_boosted, section_of
 from reports.tables.spec import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
 
 SPEED_SHEET, DIAGRAM_SHEET, RANGE_SHEET = "ВСХ", "Диаграмма цикла", "Правдоподобие цикла"
-LEIDERMAN_SOURCE = "Лейдерман; коэффициенты по памяти, с книгой не сверены"
+LEIDERMAN_SOURCE = "Лейдерман, по памяти"
 INSIDE, OUTSIDE = "в пределах", "вне пределов"
 EPS = "geometry_compression_ratio"
 
@@ -49,20 +49,20 @@ def speed_blocks(model: InputFile) -> tuple[Block, ...]:
     if section is None:
         return ()
     return (
-        _diagram(model.calculation.step_deg),
         _diagram_points(),
-        _speed(section),
         _law(section),
+        _diagram(),
+        _speed(section),
         _ranges(section),
     )
 
 
-def _diagram(step_deg: int) -> TableSpec:
+def _diagram() -> TableSpec:
     rise = "(1 - sqrt(1 - lam**2*sin(rad(phi_deg))**2))/lam"
     z = "cyc_rho/cd_ratio"
-    pressure = f"(cyc_p_c/cd_ratio**cyc_n1) if phi_deg <= 360 else (cyc_p_z*min(1, {z})**cyc_n2)"
+    pressure = f"(cyc_p_c/cd_ratio**cyc_n1) if phi_deg < 360 else (cyc_p_z*min(1, {z})**cyc_n2)"
     temperature = (
-        "(cyc_T_c/cd_ratio**(cyc_n1 - 1)) if phi_deg <= 360"
+        "(cyc_T_c/cd_ratio**(cyc_n1 - 1)) if phi_deg < 360"
         f" else (cyc_T_z*min(1, cd_ratio/cyc_rho)*min(1, {z})**(cyc_n2 - 1))"
     )
     return TableSpec(
@@ -78,8 +78,9 @@ def _diagram(step_deg: int) -> TableSpec:
             Column("cd_p_MPa", pressure, SOURCE),
             Column("cd_T_K", temperature, SOURCE),
         ),
-        tuple(float(x) for x in diagram_rows(step_deg)),
-        note="Нескругленная диаграмма: при 360° стоит конец сжатия c, за ним сразу точка z′.",
+        tuple(float(x) for x in diagram_rows()),
+        note="Нескругленная диаграмма; при 360° стоит точка z′, конец сжатия c — на листе «Цикл».",
+        step=DIAGRAM_STEP,
     )
 
 
@@ -89,7 +90,7 @@ def _diagram_points() -> ScalarTable:
     return ScalarTable(
         "cycle_points",
         "Точка z",
-        DIAGRAM_SHEET,
+        SHEET,
         (Scalar("cyc_phi_z", f"360 + deg(acos(max(-1, min(1, {cosine}))))", "Гоц (1), обращение"),),
     )
 
@@ -140,7 +141,7 @@ def _law(section: CycleSection) -> ScalarTable:
         *_regimes(section),
     ]
     return ScalarTable(
-        "speed_law", "Характеристика и производные режимы", SPEED_SHEET, tuple(scalars)
+        "speed_law", "Внешняя скоростная характеристика и режимы", SHEET, tuple(scalars)
     )
 
 
@@ -152,16 +153,14 @@ def _regimes(section: CycleSection) -> list[Scalar]:
         Scalar(
             "reg_n_M",
             "cycle_torque_speed_rpm" if middle else "spd_Kc*regime_speed_rpm",
-            "задано" if middle else "ПРОИЗВОДНЫЙ: вершина кривой момента",
+            "задано" if middle else "производный: вершина M(n)",
         ),
         Scalar("reg_Me_M", f"cyc_M_e*(spd_a + spd_b*{x} - spd_c*{x}**2)", LEIDERMAN_SOURCE),
         Scalar("reg_Ne_M", "pi*reg_Me_M*reg_n_M/30000", "Гоц, 2.9"),
         Scalar(
             "reg_n_idle",
             "cycle_idle_speed_rpm" if idle else f"{share}*regime_speed_rpm",
-            "задано"
-            if idle
-            else f"ПРОИЗВОДНЫЙ: {share:g} от номинала, по памяти".replace(".", ","),
+            "задано" if idle else f"производный: {share:g}·n, по памяти".replace(".", ","),
         ),
     ]
 

@@ -29,6 +29,8 @@ from reports.layout import (
     check_names,
     quoted,
 )
+from reports.tables.cycle_names import SHEET as CYCLE_SHEET
+from reports.tables.cycle_speed import INSIDE, OUTSIDE, RANGE_SHEET
 from reports.tables.spec import Grid, Model, ScalarTable, TableSpec
 from reports.tables.values import Values, evaluate_model
 from reports.workbook import styles
@@ -42,6 +44,9 @@ _COLUMN_CM = 1.95
 _CHARACTER_CM = 0.25
 _SLOT = 16  # rows that a chart takes, so that pages hold whole charts
 _PORTRAIT_COLUMNS = 9
+_CYCLE_TITLES = {CYCLE_SHEET: "Расчет рабочего цикла"}
+_CYCLE_WIDTHS = {2: 20, 4: 17, SOURCE_COLUMN: 28, 6: 17, 7: 17, 8: 17}
+_RANGE_WIDTHS = {1: 76, 2: 4, 4: 16, SOURCE_COLUMN: 42}
 
 
 def workbook_bytes(model: Model, values: Values | None = None) -> bytes:
@@ -87,6 +92,7 @@ def _blocks(sheet: Worksheet, model: Model, writer: Writer) -> None:
         "Массы": "Размеры, массы и постоянные силы инерции",
         "Итоги": "Итоги расчёта",
         "Проверки": "Проверки",
+        **_CYCLE_TITLES,
     }
     _heading(sheet, titles.get(sheet.title, blocks[0].title))
     notes = [block.note for block in blocks if block.note]
@@ -100,15 +106,17 @@ def _blocks(sheet: Worksheet, model: Model, writer: Writer) -> None:
     if notes:
         _note(sheet, " ".join(dict.fromkeys(notes)))
     if sheet.title == "Проверки":
-        _colour_checks(sheet)
+        _colour_checks(sheet, "да", "НЕТ")
+    elif sheet.title == RANGE_SHEET:
+        _colour_checks(sheet, INSIDE, OUTSIDE)
 
 
-def _colour_checks(sheet: Worksheet) -> None:
+def _colour_checks(sheet: Worksheet, good: str, bad: str) -> None:
     area = f"{get_column_letter(4)}{HEADER_ROW}:{get_column_letter(4)}{HEADER_ROW + 40}"
     green, red = PatternFill(bgColor="C6EFCE"), PatternFill(bgColor="FFC7CE")
-    sheet.conditional_formatting.add(area, CellIsRule("equal", ['"да"'], fill=green))
+    sheet.conditional_formatting.add(area, CellIsRule("equal", [f'"{good}"'], fill=green))
     sheet.conditional_formatting.add(
-        area, CellIsRule("equal", ['"НЕТ"'], fill=red, font=Font(bold=True, color="9C0006"))
+        area, CellIsRule("equal", [f'"{bad}"'], fill=red, font=Font(bold=True, color="9C0006"))
     )
 
 
@@ -132,7 +140,7 @@ def _contents(sheet: Worksheet, model: Model) -> None:
     sheet.cell(row, 1, "Листы").style = styles.SUBTITLE
     described = {INPUT_SHEET: "Размеры, режим, газы, массы, коленчатый вал"}
     for block in model.blocks:
-        described.setdefault(block.sheet, block.title)
+        described.setdefault(block.sheet, _CYCLE_TITLES.get(block.sheet, block.title))
     for title, text in described.items():
         row += 1
         link = sheet.cell(row, 1, title)
@@ -214,6 +222,8 @@ def _page(sheet: Worksheet, model: Model, layout: Layout) -> None:
     elif sheet.title != CONTENTS_SHEET:
         sheet.freeze_panes = Cell(sheet.title, HEADER_ROW, 1).coordinate
         wide = {1: 62, 2: 16, VALUE_COLUMN: 16, 4: 12, SOURCE_COLUMN: 26, 6: 32}
+        if sheet.title in (CYCLE_SHEET, RANGE_SHEET):
+            wide |= _CYCLE_WIDTHS if sheet.title == CYCLE_SHEET else _RANGE_WIDTHS
         _widths(sheet, {i: wide.get(i, 14) for i in range(1, last_column + 1)})
     sheet.print_area = f"A1:{Cell('', last_row, last_column).coordinate}"
     sheet.page_setup.paperSize = sheet.PAPERSIZE_A4

@@ -49,6 +49,6 @@ pushd "%ROOT%"
 "%VENV%\Scripts\ruff.exe" check . || set "FAILED=1"
 "%VENV%\Scripts\ruff.exe" format --check . || set "FAILED=1"
 "%VENV%\Scripts\mypy.exe" || set "FAILED=1"
-"%VENV%\Scripts\python.exe" -m pytest %ARGS% || set "FAILED=1"
+"%VENV%\Scripts\python.exe" -m pytest -n auto %ARGS% || set "FAILED=1"
 popd
 exit /b %FAILED%

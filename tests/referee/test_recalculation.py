@@ -25,6 +25,7 @@ from tests.referee.compare import (
 )
 
 CHANGES = 20
+OTHERS = 2  # LibreOffice needs a second or more for each book
 
 
 @pytest.fixture(scope="module")
@@ -53,7 +54,7 @@ def test_libreoffice_agrees(books: dict[str, bytes], libreoffice: LibreOffice) -
         check(name, books[name], result)
 
 
-def changed_books(name: str) -> list[tuple]:
+def changed_books(name: str, count: int = CHANGES) -> list[tuple]:
     """Random changes of a sample on a coarse grid: the same formulas in fewer rows."""
     raw = to_mapping(sample(name))
     raw["calculation"]["step_deg"] = 30
@@ -61,7 +62,7 @@ def changed_books(name: str) -> list[tuple]:
     book = workbook_bytes(build_model(coarse))
     rng = random.Random(f"changes of {name}")
     made = []
-    for _ in range(CHANGES):
+    for _ in range(count):
         change, data = random_change(coarse, rng)
         made.append((change, data, type_into(book, coarse, change)))
     return made
@@ -79,7 +80,10 @@ def test_formualizer_follows_random_changes(name: str) -> None:
 
 @pytest.mark.libreoffice
 def test_libreoffice_follows_random_changes(libreoffice: LibreOffice) -> None:
-    made = [made for name in sample_names() for made in changed_books(name)[:CHANGES]]
+    """All changes of the textbook's diesel, the first few of every other sample."""
+    made = []
+    for name in sample_names():
+        made += changed_books(name, CHANGES if name == "gots-diesel" else OTHERS)
     results = libreoffice.recalculate([book for _, _, book in made])
     for (change, data, _), result in zip(made, results, strict=True):
         assert errors_in(result) == [], change

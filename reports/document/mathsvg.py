@@ -20,7 +20,7 @@ from html import escape as escape_html
 from typing import Any
 
 from reports.document.symbols import GREEK
-from reports.document.texsplit import balanced, break_points
+from reports.document.texsplit import balanced, break_points, tokens
 from reports.document.texwords import for_mathtext
 
 _UNITS = 1000.0  # size at which mathtext sets the formula; one em of the result
@@ -29,6 +29,9 @@ _PAD = 0.04  # em added left and right: slanted letters reach out of their boxes
 _PRIME = 0x2032
 _PRIME_DROP = 0.5
 _PRIME_GROWTH = 1.25
+_NO_SIGN = {r"\left", r"\right", r"\mathrm", r"\text", r"\,", r"\;", r"\:", r"\!"}
+_WORDS = {r"\sin", r"\cos", r"\tg", r"\min", r"\max", r"\arcsin", r"\arccos", r"\arctg"}
+_SIGN = 0.56  # em that a sign takes on the average
 _DECIMAL_POINT = re.compile(r"\d\.\d")
 
 
@@ -101,22 +104,56 @@ def formula_lines(tex: str, max_em: float = 28.0) -> tuple[Formula, ...]:
 
 
 def _fit(tex: str, max_em: float) -> list[Formula]:
-    whole = formula(tex)
-    if whole.width_em <= max_em:
-        return [whole]
-    pieces = break_points(tex)
-    best: tuple[float, Formula, str] | None = None
-    for point in pieces:
+    # Setting a formula costs a millisecond a sign: lines are guessed by counting signs, and
+    # the first guess that fits serves.
+    whole: Formula | None = None
+    scale = _SIGN
+    if _signs(tex) * scale <= 1.2 * max_em:
+        whole = formula(tex)
+        if whole.width_em <= max_em:
+            return [whole]
+        scale = whole.width_em / max(1, _signs(tex))
+
+    def score(end: int, rank: int) -> float:
+        # A full line is good, a break at a relation better than one within a sum, the
+        # left side alone on a line is bad.
+        filled = _signs(tex[:end]) * scale / max_em
+        return min(filled, 1.0) - rank * 0.35 - (0.5 if filled < 0.25 else 0.0)
+
+    guesses = [p for p in break_points(tex) if _signs(tex[: p.end]) * scale <= 1.15 * max_em]
+    for point in sorted(guesses, key=lambda p: score(p.end, p.rank), reverse=True):
         head = formula(tex[: point.end])
-        if head.width_em > max_em:
-            continue
-        # A full line is good, a break at a relation better than one within a sum.
-        score = head.width_em / max_em - point.rank * 0.35
-        if best is None or score > best[0]:
-            best = (score, head, point.carried + tex[point.end :])
-    if best is None:
-        return [whole]
-    return [best[1], *_fit(best[2], max_em)]
+        if head.width_em <= max_em:
+            return [head, *_fit(point.carried + tex[point.end :], max_em)]
+    return [whole or formula(tex)]
+
+
+@functools.lru_cache(maxsize=8192)
+def _signs(tex: str) -> int:
+    """About how many signs a formula is wide; of a fraction the wider part counts."""
+    total = place = 0
+    source = tokens(tex)
+    while place < len(source):
+        token = source[place]
+        place += 1
+        if token in (r"\dfrac", r"\frac", r"\tfrac"):
+            over, place = _group(source, place)
+            under, place = _group(source, place)
+            total += max(_signs(over), _signs(under))
+        elif not (token.isspace() or token in "{}_^" or token in _NO_SIGN):
+            total += 3 if token in _WORDS else 1
+    return total
+
+
+def _group(source: list[str], place: int) -> tuple[str, int]:
+    """The braced group that begins at a place, and the place after it."""
+    depth, start = 0, place
+    while place < len(source):
+        depth += {"{": 1, "}": -1}.get(source[place], 0)
+        place += 1
+        if depth == 0:
+            break
+    return "".join(source[start:place]), place
 
 
 def _parse(tex: str) -> tuple[float, float, float, Iterable[Any], Iterable[Any]]:

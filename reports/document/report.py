@@ -14,8 +14,17 @@ from typing import Literal
 from markupsafe import Markup
 
 from reports.document.blocks import DocumentInfo
+from reports.document.drawing import Drawing
 from reports.document.render import AttachedFile, environment, render_pdf
-from reports.document.sections import closing, crankpin, dynamics, journals, kinematics, opening
+from reports.document.sections import (
+    closing,
+    crankpin,
+    cycle,
+    dynamics,
+    journals,
+    kinematics,
+    opening,
+)
 from reports.document.sections import torque as torques
 from reports.document.sections.chapter import Chapter
 from reports.document.terms import Terms
@@ -28,6 +37,7 @@ from reports.tables.values import Values
 CHAPTERS: tuple[Callable[[Chapter], Markup], ...] = (
     opening.introduction,
     opening.input_data,
+    cycle.cycle,
     kinematics.kinematics,
     dynamics.dynamics,
     torques.torque,
@@ -69,9 +79,11 @@ def report_page(model: Model, values: Values, *, media: Literal["print", "screen
     env = environment(media=media)
     terms = Terms(model, values)
     draft = Draft()
-    _write(Chapter(terms, Writer(env, draft), env))
-    writer = Writer(env, draft.order.numbering())
-    body = _write(Chapter(terms, writer, env))
+    planned = Writer(env, draft)
+    _write(Chapter(terms, planned, env))
+    with Drawing({key: plan.draw for key, plan in planned.figures.items()}) as drawing:
+        writer = Writer(env, draft.order.numbering(), drawing)
+        body = _write(Chapter(terms, writer, env))
     writer.n.check()
     template = env.get_template("report/report.html.j2")
     return template.render(

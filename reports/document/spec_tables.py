@@ -63,7 +63,8 @@ def list_block(rows: Sequence[Sequence[str]]) -> TableBlock:
         Column("Значение", 1.6),
         Column("Единица", 1.3),
     )
-    return table_block(columns, rows)
+    # Values of different kinds: Markup keeps them from being lined up as one column.
+    return table_block(columns, [[a, b, Markup("{}").format(c), d] for a, b, c, d in rows])
 
 
 def unit_cell(unit: str) -> str:

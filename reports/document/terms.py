@@ -13,7 +13,7 @@ from reports.document import numbers
 from reports.document.blocks import WhereItem
 from reports.document.symbols import inline_html
 from reports.document.texts import rich
-from reports.formula import tex
+from reports.formula import tex as formulas
 from reports.formula.numeric import evaluate
 from reports.inputs.fields import Field
 from reports.tables.spec import Column, Model, Scalar
@@ -44,6 +44,8 @@ def digits_of(fmt: str) -> int:
 
 def unit_tex(label: str) -> str:
     r"""A unit for TeX: ``м/с²`` gives ``\mathrm{м/с}^{2}``."""
+    if not label:
+        return ""
     if label == "°":
         return r"^{\circ}"
     if label == "%":
@@ -94,7 +96,7 @@ class Terms:
     def tex(self, name: str) -> str:
         """TeX symbol of a node."""
         if name in self.model.fields:
-            return tex.input_symbol_tex(self.model.fields[name].symbol)
+            return formulas.input_symbol_tex(self.model.fields[name].symbol)
         shown = self.quantity(name)
         key = name.rpartition(".")[2]
         family = key.split("_", 1)[1] if key.startswith("throw") else key
@@ -163,26 +165,27 @@ class Terms:
         )
 
     def where(self, *names: str) -> list[WhereItem]:
-        """Lines of a «где» list."""
-        return [WhereItem(self.tex(n), self.title(n), self.unit(n)) for n in names]
+        """Lines of a «где» list; what the model lacks is left out."""
+        present = (name for name in names if self.has(name))
+        return [WhereItem(self.tex(n), self.title(n), self.unit(n)) for n in present]
 
     def formula(self, name: str, at: float | None = None) -> str:
         """``symbol = expression`` in symbols, of the branch in force."""
         expr = self._expr(name, at)
-        return f"{self.tex(name)} = {tex.to_tex(expr, self._symbols(name))}"
+        return f"{self.tex(name)} = {formulas.to_tex(expr, self._symbols(name))}"
 
     def substitution(self, name: str, at: float | None = None, *, symbols: bool = False) -> str:
         """``symbol = numbers = result unit``; with ``symbols`` the expression stands before."""
         expr = self._expr(name, at)
         parts = [self.tex(name)]
         if symbols:
-            parts.append(tex.to_tex(expr, self._symbols(name)))
+            parts.append(formulas.to_tex(expr, self._symbols(name)))
         table = name.rpartition(".")[0]
 
         def number(inner: str) -> float | str:
             return self._number(self._global(inner, table), at)
 
-        parts.append(tex.to_tex_numbers(expr, self._symbols(name), number))
+        parts.append(formulas.to_tex_numbers(expr, self._symbols(name), number))
         parts.append(self.result_tex(name, at))
         return " = ".join(parts)
 
@@ -190,9 +193,9 @@ class Terms:
         """Result with unit for TeX."""
         return numbers.to_tex(self.num(name, at)) + unit_tex(self.unit(name))
 
-    def branches(self, name: str) -> list[tex.Piece]:
+    def branches(self, name: str) -> list[formulas.Piece]:
         """All branches of a formula with choices."""
-        return tex.pieces(self._node_expr(name), self._symbols(name))
+        return formulas.pieces(self._node_expr(name), self._symbols(name))
 
     def book(self, name: str) -> str:
         """Where the book has it: «формула (3)», «формулы (51), (53)», «п. 2.8», empty else."""
@@ -200,7 +203,7 @@ class Terms:
         source = node.source if isinstance(node, Scalar | Column) else ""
         return book_place(source)
 
-    def _symbols(self, name: str) -> tex.Symbols:
+    def _symbols(self, name: str) -> formulas.Symbols:
         table = name.rpartition(".")[0]
         return lambda inner: self.tex(self._global(inner, table))
 
@@ -238,19 +241,19 @@ class Terms:
                 return (field.choices or {}).get(field.value, field.value)
             return self.value(found, at)
 
-        return tex.chosen(self._node_expr(name), lambda test: bool(evaluate(test, lookup)))
+        return formulas.chosen(self._node_expr(name), lambda test: bool(evaluate(test, lookup)))
 
     def _number(self, name: str, at: float | None) -> float | str:
         value = self.value(name, at)
         unit = "" if name in self.model.fields else self.quantity(name).unit
         if unit == "rad":
             text = numbers.to_tex(numbers.fixed(float(np.degrees(value)), 3))
-            return tex.Raw(text + r"^{\circ}")
-        return tex.Raw(_number_tex(value))
+            return formulas.Raw(text + r"^{\circ}")
+        return formulas.Raw(_number_tex(value))
 
 
 def _number_tex(value: float) -> str:
-    text = tex.number_tex(value, _SIGNIFICANT)
+    text = formulas.number_tex(value, _SIGNIFICANT)
     return rf"\left({text}\right)" if r"\cdot" in text else text
 
 

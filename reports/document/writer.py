@@ -7,13 +7,14 @@ refer forward and the contents, counts and links are right.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from markupsafe import Markup
 
 from reports.document.blocks import TableBlock, WhereItem
+from reports.document.drawing import Drawing
 from reports.document.numbering import Heading, Kind, Label, Numbering
 
 if TYPE_CHECKING:
@@ -100,11 +101,11 @@ class Writer:
         self,
         environment: Environment,
         numbering: Numbering,
-        drawn: Mapping[str, str] | None = None,
+        drawing: Drawing | None = None,
     ) -> None:
         self.n = numbering
         self.draft = isinstance(numbering, Draft)
-        self.drawn = dict(drawn or {})
+        self.drawing = drawing
         self.figures: dict[str, Figure] = {}
         self._macros: Any = environment.get_template("report/macros.html.j2").module
 
@@ -136,7 +137,7 @@ class Writer:
         self.figures[key] = plan
         if self.draft:
             return Markup("")
-        svg = self.drawn[key] if key in self.drawn else plan.draw()
+        svg = plan.draw() if self.drawing is None else self.drawing.svg(key)
         return Markup(self._macros.figure(Markup(svg), label, plan.caption, plan.alt))
 
     def table(self, key: str, plan: TablePlan) -> Markup:

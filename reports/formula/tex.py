@@ -14,7 +14,7 @@ Symbols = Callable[[str], str]
 Numbers = Callable[[str], float | str]
 
 _NAMES = {
-    "sin": r"\sin", "cos": r"\cos", "tan": r"\mathrm{tg}", "asin": r"\arcsin",
+    "sin": r"\sin", "cos": r"\cos", "tan": r"\tg", "asin": r"\arcsin",
     "acos": r"\arccos", "exp": r"\exp", "ln": r"\ln",
 }  # fmt: skip
 _COMPARISONS = {
@@ -108,8 +108,8 @@ def input_symbol_tex(symbol: str) -> str:
     base, _, index = symbol.partition("_")
     greek = {"λ": r"\lambda", "ε": r"\varepsilon", "ρ": r"\rho", "η": r"\eta", "φ": r"\varphi",
              "θ": r"\theta", "γ": r"\gamma", "α": r"\alpha", "ω": r"\omega", "τ": r"\tau",
-             "Δ": r"\Delta", "δ": r"\delta", "ψ": r"\psi"}  # fmt: skip
-    text = "".join(greek.get(char, char) for char in base)
+             "Δ": r"\Delta", "δ": r"\delta", "ψ": r"\psi", "ξ": r"\xi", "π": r"\pi"}  # fmt: skip
+    text = "".join(f"{greek[char]} " if char in greek else char for char in base).strip()
     if re.search("[а-яА-Я]", text):
         text = rf"\mathrm{{{text}}}"
     if not index:
@@ -264,7 +264,7 @@ class _Printer:
             return rf"{inside} \;\left(\mathrm{{mod}}\; {modulus}^{{\circ}}\right)", _SUM
         if name == "atan2":
             ratio = rf"\dfrac{{{self.text(args[0])}}}{{{self.text(args[1])}}}"
-            return rf"\mathrm{{arctg}}\,{ratio}", _PRODUCT
+            return rf"\arctg {ratio}", _PRODUCT
         if name == "total":
             return " + ".join(self._wrap(arg, _SUM) for arg in args), _SUM
         if name in _NAMES:
@@ -279,7 +279,9 @@ class _Printer:
             return self._emit(arg)
         way, unit = name.split("_", 1)
         exponent = round(math.log10(SCALES[unit])) * (1 if way == "of" else -1)
-        return rf"{self._wrap(arg, _PRODUCT)} \cdot 10^{{{exponent}}}", _PRODUCT
+        text, level = self._emit(arg)
+        factor = text if level >= _PRODUCT else rf"\left({text}\right)"
+        return rf"{factor} \cdot 10^{{{exponent}}}", _PRODUCT
 
     def _aggregate(self, name: str, arg: ast.expr) -> str:
         symbol = _Printer(self.symbols, None).text(arg)

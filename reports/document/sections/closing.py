@@ -158,5 +158,5 @@ def _plan(
     size: str = "",
 ) -> TablePlan:
     spec = terms.model.tables[key]
-    build = partial(angle_table, terms, key, columns)
+    build = partial(angle_table, terms, key, columns, own_symbols=key in ("gas", "P4_1"))
     return TablePlan(build, spec.title, number=number or spec.number, size=size)

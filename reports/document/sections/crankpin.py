@@ -69,7 +69,7 @@ def _polar(terms: Terms) -> Figure:
         rf"${terms.tex('crankpin.K_MPa')}$, МПа",
         invert=(False, True),
         poles=poles,
-        most=140.0,
+        most=122.0,
     )
     return Figure(draw, "Полярная диаграмма удельной нагрузки на шатунную шейку")
 

@@ -7,13 +7,14 @@ from functools import partial
 import numpy as np
 from markupsafe import Markup
 
+from reports.document.blocks import TableBlock
 from reports.document.figures import Level, Mark, line_chart, pv_diagram
 from reports.document.sections.chapter import Chapter
 from reports.document.sections.plots import PHI, over_phi, phi, series
 from reports.document.spec_tables import scalar_table
 from reports.document.terms import Terms
 from reports.document.writer import Figure, TablePlan
-from reports.inputs.model import PolytropicGasSection
+from reports.inputs.model import TableGasSection
 
 EXAMPLE = 390.0  # shortly after the greatest pressure
 
@@ -21,21 +22,20 @@ EXAMPLE = 390.0  # shortly after the greatest pressure
 def dynamics(chapter: Chapter) -> Markup:
     """Masses, pressure of the gases and the forces of one cylinder."""
     terms, gas = chapter.terms, chapter.input.gas
-    polytropic = isinstance(gas, PolytropicGasSection)
+    polytropic = not isinstance(gas, TableGasSection)
     figures = {
         "pv": _pv(terms),
         "p_phi": _p_phi(terms),
         "specific": over_phi(terms, "Удельные силы давления газов, инерции и их сумма",
-                             "$p'$, МПа", "P4_1.Pg_MPa", "P4_1.Pj_MPa", "P4_1.Ps_MPa", height=95.0),
+                             "$p'$, МПа", "P4_1.Pg_MPa", "P4_1.Pj_MPa", "P4_1.Ps_MPa", height=80.0),
         "ns": over_phi(terms, "Удельные силы, действующие на стенку цилиндра и вдоль шатуна",
-                       "МПа", "P4_1.N_MPa", "P4_1.S_MPa", height=90.0),
+                       "МПа", "P4_1.N_MPa", "P4_1.S_MPa", height=76.0),
         "kt": over_phi(terms, "Удельные нормальная и тангенциальная силы на кривошипе",
-                       "МПа", "P4_1.K_MPa", "P4_1.T_MPa", height=90.0),
+                       "МПа", "P4_1.K_MPa", "P4_1.T_MPa", height=76.0),
     }  # fmt: skip
     points = TablePlan(partial(_points, terms), "Характерные точки индикаторной диаграммы")
     masses = [key for key in ("m_1", "m_2", "m_j") if _is_computed(chapter, key)]
-    inertia = terms.column("P4_1.Pj_MPa")
-    tables_at = {"tdc": terms.num("P4_1.Pj_MPa", 360.0), "bdc": terms.num("P4_1.Pj_MPa", 180.0)}
+    inertia = {"tdc": terms.num("P4_1.Pj_MPa", 360.0), "bdc": terms.num("P4_1.Pj_MPa", 180.0)}
     return chapter.page(
         "dynamics.html.j2",
         figures=figures,
@@ -45,26 +45,23 @@ def dynamics(chapter: Chapter) -> Markup:
         masses=masses,
         at=EXAMPLE,
         exact=chapter.input.calculation.method == "exact",
-        inertia=tables_at | {"size": float(np.ptp(inertia))},
+        inertia=inertia,
+        from_cycle=chapter.input.gas.source == "cycle",
     )
 
 
 def _is_computed(chapter: Chapter, key: str) -> bool:
     """Whether a mass follows from others and is not simply given."""
     scalar = chapter.model.scalars.get(key)
-    return (
-        scalar is not None
-        and not scalar.expr.startswith("masses_")
-        or (scalar is not None and any(sign in scalar.expr for sign in "+-*/"))
-    )
+    return scalar is not None and any(sign in scalar.expr for sign in "+-*/")
 
 
-def _points(terms: Terms):  # type: ignore[no-untyped-def]
-    names = [
-        "phi_c_deg", "p_start", "p_c_end", "gas_max_pressure_mpa",
+def _points(terms: Terms) -> TableBlock:
+    names = (
+        "phi_c_deg", "p_start", "p_c_end", "gas_max_pressure_mpa", "cyc_p_z",
         "phi_open_deg", "p_open", "phi_close_deg",
-    ]  # fmt: skip
-    return scalar_table(terms, names)
+    )  # fmt: skip
+    return scalar_table(terms, [name for name in names if terms.has(name)])
 
 
 def _pressure_tex(terms: Terms) -> str:
@@ -103,6 +100,7 @@ def _pv(terms: Terms) -> Figure:
         volume_label="$V$, дм³",
         pressure_label=rf"${terms.tex('gas.p_MPa')}$, МПа",
         ambient=terms.value("gas_ambient_pressure_mpa"),
+        height=82.0,
     )
     return Figure(draw, "Индикаторная диаграмма в координатах p–V")
 
@@ -115,7 +113,7 @@ def _p_phi(terms: Terms) -> Figure:
         series(terms, "gas.p_MPa"),
         PHI,
         rf"${terms.tex('gas.p_MPa')}$, МПа",
-        height=80.0,
+        height=72.0,
         levels=(Level("$p_0$", terms.value("gas_ambient_pressure_mpa")),),
         marks=_marks(terms, angles),
     )

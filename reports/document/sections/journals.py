@@ -78,12 +78,14 @@ def _loads(terms: Terms, numbers: list[int]) -> TableBlock:
         Column(symbol_head(r"R_{\max}", "кН")),
         Column(symbol_head(r"q_{\max}", "МПа")),
         Column(symbol_head(r"q_{\mathrm{ср}}", "МПа")),
+        Column(symbol_head(r"\alpha_{\mathrm{м}}", "°"), 0.8),
     ]
     rows = []
     for k in numbers:
         keys = (
             f"Rmain{k}_max", f"phi_Rmain{k}_max_deg", f"Rmain{k}_min", f"phi_Rmain{k}_min_deg",
             f"Rmain{k}_mean", f"Rmain{k}_max_kN", f"q_main{k}_max", f"q_main{k}_mean",
+            f"hole_main{k}_deg",
         )  # fmt: skip
         rows.append([str(k), *(terms.num(key) for key in keys)])
     return table_block(columns, rows)
@@ -118,12 +120,12 @@ def _figures(terms: Terms, k: int, rays: int) -> dict[str, Figure]:
         f"${y}$, МПа",
         invert=(True, False),
         poles=(Pole("$O$"),),
-        most=112.0,
+        most=100.0,
     )
     return {
         "polar": Figure(polar, f"Полярная диаграмма удельной нагрузки на коренную шейку {k}"),
         "wear": wear_figure(
-            terms, f"main{k}", rays, f"Условная диаграмма износа коренной шейки {k}", "ось y", 96.0
+            terms, f"main{k}", rays, f"Условная диаграмма износа коренной шейки {k}", "ось y", 84.0
         ),
         "unfolded": over_phi(
             terms,

@@ -34,7 +34,7 @@ def kinematics(chapter: Chapter) -> Markup:
         "j": over_phi(terms, "Ускорение поршня и его гармоники первого и второго порядков",
                       "$j$, м/с²", "P3_1.j_m_s2", "P3_1.j1_m_s2", "P3_1.j2_m_s2"),
         "beta": over_phi(terms, "Угол отклонения шатуна", r"$\beta$, рад", "P3_2.beta_rad",
-                         height=65.0),
+                         height=58.0),
         "rod": _rod(terms),
     }  # fmt: skip
     return chapter.page("kinematics.html.j2", figures=figures, at=EXAMPLE, half=fixed(half, 3))
@@ -49,7 +49,7 @@ def _rod(terms: Terms) -> Figure:
         Panel(omega, r"$\omega_{\mathrm{ш}}$, с⁻¹"),
         Panel(eps, r"$\varepsilon_{\mathrm{ш}}$, с⁻²"),
         PHI,
-        panel_height=62.0,
+        panel_height=50.0,
     )
     return Figure(
         draw,

@@ -30,7 +30,7 @@ def over_phi(
     caption: str,
     y_label: str,
     *names: str,
-    height: float = 85.0,
+    height: float = 76.0,
     levels: Sequence[Level] = (),
     marks: Sequence[Mark] = (),
 ) -> Figure:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from functools import partial
 
+import numpy as np
 from markupsafe import Markup
 
 from reports.document.blocks import Column, TableBlock, symbol_head, table_block
@@ -26,7 +27,7 @@ def torque(chapter: Chapter) -> Markup:
         "P4_2.Msum_Nm",
         levels=(Level(rf"${terms.tex('M_mean')}$", terms.value("M_mean")),),
         marks=extreme_marks(terms, "P4_2.Msum_Nm"),
-        height=90.0,
+        height=78.0,
     )
     cylinders = chapter.input.engine.cylinders
     return chapter.page(
@@ -74,7 +75,10 @@ def running(chapter: Chapter) -> Markup:
         terms, pin, "$M$, Н·м", [f"шейка {i}" for i in range(1, count + 1)],
         "Набегающие моменты на шатунные шейки",
     )  # fmt: skip
-    symmetric = terms.value("value_symmetry") <= 1e-6
+    gap = max(
+        float(np.abs(terms.column(f"P4_5s.Mpins{i}_Nm") - terms.column(f"P4_5.Mpin{i}_Nm")).max())
+        for i in range(1, count + 1)
+    )
     return chapter.page(
         "running.html.j2",
         main_figures=main_figures,
@@ -82,7 +86,7 @@ def running(chapter: Chapter) -> Markup:
         ranges=TablePlan(partial(_ranges, terms, count), "Размах набегающих моментов", lined=False),
         last=count + 1,
         count=count,
-        symmetric=symmetric,
+        gap=fixed(gap, 1) if gap > 0.05 else "",
         worst_main=worst(terms, "worst_main_torque"),
         worst_pin=worst(terms, "worst_pin_torque"),
     )

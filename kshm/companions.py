@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from kshm import balance_results, harmonics
 from kshm import dimensionless as segal
-from kshm import harmonics
 from kshm.engine import Engine
 from kshm.nomenclature import quantity
 
@@ -24,12 +24,21 @@ SHOWN_ORDERS = (1, 2, 4, 6)
 
 def companion_columns(engine: Engine, raw: BatchSolution, index: int) -> dict[str, Columns]:
     """Table id → column key → values in the units of the tables."""
-    return {**_segal(engine), **_neiman(engine)}
+    others = balance_results.columns(engine)
+    return {
+        **_segal(engine),
+        **_neiman(engine),
+        **{table: in_units(columns) for table, columns in others.items()},
+    }
 
 
 def companion_scalars(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float]:
     """All scalars of the companion sources in SI units."""
-    return {**_segal_scalars(engine), **_neiman_scalars(engine)}
+    return {
+        **_segal_scalars(engine),
+        **_neiman_scalars(engine),
+        **balance_results.scalars(engine),
+    }
 
 
 def in_units(columns: Columns) -> Columns:

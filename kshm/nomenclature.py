@@ -11,7 +11,7 @@ import re
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from kshm.nomenclature_companions import COMPANION_ROWS
+from kshm.nomenclature_companions import COMPANION_ROWS, COMPANION_UNITS
 from kshm.nomenclature_cycle import ROWS as CYCLE_ROWS
 from kshm.nomenclature_cycle import UNITS as CYCLE_UNITS
 
@@ -48,6 +48,7 @@ UNITS: dict[str, Unit] = {
     "kg": Unit("кг"),
     "percent": Unit("%", 0.01),
     **{key: Unit(*row) for key, row in CYCLE_UNITS.items()},
+    **{key: Unit(label, si) for key, label, si in COMPANION_UNITS},
 }
 
 

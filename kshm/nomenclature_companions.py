@@ -90,4 +90,70 @@ _NEIMAN: tuple[Row, ...] = (
     ("rod_on_pin_rel", "(dΦ/dt)/ω", r"\dot\Phi/\omega", "", "угловая скорость шатуна на шатунной шейке, отнесённая к ω", "0.0000"),
 )  # fmt: skip
 
-COMPANION_ROWS: tuple[Row, ...] = (*_SEGAL, *_NEIMAN)
+_SIDES = (("F", "kN", "силы", "F", "0.000"), ("L", "Nm", "момента", "M", "0.0"))
+
+_BALANCE: tuple[Row, ...] = (
+    ("order", "k", "k", "", "порядок", "0.0"),
+    ("order_amplitude", "ak", "a_k", "", "амплитуда гармоники ускорения, доля ω²R", "0.00000"),
+    ("order_cos", "Σcos kθ", r"\Sigma\cos k\theta", "", "сумма косинусов фаз цилиндров", "0.0000"),
+    ("order_sin", "Σsin kθ", r"\Sigma\sin k\theta", "", "сумма синусов фаз цилиндров", "0.0000"),
+    ("F_order_kN", "Fk", "F_k", "kN", "свободная сила инерции порядка k, амплитуда", "0.0000"),
+    ("F_order_deg", "φ(Fk)", r"\varphi_{Fk}", "deg", "угол вала при наибольшей силе вверх", "0.0"),
+    ("arm_cos_mm", "Σz cos kθ", r"\Sigma z\cos k\theta", "mm", "сумма плеч цилиндров с косинусами фаз", "0.00"),
+    ("arm_sin_mm", "Σz sin kθ", r"\Sigma z\sin k\theta", "mm", "сумма плеч цилиндров с синусами фаз", "0.00"),
+    ("M_order_Nm", "Mk", "M_k", "Nm", "свободный продольный момент порядка k, амплитуда", "0.00"),
+    ("M_order_deg", "φ(Mk)", r"\varphi_{Mk}", "deg", "угол вала при наибольшем моменте", "0.0"),
+    ("F_left_kN", "Fk ост", r"F_{k\,\mathrm{ост}}", "kN", "сила порядка k после балансирных валов", "0.0000"),
+    ("M_left_Nm", "Mk ост", r"M_{k\,\mathrm{ост}}", "Nm", "момент порядка k после балансирных валов", "0.00"),
+    *(row for key, unit, what, sign, fmt in _SIDES for row in (
+        *((f"{key}{n}_{unit}", f"{sign}{n}", f"{sign}_{n}", unit, f"{n}-й порядок свободной {what}".replace("свободной мом", "свободного мом"), fmt) for n in (1, 2, 4)),
+        (f"{key}rot_up_{unit}", f"{sign}r верх", rf"{sign}_{{r\,y}}", unit, f"вертикальная составляющая {what} вращающихся масс", fmt),
+        (f"{key}rot_right_{unit}", f"{sign}r вправо", rf"{sign}_{{r\,x}}", unit, f"горизонтальная составляющая {what} вращающихся масс", fmt),
+        (f"{key}up_{unit}", f"Σ{sign} верх", rf"\Sigma {sign}_y", unit, f"сумма вертикальных составляющих {what}", fmt),
+        (f"{key}up_after_{unit}", f"Σ{sign} верх ост", rf"\Sigma {sign}'_y", unit, f"вертикальная составляющая {what} после уравновешивания", fmt),
+        (f"{key}right_after_{unit}", f"Σ{sign} вправо ост", rf"\Sigma {sign}'_x", unit, f"горизонтальная составляющая {what} после уравновешивания", fmt),
+        (f"{key}rot_bare", f"{sign}r без противовесов", rf"{sign}_{{r0}}", unit, f"величина {what} вращающихся масс без противовесов", fmt),
+        (f"{key}rot", f"{sign}r", f"{sign}_r", unit, f"величина {what} вращающихся масс с противовесами", fmt),
+        *(row for name, when in (("before", "до уравновешивания"), ("after", "после уравновешивания")) for row in (
+            (f"{key}1_{name}_max", f"{sign}1 max", rf"{sign}_{{1\,\max}}", unit, f"наибольшая величина {what} 1-го порядка и вращающихся масс {when}", fmt),
+            (f"{key}1_{name}_min", f"{sign}1 min", rf"{sign}_{{1\,\min}}", unit, f"наименьшая величина {what} 1-го порядка и вращающихся масс {when}", fmt),
+            (f"{key}1_{name}_deg", f"γ({sign}1)", rf"\gamma_{{{sign}1}}", "deg", f"направление наибольшей величины {what} от вертикали по вращению {when}", "0.0"),
+            (f"{key}1_{name}_along", f"{sign}1 по вращению", rf"{sign}_{{1+}}", unit, f"вектор {what} 1-го порядка, вращающийся с валом, {when}", fmt),
+            (f"{key}1_{name}_against", f"{sign}1 против вращения", rf"{sign}_{{1-}}", unit, f"вектор {what} 1-го порядка, вращающийся против вала, {when}", fmt),
+            (f"{key}1_{name}_re", f"Re {sign}1", rf"\mathrm{{Re}}\,{sign}_{{1+}}", unit, f"его составляющая вдоль колена 1 при φ = 0 {when}", fmt),
+            (f"{key}1_{name}_im", f"Im {sign}1", rf"\mathrm{{Im}}\,{sign}_{{1+}}", unit, f"его составляющая поперёк колена 1 при φ = 0 {when}", fmt),
+        )),
+        (f"{key}rot_re", f"{sign}r вдоль", rf"{sign}_{{r\parallel}}", unit, f"составляющая {what} вращающихся масс вдоль колена 1", fmt),
+        (f"{key}rot_im", f"{sign}r поперёк", rf"{sign}_{{r\perp}}", unit, f"составляющая {what} вращающихся масс поперёк колена 1 по вращению", fmt),
+        (f"{key}cw_re", f"{sign}п вдоль", rf"{sign}_{{\mathrm{{п}}\parallel}}", unit, f"составляющая {what} масс mj против всех колен вдоль колена 1", fmt),
+        (f"{key}cw_im", f"{sign}п поперёк", rf"{sign}_{{\mathrm{{п}}\perp}}", unit, f"составляющая {what} масс mj против всех колен поперёк колена 1", fmt),
+    )),
+    ("z_left", "zл", r"z_{\mathrm{л}}", "mm", "левая опора колена от середины вала", "0.0"),
+    ("z_rod", "zш", r"z_{\mathrm{ш}}", "mm", "ось цилиндра от середины вала", "0.0"),
+    *((f"{key}_{part}{bare}", f"{sign}{symbol}{short}", rf"{sign}_{{{tex}}}", unit, f"{title} вращающихся масс колена {words}{long}", fmt)
+      for key, unit, title, sign, fmt in (("F", "N", "сила", "F", "0"), ("L", "Nm", "момент", "M", "0.00"))
+      for part, symbol, tex, words in (("up", " вдоль", r"\parallel", "вдоль колена"), ("side", " поперёк", r"\perp", "поперёк колена против вращения"))
+      for bare, short, long in (("", "", " с противовесами"), ("_bare", " без пр.", " без противовесов"))),
+    ("Pj_unit_kN", "mj·r·ω²", r"m_j r\omega^2", "kN", "амплитуда силы инерции первого порядка цилиндра", "0.000"),
+    ("counterweight_needed", "mпр", r"m_{\mathrm{пр}}", "kg", "масса противовесов колена на радиусе кривошипа для выбранной доли", "0.000"),
+    ("counterweight_web", "mпр щ", r"m_{\mathrm{пр.щ}}", "kg", "то же на одну щёку", "0.000"),
+    *((f"shaft{n}_moment", f"mбe{n}", rf"m_{{\mathrm{{б}}{n}}}e", "kgm", f"произведение массы на эксцентриситет груза каждого вала пары {n}-го порядка", "0.00000") for n in (1, 2)),
+    *((f"shaft{n}_mass", f"mб{n}", rf"m_{{\mathrm{{б}}{n}}}", "kg", f"масса груза каждого вала пары {n}-го порядка", "0.000") for n in (1, 2)),
+    ("variant", "№", "n", "", "порядок работы", "0"),
+    ("theta#_deg", "θ#", r"\theta_{#}", "deg", "начало рабочего хода цилиндра #", "0"),
+    ("order_code", "порядок", "n", "", "порядок работы, номера цилиндров подряд", "0"),
+    ("gap_max_deg", "Δθ max", r"\Delta\theta_{\max}", "deg", "наибольший промежуток между рабочими ходами", "0"),
+    ("gap_min_deg", "Δθ min", r"\Delta\theta_{\min}", "deg", "наименьший промежуток между рабочими ходами", "0"),
+    ("unevenness", "(Δmax − Δmin)/Δср", r"\Delta", "", "неравномерность чередования рабочих ходов", "0.000"),
+    ("half_order_sum", "Σ(0,5)", r"\Sigma_{0{,}5}", "", "векторная сумма моментов порядка 0,5", "0.000"),
+    ("first_order_sum", "Σ(1)", r"\Sigma_1", "", "векторная сумма моментов порядка 1", "0.000"),
+)  # fmt: skip
+
+COMPANION_ROWS: tuple[Row, ...] = (*_SEGAL, *_NEIMAN, *_BALANCE)
+COMPANION_UNITS: tuple[tuple[str, str, float], ...] = (
+    ("kgm", "кг·м", 1.0),
+    ("kgm2", "кг·м²", 1.0),
+    ("kg_m", "кг/м", 1.0),
+    ("gfcm_cm2", "гс·см/см²", 0.1),
+    ("kgf_cm2", "кгс/см²", 98066.5),
+)

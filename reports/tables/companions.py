@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from reports.inputs.model import InputFile
+from reports.tables.balance import balance_blocks, balance_charts
 from reports.tables.neiman import neiman_blocks, neiman_charts
 from reports.tables.segal import segal_blocks, segal_charts
 from reports.tables.spec import Block, ChartSpec
@@ -10,9 +11,15 @@ from reports.tables.spec import Block, ChartSpec
 
 def companion_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block, ...]:
     """All blocks of the companion sources."""
-    return *segal_blocks(), *neiman_blocks()
+    cylinders, throws = model.engine.cylinders, len(model.crankshaft.throw_angles_deg)
+    turn = tuple(angle for angle in cycle if angle <= 360)
+    return (
+        *balance_blocks(cylinders, throws, turn),
+        *segal_blocks(),
+        *neiman_blocks(),
+    )
 
 
 def companion_charts(model: InputFile) -> tuple[ChartSpec, ...]:
     """All charts of the companion sources."""
-    return *segal_charts(), *neiman_charts()
+    return *balance_charts(), *segal_charts(), *neiman_charts()

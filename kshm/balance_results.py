@@ -1,0 +1,144 @@
+"""Balance of one engine as named columns and scalars."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kshm import balance, firing_orders
+from kshm.engine import Engine
+from kshm.harmonics import acceleration_amplitude
+from kshm.inertia import point_masses, throw_mass
+
+Array = NDArray[np.float64]
+Columns = dict[str, Array]
+
+ORDERS = tuple(range(1, 9))
+
+
+def columns(engine: Engine) -> dict[str, Columns]:
+    """Tables ``balance``, ``balance_orders`` and ``firing_orders`` in SI units."""
+    tables = {"balance": _over_a_turn(engine), "balance_orders": _orders(engine)}
+    if engine.cylinders <= firing_orders.MAX_CYLINDERS:
+        tables["firing_orders"] = _firing_orders(engine)
+    return tables
+
+
+def _phase(amplitude: complex, order: int, unit: float) -> float:
+    """Shaft angle of the greatest value [rad]; zero where there is nothing."""
+    return 0.0 if abs(amplitude) < 1e-9 * unit else -float(np.angle(amplitude)) / order
+
+
+def _left(engine: Engine, order: int) -> float:
+    """Share of an order that the balance shafts leave."""
+    taken = {1: engine.balancing.first_shafts_share, 2: engine.balancing.second_shafts_share}
+    return 1 - taken.get(order, 0.0)
+
+
+def _orders(engine: Engine) -> Columns:
+    cylinders = balance.cylinders_of(engine)
+    lam = engine.geometry.lam
+    rows: dict[str, list[float]] = {}
+    length = float(np.abs(cylinders.place).max()) + 1e-30
+    for order in ORDERS:
+        force, moment = balance.reciprocating(engine, cylinders, order)
+        sums = balance.order_phasors(cylinders, order)
+        arms = balance.order_phasors(cylinders, order, cylinders.place)
+        values = {
+            "order": float(order),
+            "order_amplitude": acceleration_amplitude(lam, order),
+            "order_cos": sums.up.real,
+            "order_sin": -sums.up.imag,
+            "F_order_kN": abs(force.up),
+            "F_order_deg": _phase(sums.up, order, 1.0),
+            "arm_cos_mm": arms.up.real,
+            "arm_sin_mm": -arms.up.imag,
+            "M_order_Nm": abs(moment.up),
+            "M_order_deg": _phase(arms.up, order, length),
+            "F_left_kN": abs(force.up) * _left(engine, order),
+            "M_left_Nm": abs(moment.up) * _left(engine, order),
+        }
+        for key, value in values.items():
+            rows.setdefault(key, []).append(value)
+    return {key: np.array(values) for key, values in rows.items()}
+
+
+def _over_a_turn(engine: Engine) -> Columns:
+    phi = np.radians(np.arange(0.0, 360.0 + engine.step_deg, engine.step_deg))
+    cylinders = balance.cylinders_of(engine)
+    found: Columns = {"phi_deg": phi}
+    force, moment = balance.rotating(engine, counterweights=True)
+    more = balance.ideal_counterweights(engine)
+    share = engine.balancing.counterweight_share
+    parts = {"F": (force, more[0], 0), "L": (moment, more[1], 1)}
+    units = {"F": "kN", "L": "Nm"}
+    for letter, (turning, weights, which) in parts.items():
+        unit = units[letter]
+        upright: dict[int, Array] = {}
+        for order in (1, 2, 4):
+            phasors = balance.reciprocating(engine, cylinders, order)[which]
+            upright[order] = np.real(phasors.up * np.exp(1j * order * phi))
+            found[f"{letter}{order}_{unit}"] = upright[order]
+        shaft = turning * np.exp(1j * phi)
+        added = share * weights * np.exp(1j * phi)
+        found[f"{letter}rot_up_{unit}"] = shaft.real
+        found[f"{letter}rot_right_{unit}"] = shaft.imag
+        found[f"{letter}up_{unit}"] = upright[1] + upright[2] + upright[4] + shaft.real
+        rest = np.sum([_left(engine, order) * part for order, part in upright.items()], axis=0)
+        found[f"{letter}up_after_{unit}"] = rest + shaft.real + added.real
+        found[f"{letter}right_after_{unit}"] = shaft.imag + added.imag
+    return found
+
+
+def _firing_orders(engine: Engine) -> Columns:
+    angles = np.array([throw.angle for throw in engine.crankshaft.throws])
+    table = firing_orders.offsets_table(angles)
+    codes = [int("".join(map(str, firing_orders.sequence(row)))) for row in table]
+    gaps = firing_orders.intervals(table)
+    return {
+        "variant": np.arange(1.0, len(table) + 1),
+        **{f"theta{i + 1}_deg": table[:, i] for i in range(table.shape[1])},
+        "order_code": np.array(codes, dtype=float),
+        "gap_max_deg": gaps.max(axis=1),
+        "gap_min_deg": gaps.min(axis=1),
+        "unevenness": firing_orders.unevenness(table),
+        "half_order_sum": firing_orders.order_sum(table, 0.5),
+        "first_order_sum": firing_orders.order_sum(table, 1.0),
+    }
+
+
+def scalars(engine: Engine) -> dict[str, float]:
+    """Scalars of the balance in SI units."""
+    m_j, m_2 = point_masses(engine.masses, engine.geometry.rod_length)
+    choice, cylinders = engine.balancing, balance.cylinders_of(engine)
+    m_r = throw_mass(engine.crankshaft.throws[0]) + m_2
+    bare = balance.rotating(engine, counterweights=False)
+    shaft = balance.rotating(engine, counterweights=True)
+    more = balance.ideal_counterweights(engine)
+    first, second = balance.shaft_moments(engine)
+    needed = m_r + choice.counterweight_share * m_j
+    values = {
+        "Pj_unit_kN": m_j * engine.geometry.crank_radius * engine.omega**2,
+        "counterweight_needed": needed,
+        "counterweight_web": needed / 2,
+        "shaft1_moment": first,
+        "shaft1_mass": first / choice.shaft_radius,
+        "shaft2_moment": second,
+        "shaft2_mass": second / choice.shaft_radius,
+    }
+    half_length = -float(balance.throw_starts(engine)[0])
+    for which, letter in enumerate("FL"):
+        noise = 1e-9 * values["Pj_unit_kN"] * (half_length if which else 1)
+        values[f"{letter}rot_bare"] = abs(bare[which])
+        values[f"{letter}rot"] = abs(shaft[which])
+        upright = balance.reciprocating(engine, cylinders, 1)[which]
+        before = balance.added(upright, balance.turning(shaft[which]))
+        weights = shaft[which] + choice.counterweight_share * more[which]
+        rest = balance.scaled(upright, 1 - choice.first_shafts_share)
+        after = balance.added(rest, balance.turning(weights))
+        for name, vector in (("before", before), ("after", after)):
+            shape = balance.ellipse(vector, noise)
+            values[f"{letter}1_{name}_max"] = shape.largest
+            values[f"{letter}1_{name}_min"] = shape.smallest
+            values[f"{letter}1_{name}_deg"] = shape.direction
+    return values

@@ -1,0 +1,248 @@
+"""Balance by orders: standard layouts, statics, ellipses, balance shafts, firing orders."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+from kshm import balance, dimensionless, firing_orders, solve
+from kshm.engine import Engine
+from kshm.inertia import point_masses
+from kshm.journals import centrifugal_reactions
+from kshm.solver import solve_batch
+from tests.kshm.engines import engines
+from tests.textbook.book import solution
+
+PITCH = 0.1
+
+
+def cylinders(phases: list[float], places: list[float], axes: list[float]) -> balance.Cylinders:
+    """Phases are TDC positions of the shaft, places in pitches, axes in degrees."""
+    return balance.Cylinders(
+        np.radians(phases), PITCH * np.array(places, dtype=float), np.radians(axes)
+    )
+
+
+def inline(cranks: list[float]) -> balance.Cylinders:
+    count = len(cranks)
+    places = [i - (count - 1) / 2 for i in range(count)]
+    return cylinders([-c % 360 for c in cranks], places, [0.0] * count)
+
+
+def vee(cranks: list[float], bank: float) -> balance.Cylinders:
+    """Two cylinders on each throw, axes half a bank angle to the left and to the right.
+
+    A crank at γ stands under an axis at δ when the shaft has turned by δ − γ.
+    """
+    count = len(cranks)
+    phases, places, axes = [], [], []
+    for i, crank in enumerate(cranks):
+        for axis in (-bank / 2, bank / 2):
+            phases.append((axis - crank) % 360)
+            places.append(i - (count - 1) / 2)
+            axes.append(axis)
+    return cylinders(phases, places, axes)
+
+
+def opposed(cranks: list[float], axes: list[float]) -> balance.Cylinders:
+    count = len(cranks)
+    places = [i - (count - 1) / 2 for i in range(count)]
+    phases = [(axis - crank) % 360 for crank, axis in zip(cranks, axes, strict=True)]
+    return cylinders(phases, places, axes)
+
+
+def largest(found: balance.Cylinders, order: int, *, moment: bool) -> float:
+    weights = found.place if moment else None
+    return balance.ellipse(balance.order_phasors(found, order, weights)).largest
+
+
+# Force and moment of orders 1, 2, 4 in units of one cylinder's amplitude (and of the pitch).
+STANDARD = {
+    "one": (inline([0]), (1, 1, 1), (0, 0, 0)),
+    "two at 180": (inline([0, 180]), (0, 2, 2), (1, 0, 0)),
+    "two at 360": (inline([0, 0]), (2, 2, 2), (0, 0, 0)),
+    "three": (inline([0, 120, 240]), (0, 0, 0), (3**0.5, 3**0.5, 3**0.5)),
+    "four": (inline([0, 180, 180, 0]), (0, 4, 4), (0, 0, 0)),
+    "four, cross": (inline([0, 90, 270, 180]), (0, 0, 4), (10**0.5, 0, 0)),
+    "five": (inline([0, 144, 216, 288, 72]), (0, 0, 0), (0.44902798, 4.97979657, 0.44902798)),
+    "six": (inline([0, 120, 240, 240, 120, 0]), (0, 0, 0), (0, 0, 0)),
+    "V2 at 90": (vee([0], 90), (1, 2**0.5, 2**0.5), (0, 0, 0)),
+    "V8 cross": (vee([0, 90, 270, 180], 90), (0, 0, 4 * 2**0.5), (10**0.5, 0, 0)),
+    "V8 flat": (vee([0, 180, 180, 0], 90), (0, 4 * 2**0.5, 4 * 2**0.5), (0, 0, 0)),
+    "V6 at 60": (vee([0, 120, 240], 60), (0, 0, 0), (1.5 * 3**0.5, 1.5, 1.5)),
+    "V12 at 60": (vee([0, 120, 240, 240, 120, 0], 60), (0, 0, 0), (0, 0, 0)),
+    "boxer 2": (opposed([0, 180], [-90, 90]), (0, 0, 0), (1, 1, 1)),
+    "boxer 4": (opposed([0, 180, 180, 0], [-90, 90, -90, 90]), (0, 0, 0), (0, 2, 2)),
+    "boxer 6": (
+        opposed([0, 180, 240, 60, 120, 300], [-90, 90] * 3), (0, 0, 0), (0, 0, 0),
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", [name for name in STANDARD if name not in ("five", "V6 at 60")])
+def test_standard_table_of_forces_and_moments(name: str) -> None:
+    """Zero where it must be zero to 1e-12; the rest by the text-book factors."""
+    found, forces, moments = STANDARD[name]
+    for order, force, moment in zip((1, 2, 4), forces, moments, strict=True):
+        assert largest(found, order, moment=False) == pytest.approx(force, abs=1e-12), order
+        assert largest(found, order, moment=True) / PITCH == pytest.approx(moment, abs=1e-12)
+
+
+def test_five_cylinders_and_v6_have_moments_alone() -> None:
+    for name in ("five", "V6 at 60"):
+        found, _, moments = STANDARD[name]
+        for order, moment in zip((1, 2), moments, strict=False):
+            assert largest(found, order, moment=False) < 1e-12
+            assert largest(found, order, moment=True) / PITCH == pytest.approx(moment, abs=1e-6)
+
+
+@settings(max_examples=30)
+@given(engines(method="exact"))
+def test_orders_add_up_to_the_inertia_of_all_pistons(engine: Engine) -> None:
+    """Phasors against the exact accelerations of every piston, force and moment."""
+    geometry = engine.geometry
+    m_j, _ = point_masses(engine.masses, geometry.rod_length)
+    found = balance.cylinders_of(engine)
+    phi = np.radians(np.arange(0, 360, 7.0))
+    lam = np.array(geometry.lam)
+    local = phi[None, :] - found.phase[:, None]
+    unit = m_j * geometry.crank_radius * engine.omega**2
+    thrown = unit * dimensionless.acceleration(local, lam)
+    force, moment = np.zeros_like(phi), np.zeros_like(phi)
+    for order in (1, *range(2, 41, 2)):
+        one, two = balance.reciprocating(engine, found, order)
+        force += np.real(one.up * np.exp(1j * order * phi))
+        moment += np.real(two.up * np.exp(1j * order * phi))
+    scale = unit * engine.cylinders
+    np.testing.assert_allclose(force, thrown.sum(axis=0), atol=1e-8 * scale)
+    arms = thrown * found.place[:, None]
+    np.testing.assert_allclose(moment, arms.sum(axis=0), atol=1e-8 * scale)
+
+
+@settings(max_examples=30)
+@given(engines())
+def test_rotating_masses_are_what_the_main_bearings_hold(engine: Engine) -> None:
+    """Force and moment of the shaft = minus the constant reactions of all supports."""
+    raw = solve_batch([engine])
+    r = np.array([[engine.geometry.crank_radius]])
+    left, right = centrifugal_reactions(
+        raw.batch.throws, r, np.array([[engine.omega]]), raw.batch.m_2[:, :, 0]
+    )
+    starts = balance.throw_starts(engine)
+    turn = np.exp(1j * np.array([throw.angle for throw in engine.crankshaft.throws]))
+    reactions = [
+        (side[0, :, 1] - 1j * side[0, :, 0]) * turn for side in (left, right)
+    ]  # fmt: skip
+    force, moment = balance.rotating(engine, counterweights=True)
+    total = reactions[0].sum() + reactions[1].sum()
+    arms = (reactions[0] * starts[:-1]).sum() + (reactions[1] * starts[1:]).sum()
+    scale = max(1.0, np.abs(reactions).max())
+    assert abs(force + total) <= 1e-9 * scale
+    assert abs(moment + arms) <= 1e-9 * scale
+
+
+@pytest.mark.parametrize("angles", [(0.3, 1.1), (-2.0, 0.4), (0.0, np.pi / 2)])
+def test_ellipse_against_the_curve(angles: tuple[float, float]) -> None:
+    vector = balance.Phasors(2 * np.exp(1j * angles[0]), 0.7 * np.exp(1j * angles[1]))
+    t = np.linspace(0, 2 * np.pi, 200001)
+    up = np.real(vector.up * np.exp(1j * t))
+    right = np.real(vector.right * np.exp(1j * t))
+    length = np.hypot(up, right)
+    shape = balance.ellipse(vector)
+    assert shape.largest == pytest.approx(length.max(), rel=1e-8)
+    assert shape.smallest == pytest.approx(length.min(), abs=1e-6)
+    at = length.argmax()
+    direction = np.arctan2(right[at], up[at])
+    assert np.tan(shape.direction) == pytest.approx(np.tan(direction), abs=1e-3)
+
+
+def one_cylinder(share: float) -> Engine:
+    """The three-cylinder sample cut to its first throw without its own counterweights."""
+    engine = solution("gots-p3").engine
+    throw = engine.crankshaft.throws[0]
+    webs = [replace(web, counterweight_mass=0.0) for web in (throw.left_web, throw.right_web)]
+    throw = replace(throw, left_web=webs[0], right_web=webs[1])
+    nothing = replace(engine.crankshaft.nose, mass=0.0)
+    shaft = replace(
+        engine.crankshaft, throws=(throw,), nose=nothing, rear=nothing,
+        main_lengths=engine.crankshaft.main_lengths[:2],
+    )  # fmt: skip
+    choice = replace(engine.balancing, counterweight_share=share)
+    return replace(engine, crankshaft=shaft, firing_offsets=(0.0,), balancing=choice)
+
+
+def test_half_of_the_first_order_on_the_counterweights_gives_a_constant_vector() -> None:
+    """One cylinder, share 1/2, rotating masses balanced: a circle of half the amplitude."""
+    engine = one_cylinder(0.5)
+    unit = balance.ideal_counterweights(engine)[0]
+    force, _ = balance.reciprocating(engine, balance.cylinders_of(engine), 1)
+    shape = balance.ellipse(balance.added(force, balance.turning(0.5 * unit)))
+    assert shape.largest == pytest.approx(shape.smallest, rel=1e-12)
+    assert shape.largest == pytest.approx(abs(force.up) / 2, rel=1e-12)
+    whole = balance.ellipse(balance.added(force, balance.turning(unit)))
+    assert whole.largest == pytest.approx(abs(force.up))
+    assert abs(whole.direction) == pytest.approx(np.pi / 2)
+
+
+def test_a_pair_of_shafts_takes_the_order_away() -> None:
+    """2·m·e·(2ω)² = F₂ of four cylinders, and the table's residual is zero."""
+    solved = solution("d-240")
+    first, second = balance.shaft_moments(solved.engine)
+    orders = solved.columns["balance_orders"]
+    taken = 2 * second * (2 * solved.engine.omega) ** 2
+    assert taken == pytest.approx(1000 * orders["F_order_kN"][1], rel=1e-12)
+    assert orders["F_left_kN"][1] == 0 < orders["F_order_kN"][1]
+    assert first == 0
+    assert orders["F_left_kN"][3] == orders["F_order_kN"][3] > 0
+
+
+def test_table_over_a_turn_holds_the_orders() -> None:
+    solved = solution("d-240")
+    table, orders = solved.columns["balance"], solved.columns["balance_orders"]
+    assert table["F2_kN"].max() == pytest.approx(orders["F_order_kN"][1], rel=1e-9)
+    assert np.abs(table["F1_kN"]).max() < 1e-9
+    after = table["Fup_after_kN"] - table["F4_kN"]
+    assert np.abs(after).max() < 0.05 * orders["F_order_kN"][1]
+
+
+def test_firing_orders_of_four_cylinders() -> None:
+    ranked = firing_orders.rank_firing_orders(solution("d-240").engine)
+    assert len(ranked) == 8
+    assert {found.order for found in ranked[:2]} == {(1, 3, 4, 2), (1, 2, 4, 3)}
+    assert ranked[0].unevenness == pytest.approx(0, abs=1e-12)
+    assert ranked[2].unevenness > 0.9
+    assert ranked[0].half_order == pytest.approx(0, abs=1e-12)
+    assert ranked[0].journal_load <= ranked[1].journal_load
+
+
+def test_own_order_is_among_the_ranked_and_has_its_own_load() -> None:
+    solved = solution("d-240")
+    own = tuple(np.degrees(solved.engine.firing_offsets).round(6))
+    ranked = firing_orders.rank_firing_orders(solved.engine)
+    (found,) = [f for f in ranked if tuple(np.degrees(f.offsets).round(6)) == own]
+    coarse = solve(replace(solved.engine, step_deg=10))
+    load = max(value for key, value in coarse.scalars.items() if key.endswith("_max_kN")
+               and key.startswith("Rmain"))  # fmt: skip
+    assert found.journal_load == pytest.approx(1000 * load, rel=1e-9)
+
+
+def test_six_cylinders_have_even_orders_known_from_practice() -> None:
+    cranks = np.radians([0.0, 120, 240, 240, 120, 0])
+    table = firing_orders.offsets_table(cranks)
+    assert table.shape == (32, 6)
+    even = {
+        firing_orders.sequence(row)
+        for row, rough in zip(table, firing_orders.unevenness(table), strict=True)
+        if rough < 1e-9
+    }
+    assert (1, 5, 3, 6, 2, 4) in even or (1, 3, 5, 6, 4, 2) in even
+    assert len(even) == 4
+
+
+def test_too_many_cylinders_are_refused() -> None:
+    engine = solution("d-240").engine
+    with pytest.raises(ValueError, match="up to 7"):
+        firing_orders.rank_firing_orders(replace(engine, firing_offsets=(0.0,) * 8))

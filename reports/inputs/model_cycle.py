@@ -96,10 +96,10 @@ class CycleSection(Strictly):
         float, number("Температура остаточных газов", "T_r", KELVIN, 450, 1500)
     ]
     intake_factor: Annotated[
-        float, number("Коэффициент сопротивления впуска p_a/p_к", "C_1", NONE, 0.5, 1.1)
+        float, number("Коэффициент сопротивления впуска pa/pк", "C_1", NONE, 0.5, 1.1)
     ]
     exhaust_factor: Annotated[
-        float, number("Коэффициент сопротивления выпуска p_r/p_к", "C_2", NONE, 0.5, 2)
+        float, number("Коэффициент сопротивления выпуска pr/pк", "C_2", NONE, 0.5, 2)
     ]
     recharge: Annotated[float, number("Коэффициент дозарядки", "φ_доз", NONE, 0.8, 1.3)] = 1.0
     scavenging: Annotated[float, number("Коэффициент очистки", "φ_оч", NONE, 0, 1)] = 1.0
@@ -115,13 +115,13 @@ class CycleSection(Strictly):
     ) = None
     pumping: Annotated[
         Literal["no", "yes"],
-        choice("Насосные потери p_r − p_a при расчете p_i", PUMPING, structural=False),
+        choice("Насосные потери pr − pa при расчете pi", PUMPING, structural=False),
     ] = "no"
     friction_a_mpa: (
-        Annotated[float, number("Механические потери A + B·c_m: A", "A", MPA, 0, 0.4)] | None
+        Annotated[float, number("Механические потери A + B·cm: A", "A", MPA, 0, 0.4)] | None
     ) = None
     friction_b_mpa_s_m: (
-        Annotated[float, number("Механические потери A + B·c_m: B", "B", MPA_S_M, 0, 0.04)] | None
+        Annotated[float, number("Механические потери A + B·cm: B", "B", MPA_S_M, 0, 0.04)] | None
     ) = None
     boost_ratio: (
         Annotated[float, number("Степень повышения давления в компрессоре", "π_к", NONE, 1, 6)]
@@ -141,7 +141,7 @@ class CycleSection(Strictly):
         | None
     ) = None
     turbine_outlet_ratio: (
-        Annotated[float, number("Давление за турбиной к атмосферному", "p_вых/p_0", NONE, 1, 1.5)]
+        Annotated[float, number("Давление за турбиной к атмосферному", "π_вых", NONE, 1, 1.5)]
         | None
     ) = None
     exhaust_heat_kj_kg_k: (

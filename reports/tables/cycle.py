@@ -297,7 +297,7 @@ def _temperature_passes(section: CycleSection) -> Grid:
 
 def _combustion(section: CycleSection) -> ScalarTable:
     last = cell("pass_t_z", "tz", TEMPERATURE_PASSES)
-    scalars = [_s("cyc_T_z", f"(cyc_t_root if cyc_t_root >= 1500 else {last}) + 273")]
+    scalars = [_s("cyc_T_z", f"(cyc_t_root + 273) if cyc_t_root >= 1500 else ({last} + 273)")]
     if section.kind == "diesel":
         scalars += [
             _s("cyc_p_z", "cycle_max_pressure_mpa", "ввод"),

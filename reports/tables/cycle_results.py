@@ -51,12 +51,14 @@ def _indicated() -> ScalarTable:
         " + cyc_lambda_p*cyc_rho/(cyc_n2 - 1)*(1 - cyc_delta**(1 - cyc_n2))"
         " - (1 - cyc_T_a/cyc_T_c)/(cyc_n1 - 1)"
     )
-    pumping = f'((cyc_p_r - cyc_p_a) if cycle_pumping == "{PUMPING["yes"]}" else 0)'
+    rounded = "cycle_fullness*cyc_p_theory"
+    p_i = f'({rounded} - (cyc_p_r - cyc_p_a)) if cycle_pumping == "{PUMPING["yes"]}" else {rounded}'
     return _table(
         "indicated",
         "Индикаторные показатели",
-        _s("cyc_p_theory", f"cyc_p_c/({EPS} - 1)*({work})"),
-        _s("cyc_p_i", f"cycle_fullness*cyc_p_theory - {pumping}"),
+        _s("cyc_work", work),
+        _s("cyc_p_theory", f"cyc_p_c*cyc_work/({EPS} - 1)"),
+        _s("cyc_p_i", p_i),
         _s("cyc_g_i", f"3600000*cyc_eta_v*cyc_p_k/({R}*cyc_T_k*cyc_M1*cyc_p_i)"),
         _s("cyc_eta_i", "3600/(cyc_g_i*cyc_Hu)"),
     )

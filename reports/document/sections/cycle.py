@@ -63,18 +63,17 @@ def _tables(terms: Terms) -> dict[str, TablePlan]:
         if terms.has(name)
     ]
     return {
-        "mixture": TablePlan(
-            partial(scalar_table, terms, [k for k in terms.model.scalars if k.startswith("mix_")]),
-            "Состав продуктов сгорания 1 кг топлива",
-            keep=True,
-        ),
         "heat": TablePlan(
             partial(_coefficients, terms, heat),
             "Коэффициенты средней мольной теплоёмкости продуктов сгорания",
+            size="dense",
             keep=True,
         ),
         "energies": TablePlan(
-            partial(scalar_table, terms, energies), "Величины уравнения сгорания", keep=True
+            partial(scalar_table, terms, energies),
+            "Величины уравнения сгорания",
+            size="dense",
+            keep=True,
         ),
         "n1": TablePlan(
             partial(_passes, terms, "cycle_n1"),
@@ -87,7 +86,10 @@ def _tables(terms: Terms) -> dict[str, TablePlan]:
             keep=True,
         ),
         "effective": TablePlan(
-            partial(scalar_table, terms, _effective(terms)), "Эффективные показатели", keep=True
+            partial(scalar_table, terms, _effective(terms)),
+            "Эффективные показатели",
+            size="dense",
+            keep=True,
         ),
         "balance": TablePlan(partial(_balance, terms), "Тепловой баланс", keep=True),
         "diagram": TablePlan(
@@ -138,7 +140,7 @@ def _passes(terms: Terms, grid_id: str) -> TableBlock:
     for row in grid.rows:
         unit = f", {row.quantity.unit_label}" if row.quantity.unit_label else ""
         columns.append(Column(inline_html(row.quantity.tex) + Markup(unit)))
-        digits = min(digits_of(row.quantity.fmt), 10)
+        digits = min(digits_of(row.quantity.fmt), 8)
         cells.append(
             [fixed(terms.value(cell.key), digits) for cell in row.cells if cell is not None]
         )

@@ -24,7 +24,7 @@ def crankpin(chapter: Chapter) -> Markup:
         "polar": _polar(terms),
         "unfolded": over_phi(
             terms,
-            "Удельная нагрузка на шатунную шейку, развёрнутая по углу поворота вала",
+            "Развёрнутая диаграмма нагрузки на шатунную шейку",
             rf"${terms.tex('crankpin.Rpin_MPa')}$, МПа",
             "crankpin.Rpin_MPa",
             levels=(Level(rf"${terms.tex('Rpin_mean')}$", terms.value("Rpin_mean")),),

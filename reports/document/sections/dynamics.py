@@ -28,7 +28,7 @@ def dynamics(chapter: Chapter) -> Markup:
         "p_phi": _p_phi(terms),
         "specific": over_phi(terms, "Удельные силы давления газов, инерции и их сумма",
                              "$p'$, МПа", "P4_1.Pg_MPa", "P4_1.Pj_MPa", "P4_1.Ps_MPa", height=80.0),
-        "ns": over_phi(terms, "Удельные силы, действующие на стенку цилиндра и вдоль шатуна",
+        "ns": over_phi(terms, "Удельные силы на стенку цилиндра и вдоль шатуна",
                        "МПа", "P4_1.N_MPa", "P4_1.S_MPa", height=76.0),
         "kt": over_phi(terms, "Удельные нормальная и тангенциальная силы на кривошипе",
                        "МПа", "P4_1.K_MPa", "P4_1.T_MPa", height=76.0),

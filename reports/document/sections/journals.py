@@ -129,7 +129,7 @@ def _figures(terms: Terms, k: int, rays: int) -> dict[str, Figure]:
         ),
         "unfolded": over_phi(
             terms,
-            f"Удельная нагрузка на коренную шейку {k} по углу поворота вала",
+            f"Развёрнутая диаграмма нагрузки на коренную шейку {k}",
             rf"${terms.tex(f'{table}.R_MPa')}$, МПа",
             f"{table}.R_MPa",
             height=64.0,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kshm import balance_results, harmonics
+from kshm import balance_results, harmonics, inertia_results
 from kshm import dimensionless as segal
 from kshm.engine import Engine
 from kshm.nomenclature import quantity
@@ -24,7 +24,7 @@ SHOWN_ORDERS = (1, 2, 4, 6)
 
 def companion_columns(engine: Engine, raw: BatchSolution, index: int) -> dict[str, Columns]:
     """Table id → column key → values in the units of the tables."""
-    others = balance_results.columns(engine)
+    others = balance_results.columns(engine) | inertia_results.columns(engine, raw, index)
     return {
         **_segal(engine),
         **_neiman(engine),
@@ -38,6 +38,7 @@ def companion_scalars(engine: Engine, raw: BatchSolution, index: int) -> dict[st
         **_segal_scalars(engine),
         **_neiman_scalars(engine),
         **balance_results.scalars(engine),
+        **inertia_results.scalars(engine, raw, index),
     }
 
 

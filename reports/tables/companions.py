@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from reports.inputs.model import InputFile
 from reports.tables.balance import balance_blocks, balance_charts
+from reports.tables.inertia import inertia_blocks, inertia_charts
 from reports.tables.neiman import neiman_blocks, neiman_charts
 from reports.tables.segal import segal_blocks, segal_charts
 from reports.tables.spec import Block, ChartSpec
@@ -15,6 +16,7 @@ def companion_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block,
     turn = tuple(angle for angle in cycle if angle <= 360)
     return (
         *balance_blocks(cylinders, throws, turn),
+        *inertia_blocks(model, cycle),
         *segal_blocks(),
         *neiman_blocks(),
     )
@@ -22,4 +24,4 @@ def companion_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block,
 
 def companion_charts(model: InputFile) -> tuple[ChartSpec, ...]:
     """All charts of the companion sources."""
-    return *balance_charts(), *segal_charts(), *neiman_charts()
+    return *balance_charts(), *inertia_charts(), *segal_charts(), *neiman_charts()

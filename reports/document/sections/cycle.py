@@ -21,6 +21,17 @@ from reports.tables.cycle_names import friction_by_speed, is_boosted, section_of
 from reports.tables.cycle_speed import INSIDE
 from reports.tables.spec import Grid
 
+# Equations of the method that the sheets solve in passes or in parts.
+_EQUATIONS = {
+    "n1": r"n_1 - 1 = g(n_1) = \dfrac{8{,}315}{20{,}6 + 0{,}002638\,(t_a + t_c)},"
+    r"\quad T_c = T_a\,\varepsilon^{n_1 - 1}",
+    "petrol": r"\xi_z q + U_c = \mu\, c''_{vz}\, t_z",
+    "diesel": r"\xi_z q + U_c + R\,[\lambda_p t_c + 273\,(\lambda_p - \mu)]"
+    r" = \mu\,(c''_{vz} + R)\, t_z",
+    "n2": r"n_2 - 1 = \dfrac{R\,(T_z - T_b)}{Q + U_z - U_b},"
+    r"\quad Q = \dfrac{(\xi_b - \xi_z)\, q}{\mu},\quad T_b = \dfrac{T_z}{\delta^{n_2 - 1}}",
+    "speed": r"M_e = M_N\,(a + b x - c x^2),\quad g_e = g_N\,(a' + b' x + c' x^2)",
+}
 _BALANCE = ("useful", "exhaust", "incomplete", "rest")
 
 
@@ -34,6 +45,7 @@ def cycle(chapter: Chapter) -> Markup:
     species = ("CO2", "CO", "H2O", "H2", "O2", "N2") if petrol else ("CO2", "H2O", "O2", "N2")
     return chapter.page(
         "cycle.html.j2",
+        equations=_EQUATIONS,
         petrol=petrol,
         boosted=is_boosted(section),
         friction=friction_by_speed(section),

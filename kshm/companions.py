@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kshm import balance_results, harmonics, inertia_results
+from kshm import balance_results, harmonics, inertia_results, torque_results
 from kshm import dimensionless as segal
 from kshm.engine import Engine
 from kshm.nomenclature import quantity
@@ -24,7 +24,11 @@ SHOWN_ORDERS = (1, 2, 4, 6)
 
 def companion_columns(engine: Engine, raw: BatchSolution, index: int) -> dict[str, Columns]:
     """Table id → column key → values in the units of the tables."""
-    others = balance_results.columns(engine) | inertia_results.columns(engine, raw, index)
+    others = {
+        **balance_results.columns(engine),
+        **inertia_results.columns(engine, raw, index),
+        **torque_results.columns(engine, raw, index),
+    }
     return {
         **_segal(engine),
         **_neiman(engine),
@@ -39,6 +43,7 @@ def companion_scalars(engine: Engine, raw: BatchSolution, index: int) -> dict[st
         **_neiman_scalars(engine),
         **balance_results.scalars(engine),
         **inertia_results.scalars(engine, raw, index),
+        **torque_results.scalars(engine, raw, index),
     }
 
 

@@ -8,6 +8,7 @@ from reports.tables.inertia import inertia_blocks, inertia_charts
 from reports.tables.neiman import neiman_blocks, neiman_charts
 from reports.tables.segal import segal_blocks, segal_charts
 from reports.tables.spec import Block, ChartSpec
+from reports.tables.torque_orders import torque_order_blocks, torque_order_charts
 
 
 def companion_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block, ...]:
@@ -17,6 +18,7 @@ def companion_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block,
     return (
         *balance_blocks(cylinders, throws, turn),
         *inertia_blocks(model, cycle),
+        *torque_order_blocks(model, cycle),
         *segal_blocks(),
         *neiman_blocks(),
     )
@@ -24,4 +26,10 @@ def companion_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block,
 
 def companion_charts(model: InputFile) -> tuple[ChartSpec, ...]:
     """All charts of the companion sources."""
-    return *balance_charts(), *inertia_charts(), *segal_charts(), *neiman_charts()
+    return (
+        *balance_charts(),
+        *inertia_charts(),
+        *torque_order_charts(),
+        *segal_charts(),
+        *neiman_charts(),
+    )

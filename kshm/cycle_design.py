@@ -15,8 +15,8 @@ from kshm.cycle_result import Cycle
 
 Rounding = Literal["nearest", "up"]
 
-# S enters p_e only through c_m^1·S^(−1/3): the passes contract by 0.1 at most
-STROKE_PASSES = 40
+# S enters p_e only through c_m^1·S^(−1/3): the passes contract by b c_m/(3 p_e)
+STROKE_PASSES = 400
 
 
 @dataclass(frozen=True, slots=True)

@@ -256,6 +256,8 @@ class _Printer:
             return rf"\sqrt{{{self.text(args[0])}}}", _ATOM
         if name == "abs":
             return rf"\left|{self.text(args[0])}\right|", _ATOM
+        if name == "round":
+            return rf"\mathrm{{окр}}\left({self.text(args[0])}\right)", _ATOM
         if name in ("min", "max"):
             parts = r";\, ".join(self.text(arg) for arg in args)
             return rf"\{name}\left({parts}\right)", _ATOM

@@ -1,0 +1,67 @@
+"""The chapter on the cycle in the report: steps with numbers, no chapter without a cycle."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from reports.document.report import report_html
+from reports.tables.registry import build_model
+from reports.tables.values import evaluate_model
+from tests.cycle.cycle_files import loaded
+
+
+def text_of(name: str) -> str:
+    """The report's HTML without its formulas and figures, tags taken out."""
+    model = build_model(loaded(name))
+    page = report_html(model, evaluate_model(model))
+    page = re.sub(r"<svg.*?</svg>", " ", page, flags=re.DOTALL)
+    page = re.sub(r"<style.*?</style>", " ", page, flags=re.DOTALL)
+    return re.sub(r"\s+", " ", re.sub(r"<[^>]+>", "", page))
+
+
+@pytest.fixture(scope="module", params=["cycle-turbo-diesel", "cycle-petrol"])
+def report(request: pytest.FixtureRequest) -> tuple[str, str]:
+    return request.param, text_of(request.param)
+
+
+def test_every_step_has_its_heading(report: tuple[str, str]) -> None:
+    name, text = report
+    headings = [
+        "Расчёт рабочего цикла", "Топливо, свежий заряд и продукты сгорания", "Наполнение",
+        "Сжатие", "Сгорание", "Расширение", "Индикаторные показатели",
+        "Диаметр цилиндра и ход поршня", "Эффективные показатели", "Тепловой баланс",
+        "Индикаторная диаграмма цикла", "Внешняя скоростная характеристика",
+        "Правдоподобие результатов",
+    ]  # fmt: skip
+    if name == "cycle-turbo-diesel":
+        headings.append("Турбокомпрессор")
+    for heading in headings:
+        assert heading in text
+
+
+def test_numbers_are_the_results(report: tuple[str, str]) -> None:
+    name, text = report
+    model = build_model(loaded(name))
+    values = evaluate_model(model).scalars
+    for key, digits in (("cyc_N_e", 2), ("bal_total", 2), ("cyc_g_e", 1)):
+        assert f"{float(values[key]):.{digits}f}".replace(".", ",") in text
+    assert "nan" not in text.lower().split()
+    assert "None" not in text
+
+
+def test_ranges_from_memory_are_marked_and_no_book_values(report: tuple[str, str]) -> None:
+    _, text = report
+    assert "обычные значения, с книгой не сверены" in text
+    assert "Пределы не взяты из учебника" in text
+
+
+def test_derived_regimes_are_marked(report: tuple[str, str]) -> None:
+    _, text = report
+    assert "получен из характеристики" in text
+    assert "принят долей номинальной частоты" in text
+
+
+def test_a_given_diagram_has_no_chapter_on_the_cycle() -> None:
+    assert "Расчёт рабочего цикла" not in text_of("gots-diesel")

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
+from unittest import mock
 
 import pytest
 
-from reports.document.report import report_html
+from reports.document import report as report_module
+from reports.document.sections import closing, cycle
 from reports.tables.registry import build_model
 from reports.tables.values import evaluate_model
 from tests.cycle.cycle_files import loaded
@@ -15,7 +17,8 @@ from tests.cycle.cycle_files import loaded
 def text_of(name: str) -> str:
     """The report's HTML without its formulas and figures, tags taken out."""
     model = build_model(loaded(name))
-    page = report_html(model, evaluate_model(model))
+    with mock.patch.object(report_module, "CHAPTERS", (cycle.cycle, closing.sources)):
+        page = report_module.report_html(model, evaluate_model(model))
     page = re.sub(r"<svg.*?</svg>", " ", page, flags=re.DOTALL)
     page = re.sub(r"<style.*?</style>", " ", page, flags=re.DOTALL)
     return re.sub(r"\s+", " ", re.sub(r"<[^>]+>", "", page))
@@ -61,6 +64,11 @@ def test_derived_regimes_are_marked(report: tuple[str, str]) -> None:
     _, text = report
     assert "получен из характеристики" in text
     assert "принят долей номинальной частоты" in text
+
+
+def test_the_chapter_stands_in_the_report() -> None:
+    assert cycle.cycle in report_module.CHAPTERS
+    assert report_module.CHAPTERS.count(cycle.cycle) == 1
 
 
 def test_a_given_diagram_has_no_chapter_on_the_cycle() -> None:

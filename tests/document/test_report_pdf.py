@@ -1,0 +1,158 @@
+"""The finished report: everything is there, numbered, in STIX, with decimal commas."""
+
+import re
+
+import pytest
+from pdftools import fonts_of, pages_of, poppler
+from report_samples import html_page, pdf_with_files, rendered, terms
+
+NAMES = ["one", "gots-diesel", "gots-p43"]
+ALLOWED_POINTS = [
+    r"П\d\.\w+(\.\d+)?",  # tables of the appendix
+    r"п\.\s*\d\.\d",  # sections of the textbook
+    r"(?m)^\s*\d+(\.\d+){1,2}\s+[А-ЯЁ]",  # headings, contents
+    r"\.{3,}\s*\d+",
+]
+
+
+@pytest.fixture(scope="session")
+def texts(tmp_path_factory):
+    found = {}
+
+    def text(name):
+        if name not in found:
+            folder = tmp_path_factory.mktemp(name)
+            found[name] = pages_of(rendered(name).pdf, folder)
+        return found[name]
+
+    return text
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_sets_without_a_warning_and_in_stix(name, tmp_path):
+    result = rendered(name)
+    assert result.warnings == ()
+    assert all(font.startswith("STIX") for font in fonts_of(result.pdf, tmp_path))
+
+
+def expected_tables(name: str) -> set[str]:
+    throws = len(terms(name).model.input.crankshaft.throw_angles_deg)
+    journals = {f"П4.3.{k}" for k in range(1, throws + 2)}
+    return {
+        "П3.1",
+        "П3.2",
+        "П4.1",
+        "П4.2",
+        "П4.4",
+        "П4.5",
+        "П4.5с",
+        "П4.Г",
+        "П4.Ш",
+        "П4.Л",
+    } | journals
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_table_and_figure_stands_in_order(texts, name):
+    text = "\n".join(texts(name))
+    figures = [int(n) for n in re.findall(r"Рисунок\s(\d+)\s—", text)]
+    assert figures == list(range(1, len(figures) + 1))
+    throws = len(terms(name).model.input.crankshaft.throw_angles_deg)
+    # 15 before the journals, the scheme, three for each journal, running-on torques
+    panels = 2 * -(-throws // 4)
+    assert len(figures) == 15 + 1 + 3 * (throws + 1) + panels
+    tables = re.findall(r"Таблица\s(\S+)\s—", text)
+    own = [int(number) for number in tables if number.isdigit()]
+    assert own == list(range(1, len(own) + 1))
+    assert expected_tables(name) <= set(tables)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_all_rows_are_printed(texts, name):
+    text = "\n".join(texts(name))
+    start = re.search(r"Таблица\sП4\.1\s—", text).start()
+    end = re.search(r"Таблица\sП4\.2\s—", text).start()
+    angles = re.findall(r"(?m)^\s*(\d+)\s+−?\d+,\d+", text[start:end])
+    assert [int(angle) for angle in angles] == list(
+        range(0, 721, terms(name).model.input.calculation.step_deg)
+    )
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_no_leftovers_and_no_decimal_points(texts, name):
+    text = "\n".join(texts(name))
+    for word in ("nan", "None", "Undefined", "inf ", "{{", "{%", "Error", "True", "False"):
+        assert word not in text, word
+    for pattern in ALLOWED_POINTS:
+        text = re.sub(pattern, " ", text)
+    assert re.findall(r".{20}\d\.\d.{10}", text) == []
+
+
+@pytest.mark.parametrize("name", ["one", "gots-diesel"])
+def test_contents_give_the_pages_of_the_headings(texts, name):
+    pages = texts(name)
+    lines = re.findall(r"(?m)^\s*(.+?)\s?\.{4,}\s*(\d+)\s*$", pages[1])
+    assert len(lines) >= 18
+    for title, page in lines:
+        words = title.split()[-1]
+        assert words.lower() in pages[int(page) - 1].lower().replace("\n", " "), (title, page)
+
+
+def test_links_lead_somewhere():
+    html = html_page("one")
+    anchors = set(re.findall(r'\bid="([^"]+)"', html))
+    targets = set(re.findall(r'href="#([^"]+)"', html))
+    assert len(targets) > 60
+    assert targets <= anchors
+
+
+def test_conclusions_come_from_the_numbers(texts):
+    for name in NAMES:
+        source = terms(name)
+        text = " ".join("\n".join(texts(name)).split())
+        for key in ("M_mean", "M_max", "N_i_calc", "Rpin_max_kN", "q_pin_max", "v_max"):
+            shown = source.num(key).replace("\u00a0", " ")
+            conclusion = text[text.index("Основные результаты") :]
+            assert shown in conclusion, (name, key)
+        worst = round(source.value("worst_main_load"))
+        assert f"более всего нагружена шейка {worst}" in text
+
+
+def test_a_failed_check_is_said_plainly(texts):
+    failed = " ".join("\n".join(texts("gots-diesel")).split())
+    assert terms("gots-diesel").values.scalars["check_power"] == "НЕТ"
+    assert "Расхождение выходит за допустимые" in failed
+    assert "не сходится с мощностью" in failed and "не выполнена: получено" in failed
+    for name in NAMES:
+        verdicts = [v for k, v in terms(name).values.scalars.items() if k.startswith("check_")]
+        said = "Все проверки расчёта выполнены" in " ".join("\n".join(texts(name)).split())
+        assert said == ("НЕТ" not in verdicts), name
+
+
+def test_what_the_input_asks_for_is_said(texts):
+    one = " ".join("\n".join(texts("one")).split())
+    assert "по точной формуле" in one and "XVIII" in one
+    assert "заданным точкам" in one and "одноцилиндровый" in one.lower()
+    assert "проверка среднего момента по мощности не выполнялась" in one
+    forced = " ".join("\n".join(texts("gots-p43")).split())
+    assert forced.count("противоречат углам колен") >= 2
+    assert "противоречат углам колен" not in one
+
+
+def test_input_and_workbook_are_attached(tmp_path):
+    path = tmp_path / "r.pdf"
+    path.write_bytes(pdf_with_files("one", tmp_path))
+    listed = poppler("pdfdetach", "-list", str(path))
+    assert "2 embedded files" in listed
+    poppler("pdfdetach", "-saveall", "-o", str(tmp_path), str(path))
+    assert (tmp_path / "one.xlsx").read_bytes() == b"PK-book"
+    assert len(list(tmp_path.glob("исходные*.toml"))) == 1
+
+
+def test_without_pango_it_says_so(monkeypatch, tmp_path):
+    from reports import doctor
+    from reports.errors import SystemPartMissing
+
+    monkeypatch.setattr(doctor, "pango_loads", lambda: False)
+    with pytest.raises(SystemPartMissing, match="pango"):
+        pdf_with_files("one", tmp_path)

@@ -1,0 +1,173 @@
+"""Foreign text, the HTML page, formulas with numbers, figures by the second process."""
+
+import json
+import re
+
+import pytest
+from pdftools import fonts_of, pages_of
+from report_samples import ONE, html_page, terms, terms_of
+
+from reports.document.drawing import Drawing
+from reports.document.mathsvg import formula_lines
+from reports.document.render import render
+from reports.document.report import report_html, report_page
+from reports.document.terms import book_place, plain_number, unit_tex
+from reports.document.writer import Draft
+from reports.formula.tex import NotPrintable
+
+HOSTILE = (
+    '<script>alert(1)</script><img src="http://127.0.0.1:9/x">{{ 7*7 }}{% raw %}'
+    "$x^2$ \\frac{1}{2} &amp;"
+)
+LONG = "Ы" * 150 + "🚗"
+
+
+@pytest.fixture(scope="module")
+def hostile():
+    fields = ("student", "group", "institution", "department", "supervisor", "variant", "city")
+    report = "".join(
+        f"{key} = {json.dumps(HOSTILE + LONG, ensure_ascii=False)}\n" for key in fields
+    )
+    report += f"title = {json.dumps(HOSTILE, ensure_ascii=False)}\n"
+    text = ONE.replace("[report]\n", "[report]\n" + report)
+    text = text.replace(
+        'name = "Одноцилиндровый"', f"name = {json.dumps(HOSTILE, ensure_ascii=False)}"
+    )
+    return terms_of(text)
+
+
+def test_foreign_text_is_set_as_plain_text(hostile, tmp_path):
+    page = report_page(hostile.model, hostile.values, media="print")
+    assert "<script" not in page and "<img" not in page
+    result = render(page)
+    assert result.warnings == ()
+    pages = pages_of(result.pdf, tmp_path)
+    assert "{{ 7*7 }}" in pages[0] and "<script>alert(1)</script>" in pages[0]
+    assert "$x^2$" in pages[0]
+    assert all(font.startswith("STIX") for font in fonts_of(result.pdf, tmp_path))
+
+
+def test_html_is_one_self_contained_page(hostile):
+    page = report_html(hostile.model, hostile.values)
+    assert "<script" not in page and "<img" not in page and "<link" not in page
+    addresses = re.findall(r'(?:src|href)="([^"]*)"', page) + re.findall(r"url\(([^)]*)\)", page)
+    assert addresses and all(a.strip("'\"").startswith(("#", "data:")) for a in addresses)
+    assert 'class="tbox"' in page and "viewport" in page
+
+
+def test_the_same_input_gives_the_same_page():
+    # Equal pages give equal PDF files: see test_document_render.
+    t = terms("one")
+    first = html_page("one")
+    formula_lines.cache_clear()
+    assert report_html(t.model, t.values) == first
+
+
+def test_substitution_shows_numbers_and_result():
+    t = terms("gots-diesel")
+    assert t.substitution("omega", symbols=True) == (
+        r"\omega = \dfrac{\pi \, n}{30} = \dfrac{\pi \cdot 4400}{30}"
+        r" = 460{,}77\;\mathrm{рад/с}"
+    )
+    assert t.formula("P3_1.s_mm") == r"s_{\mathrm{п}} = s_{\mathrm{п}1} + s_{\mathrm{п}2}"
+    shown = t.substitution("P4_1.Ps_MPa", 390.0)
+    assert shown.startswith(r"p'_{s} = 4{,}7749 + \left(-3{,}")
+
+
+def test_branch_in_force_is_the_one_shown():
+    t = terms("gots-diesel")
+    assert "n_{2}" in t.formula("gas.p_MPa", 390.0)
+    assert "n_{1}" in t.formula("gas.p_MPa", 300.0)
+    assert r"n_{" not in t.formula("gas.p_MPa", 90.0)
+
+
+OWN = ("P3_", "P4_", "gas", "crankpin")
+
+
+def columns(t):
+    for table in t.model.tables.values():
+        for column in table.columns:
+            if column.expr is not None and not column.helper and table.id.startswith(OWN):
+                yield f"{table.id}.{column.key}"
+
+
+@pytest.mark.parametrize("name", ["gots-diesel", "one"])
+def test_formulas_of_all_tables_can_be_set(name):
+    t, seen = terms(name), set()
+    for key in columns(t):
+        try:
+            tex = t.formula(key, 390.0)
+        except NotPrintable as reason:
+            assert key == "gas.p_MPa" and "interpolate" in str(reason)
+            continue
+        if tex not in seen:
+            seen.add(tex)
+            formula_lines(tex)
+    assert len(seen) > 30
+
+
+def test_words_of_the_book():
+    assert book_place("Гоц (3)") == "формула\u00a0(3)"
+    assert book_place("Гоц (51), (53), (55)") == "формулы\u00a0(51), (53), (55)"
+    assert book_place("Гоц, 2.8") == "п.\u00a02.8"
+    assert book_place("Гоц, рис. 33") == "рис.\u00a033"
+    assert book_place("∫p dV") == ""
+
+
+def test_units_and_plain_numbers():
+    assert unit_tex("м/с²") == r"\;\mathrm{м/с}^{2}"
+    assert unit_tex("°") == r"^{\circ}" and unit_tex("") == ""
+    assert plain_number(0.245) == "0,245" and plain_number(88.0) == "88"
+    assert plain_number(-0.5) == "−0,5"
+
+
+def draw(text: str) -> str:
+    return f"<svg>{text}</svg>"
+
+
+def test_second_process_draws_the_same():
+    from functools import partial
+
+    from reports.document.figures import Series, line_chart
+
+    chart = partial(line_chart, (0, 1, 2), (Series("$s$", (0.0, 1.0, 0.5)),), "x", "y", angle=False)
+    calls = {str(i): chart for i in range(5)}
+    with Drawing(calls) as drawing:
+        assert [drawing.svg(key) for key in calls] == [chart()] * 5
+
+
+def test_a_missing_worker_is_replaced(monkeypatch):
+    import sys
+
+    monkeypatch.setattr(sys, "executable", "/nonexistent/python")
+    calls = {str(i): (lambda i=i: draw(str(i))) for i in range(5)}  # cannot be pickled either
+    with Drawing(calls) as drawing:
+        assert drawing.svg("3") == "<svg>3</svg>"
+    monkeypatch.undo()
+    with Drawing(calls) as drawing:
+        assert drawing.svg("4") == "<svg>4</svg>"
+
+
+def test_a_bad_figure_is_an_error_here_too():
+    from functools import partial
+
+    from reports.document.figures import Series, line_chart
+
+    bad = partial(line_chart, (0, 1), (Series("$s$", (0.0, float("nan"))),), "x", "y")
+    with (
+        Drawing({str(i): bad for i in range(5)}) as drawing,
+        pytest.raises(ValueError, match="не число"),
+    ):
+        drawing.svg("0")
+
+
+def test_the_draft_gives_numbers_in_order_of_standing():
+    draft = Draft()
+    draft.refer("figure", "late")
+    draft.place("figure", "early")
+    draft.place("figure", "late")
+    draft.place("table", "a", number="П1")
+    numbering = draft.order.numbering()
+    assert numbering.label("figure", "late").number == "2"
+    assert numbering.label("table", "a").number == "П1"
+    assert draft.order.count("figure") == 2

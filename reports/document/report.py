@@ -18,6 +18,7 @@ from reports.document.drawing import Drawing
 from reports.document.render import AttachedFile, environment, render_pdf
 from reports.document.sections import (
     closing,
+    companions,
     crankpin,
     cycle,
     dynamics,
@@ -44,6 +45,7 @@ CHAPTERS: tuple[Callable[[Chapter], Markup], ...] = (
     crankpin.crankpin,
     journals.journals,
     torques.running,
+    companions.companions,
     closing.checks,
     closing.conclusion,
     closing.sources,

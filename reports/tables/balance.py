@@ -17,6 +17,7 @@ from reports.tables.spec import (
 )
 
 SHEET, ORDERS_SHEET, FIRING_SHEET = "Уравновешивание", "Порядки сил", "Порядки работы"
+RESULTS = "Уравновешивание, итоги"
 LAST_ORDER = 8
 MAX_CYLINDERS = 7
 _NOTHING = "0.000000001"
@@ -59,7 +60,7 @@ def _grid(throws: int) -> Grid:
     return Grid(
         "balance_throws",
         "Вращающиеся массы колен: силы и моменты относительно середины вала",
-        SHEET,
+        RESULTS,
         tuple(f"колено {i}" for i in range(1, throws + 1)),
         tuple(GridRow(key, tuple(row)) for key, row in cells.items()),
     )
@@ -186,6 +187,11 @@ def _turn(rows: tuple[float, ...]) -> TableSpec:
     )
 
 
+def _clean(text: str) -> str:
+    """Rounding noise of a sum that vanishes as zero: a chart would blow it up."""
+    return f"0 if abs({text}) < {_NOTHING} else {text}"
+
+
 def _sums(cylinders: int, throws: int) -> ScalarTable:
     """Vector sums of the cylinders and of the rotating masses."""
     scalars = [Scalar("Pj_unit_kN", "to_kN(m_j*r_crank*omega**2)", "Гоц (30)")]
@@ -197,9 +203,8 @@ def _sums(cylinders: int, throws: int) -> ScalarTable:
                     for i in range(1, cylinders + 1)
                 )
                 of = f"{across}_{turn}" + ("_mm" if weight else "")
-                scalars.append(
-                    Scalar(f"balance_{turn}{n}_{across}", f"total({terms})", f"порядок {n}", of=of)
-                )
+                text = _clean(f"total({terms})")
+                scalars.append(Scalar(f"balance_{turn}{n}_{across}", text, f"порядок {n}", of=of))
     numbers = range(1, throws + 1)
     for key in "FL":
         scale = "to_kN({})" if key == "F" else "{}"
@@ -219,8 +224,8 @@ def _sums(cylinders: int, throws: int) -> ScalarTable:
                 scalars.append(Scalar(f"{key}rot_bare", scale.format(size), "сумма по коленам"))
             else:
                 scalars += [
-                    Scalar(f"{key}rot_re", scale.format(f"({re})"), "сумма по коленам"),
-                    Scalar(f"{key}rot_im", scale.format(f"({im})"), "сумма по коленам"),
+                    Scalar(f"{key}rot_re", _clean(scale.format(f"({re})")), "сумма по коленам"),
+                    Scalar(f"{key}rot_im", _clean(scale.format(f"({im})")), "сумма по коленам"),
                     Scalar(
                         f"{key}rot", f"sqrt({key}rot_re**2 + {key}rot_im**2)", "сумма по коленам"
                     ),
@@ -231,10 +236,12 @@ def _sums(cylinders: int, throws: int) -> ScalarTable:
                 f"{weight.format(i=i)}{turn}(rad(throw_angle_{i}_deg))" for i in numbers
             )
             scalars.append(
-                Scalar(f"{key}cw_{part}", f"-(Pj_unit_kN*total({terms}))", "mj против колен")
+                Scalar(
+                    f"{key}cw_{part}", _clean(f"-(Pj_unit_kN*total({terms}))"), "mj против колен"
+                )
             )
     title = "Векторные суммы при φ = 0"
-    return ScalarTable("balance_sums", title, SHEET, tuple(scalars))
+    return ScalarTable("balance_sums", title, RESULTS, tuple(scalars))
 
 
 def _vectors() -> ScalarTable:
@@ -269,7 +276,7 @@ def _vectors() -> ScalarTable:
                 ),
             ]
     title = "Векторы 1-го порядка вместе с вращающимися массами"
-    return ScalarTable("balance_vectors", title, SHEET, tuple(scalars))
+    return ScalarTable("balance_vectors", title, RESULTS, tuple(scalars))
 
 
 def _devices() -> ScalarTable:
@@ -291,7 +298,7 @@ def _devices() -> ScalarTable:
             Scalar(f"shaft{n}_mass", f"shaft{n}_moment/{radius}", "mб"),
         ]
     title = "Противовесы и балансирные валы"
-    return ScalarTable("balance_devices", title, SHEET, tuple(scalars))
+    return ScalarTable("balance_devices", title, RESULTS, tuple(scalars))
 
 
 def _firing(cylinders: int) -> TableSpec:
@@ -352,7 +359,7 @@ def _firing(cylinders: int) -> TableSpec:
 def balance_blocks(cylinders: int, throws: int, turn: tuple[float, ...]) -> tuple[Block, ...]:
     """Sheets of the balance."""
     blocks: list[Block] = [
-        _turn(turn), _sums(cylinders, throws), _vectors(), _devices(), _grid(throws),
+        _turn(turn), _devices(), _vectors(), _sums(cylinders, throws), _grid(throws),
         _orders(cylinders),
     ]  # fmt: skip
     if cylinders <= MAX_CYLINDERS:

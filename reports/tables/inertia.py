@@ -6,7 +6,7 @@ from reports.inputs.model import InputFile
 from reports.tables.cylinder import cylinder_table_id
 from reports.tables.spec import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
 
-SHEET, MODEL_SHEET = "Момент инерции", "Модель шатуна"
+SHEET, RESULTS, MODEL_SHEET = "Момент инерции", "Маховик", "Модель шатуна"
 _STEEL = "7800"
 
 
@@ -121,7 +121,7 @@ def _parts(model: InputFile) -> ScalarTable:
     return ScalarTable(
         "inertia_parts",
         "Звенья одного цилиндра",
-        SHEET,
+        RESULTS,
         (
             Scalar(
                 "I_main", f"pi*{d_k}**4/32*of_mm({main})/{lengths}*{_STEEL}", "Ильченко (32), d⁴"
@@ -169,7 +169,7 @@ def _results() -> ScalarTable:
     return ScalarTable(
         "inertia_results",
         "Колебание момента инерции, неравномерность хода и маховик",
-        SHEET,
+        RESULTS,
         (
             *extremes("I", "I_exact_kgm2", "delta_I", "один цилиндр"),
             Scalar(
@@ -278,7 +278,7 @@ def _rod_model() -> ScalarTable:
 
 def inertia_blocks(model: InputFile, rows: tuple[float, ...]) -> tuple[Block, ...]:
     """Sheets of the reduced inertia."""
-    return _table(model.engine.cylinders, rows), _parts(model), _results(), _rod_model()
+    return _table(model.engine.cylinders, rows), _results(), _parts(model), _rod_model()
 
 
 def inertia_charts() -> tuple[ChartSpec, ...]:

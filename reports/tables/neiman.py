@@ -5,7 +5,7 @@ from __future__ import annotations
 from reports.tables.segal import J, S, V, filled, rows
 from reports.tables.spec import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
 
-SHEET, TABLES = "Нейман", "Нейман 1-4"
+SHEET, RESULTS, TABLES = "Нейман", "Нейман, ряд", "Нейман 1-4"
 SHOWN = (1, 2, 4, 6)
 ORDERS = (2, 4, 6, 8, 10, 12)
 _INDEX = Column("inv_lambda", None)
@@ -130,7 +130,7 @@ def _coefficients() -> ScalarTable:
         Scalar(f"{letter}_series_error", f"col_max({table}.{letter}_gap)", "Нейман (23)–(36)")
         for letter in "svj"
     ]
-    return ScalarTable("neiman_list", "Коэффициенты ряда при λ двигателя", SHEET, tuple(scalars))
+    return ScalarTable("neiman_list", "Коэффициенты ряда при λ двигателя", RESULTS, tuple(scalars))
 
 
 def neiman_blocks() -> tuple[Block, ...]:

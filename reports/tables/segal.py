@@ -5,6 +5,7 @@ from __future__ import annotations
 from reports.tables.spec import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
 
 SHEET, FIRST, SECOND = "Сегаль", "Сегаль 2, 3", "Сегаль 4, 5"
+RESULTS = "Сегаль, итоги"
 LAMBDAS = ("0.16", "0.18", "0.2", "0.22", "0.24", "0.26", "0.28", "0.303")
 ITERATIONS = 9
 
@@ -127,7 +128,7 @@ def _error_scalars() -> ScalarTable:
         ),
         Scalar("j_error_quarter", f"({root} - 1)*100", "Сегаль, с. 13"),
     ]
-    return ScalarTable("segal_error_list", "Погрешности приближений", SHEET, tuple(scalars))
+    return ScalarTable("segal_error_list", "Погрешности приближений", RESULTS, tuple(scalars))
 
 
 def _extremes() -> ScalarTable:
@@ -162,7 +163,7 @@ def _extremes() -> ScalarTable:
             "Сегаль (1.16)",
         ),
     ]
-    return ScalarTable("segal_extremes", "Крайние значения ускорения", SHEET, tuple(scalars))
+    return ScalarTable("segal_extremes", "Крайние значения ускорения", RESULTS, tuple(scalars))
 
 
 def segal_blocks() -> tuple[Block, ...]:

@@ -7,7 +7,7 @@ from reports.tables.cycle_names import from_cycle, section_of
 from reports.tables.segal import rows
 from reports.tables.spec import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
 
-SHEET, SHAFTS = "Гармоники момента", "Гашение 2-го порядка"
+SHEET, SHAFTS, RESULTS = "Гармоники момента", "Гашение 2-го порядка", "Чудаков, итоги"
 LAST_ORDER = 8.0
 SUPPRESSIONS = (0, 2, 4, 6, 8, 10)
 _NOISE = "0.000000001"
@@ -121,7 +121,7 @@ def _coefficients(model: InputFile) -> ScalarTable:
     return ScalarTable(
         "torque_coefficients",
         "Гармонические коэффициенты 2-го порядка",
-        SHAFTS,
+        RESULTS,
         (
             *(
                 Scalar(f"t_j_order{n}", f"to_MPa({unit}*({shape}))", "двучленное движение")

@@ -20,6 +20,7 @@ from reports.document.writer import Figure, TablePlan
 from reports.inputs.convert import to_engine
 
 _MOST_ORDERS = 8
+_NOTHING = 1e-6  # N·m: rounding noise of balanced moments
 
 _FORMULAS = {
     "force": r"F_k = m_j r\omega^2\, a_k \sqrt{\left(\Sigma\cos k\theta_i\right)^2"
@@ -53,7 +54,16 @@ def companions(chapter: Chapter) -> Markup:
         tables=_tables(chapter),
         ranked=chapter.input.engine.cylinders <= MAX_CYLINDERS,
         zone=round(terms.value("zone")),
+        series_error=_power(terms.value("j_series_error")),
+        moves=bool(np.abs(terms.column("balance.Lup_Nm")).max() > _NOTHING),
     )
+
+
+def _power(value: float) -> str:
+    """A small number as a power of ten."""
+    digits, _, exponent = f"{value:.1e}".partition("e")
+    superscripts = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+    return f"{digits.replace('.', ',')}·10{str(int(exponent)).translate(superscripts)}"
 
 
 def _figures(terms: Terms) -> dict[str, Figure]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from math import ceil
 
 from openpyxl.comments import Comment
 from openpyxl.worksheet.worksheet import Worksheet
@@ -25,6 +26,9 @@ from reports.layout import (
 from reports.tables.spec import Grid, Scalar, ScalarTable, TableSpec
 from reports.tables.values import Values
 from reports.workbook import styles
+
+# Characters of a line in the columns of titles and sources, height of a line [pt].
+_TITLE_CHARS, _SOURCE_CHARS, _LINE_HEIGHT = 58, 24, 15
 
 CacheValues = dict[str, dict[str, float | str]]
 
@@ -106,6 +110,8 @@ class Writer:
                 }
                 for column, text in texts.items():
                     sheet.cell(row, shift + column, text or None).style = styles.TEXT
+                if place.column == 1:  # beside a table the rows keep their height
+                    _raise_row(sheet, row, texts[TITLE_COLUMN], texts[SOURCE_COLUMN])
             self.scalar(sheet, scalar)
 
     def grid(self, sheet: Worksheet, block: Grid) -> None:
@@ -128,9 +134,17 @@ class Writer:
             label.comment = note(quantity, source)
             if wide:
                 sheet.cell(at, 2, quantity.header).style = styles.TEXT
+                _raise_row(sheet, at, quantity.title)
             for scalar in row.cells:
                 if scalar is not None:
                     self.scalar(sheet, scalar)
+
+
+def _raise_row(sheet: Worksheet, row: int, title: str, source: str = "") -> None:
+    """Room for texts that wrap: no program measures them before the file is opened."""
+    lines = max(ceil(len(title) / _TITLE_CHARS), ceil(len(source) / _SOURCE_CHARS))
+    if lines > 1:
+        sheet.row_dimensions[row].height = _LINE_HEIGHT * lines
 
 
 def capital(text: str) -> str:

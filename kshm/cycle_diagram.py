@@ -47,8 +47,9 @@ def isobar_angle(cycle: Cycle) -> float:
     lam, eps = cycle.inputs.lam, cycle.inputs.compression_ratio
     s = 2 * (cycle.combustion.rho - 1) / (eps - 1)  # s/r
     pin = 1 + 1 / lam - s
-    cosine = (1 + pin**2 - 1 / lam**2) / (2 * pin)
-    return 2 * math.pi + math.acos(min(1.0, max(-1.0, cosine)))
+    # By the half angle: (1 − cos φ)/2 = s (2/λ − s)/(4 pin) is exact also where s is near 0.
+    half = max(0.0, s * (2 / lam - s) / (4 * pin))
+    return 2 * math.pi + 2 * math.asin(min(1.0, math.sqrt(half)))
 
 
 def _points(cycle: Cycle, phi: Array, radians: Array, rising: int, z: float) -> IndicatorDiagram:

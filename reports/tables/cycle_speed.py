@@ -85,13 +85,19 @@ def _diagram() -> TableSpec:
 
 
 def _diagram_points() -> ScalarTable:
-    pin = f"(1 + 1/lam - 2*(cyc_rho - 1)/({EPS} - 1))"
-    cosine = f"(1 + {pin}**2 - 1/lam**2)/(2*{pin})"
+    s = f"(2*(cyc_rho - 1)/({EPS} - 1))"
+    half = f"{s}*(2/lam - {s})/(4*(1 + 1/lam - {s}))"
     return ScalarTable(
         "cycle_points",
         "Точка z",
         SHEET,
-        (Scalar("cyc_phi_z", f"360 + deg(acos(max(-1, min(1, {cosine}))))", "Гоц (1), обращение"),),
+        (
+            Scalar(
+                "cyc_phi_z",
+                f"360 + 2*deg(asin(sqrt(max(0, min(1, {half})))))",
+                "Гоц (1), обращение",
+            ),
+        ),
     )
 
 

@@ -26,7 +26,11 @@ def columns(engine: Engine) -> dict[str, Columns]:
 
 def _phase(amplitude: complex, order: int, unit: float) -> float:
     """Shaft angle of the greatest value [rad]; zero where there is nothing."""
-    return 0.0 if abs(amplitude) < 1e-9 * unit else -float(np.angle(amplitude)) / order
+    if abs(amplitude) < 1e-9 * unit:
+        return 0.0
+    # Rounding noise of a zero sine would turn 180° into −180°.
+    sine = 0.0 if abs(amplitude.imag) < 1e-9 * unit else -amplitude.imag
+    return float(np.arctan2(sine, amplitude.real)) / order
 
 
 def _left(engine: Engine, order: int) -> float:

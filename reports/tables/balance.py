@@ -90,9 +90,9 @@ def _orders(cylinders: int) -> TableSpec:
 
     def phase(name: tuple[str, str], scale: str) -> str:
         size = f"sqrt({name[0]}**2 + {name[1]}**2)"
-        return (
-            f"0 if {size} < {_NOTHING}*{scale} else deg(atan2({name[1]}, {name[0]}))/order"
-        )  # fmt: skip
+        least = f"{_NOTHING}*{scale}"
+        sine = f"(0 if abs({name[1]}) < {least} else {name[1]})"
+        return f"0 if {size} < {least} else deg(atan2({sine}, {name[0]}))/order"
 
     first, second = "balance_first_shafts_share", "balance_second_shafts_share"
     rest = f"(1 - {first} if order == 1 else 1 - {second} if order == 2 else 1)"

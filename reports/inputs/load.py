@@ -17,7 +17,6 @@ from pydantic import ValidationError
 
 from reports.errors import InputError, Problem, one_line
 from reports.inputs import cells, checks, messages
-from reports.inputs.cycle import cycle_findings
 from reports.inputs.fields import SECTIONS, Path, key_text
 from reports.inputs.findings import Finding, Values
 from reports.inputs.meta import Strictly, hints, submodel
@@ -120,6 +119,9 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
     parts = cast(dict[str, Any], models)
     model = InputFile(**parts)
     if model.cycle is not None:
+        # Only a file with a cycle pays for the numeric part.
+        from reports.inputs.cycle import cycle_findings
+
         reader.take(cycle_findings(model))
         if reader.problems:
             raise InputError(reader.problems)

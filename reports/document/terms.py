@@ -51,7 +51,7 @@ def unit_tex(label: str) -> str:
     if label == "%":
         return r"\,\%"
     text = _RUN.sub(lambda m: "}^{" + m.group().translate(_RAISED) + r"}\mathrm{", label)
-    return r"\;" + rf"\mathrm{{{text}}}".replace(r"\mathrm{}", "").replace("·", r"}\cdot\mathrm{")
+    return r"\;" + rf"\mathrm{{{text}}}".replace(r"\mathrm{}", "")
 
 
 def input_text(field: Field) -> str:

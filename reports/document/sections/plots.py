@@ -54,6 +54,8 @@ def panels(
     terms: Terms, names: Sequence[str], y_label: str, captions: Sequence[str], title: str
 ) -> list[tuple[str, Figure]]:
     """Columns one below the other, as many figures as needed; (key suffix, figure)."""
+    if len(names) == 1:
+        return [("1", over_phi(terms, f"{title}: {captions[0]}", y_label, names[0]))]
     count = -(-len(names) // _MOST_PANELS)
     size = -(-len(names) // count)
     result = []

@@ -17,5 +17,5 @@ def test_184_of_185_cells_agree_and_the_other_is_the_misprint() -> None:
 
 
 def test_columns_of_eps_are_swapped_in_print() -> None:
-    count, wrong = disagreeing(cells("P3_2", solution("gots-p3").columns["P3_2"]), 1.5)
+    _, wrong = disagreeing(cells("P3_2", solution("gots-p3").columns["P3_2"]), 1.5)
     assert {column for _, column in wrong} == {"beta_rad", *SWAPPED}

@@ -133,7 +133,8 @@ def ellipse(vector: Phasors, noise: float = 0.0) -> Ellipse:
     if min(first, second) > noise:
         # The angle of the product is taken modulo 2π, hence the direction modulo π.
         direction = float(np.angle(along * against)) / 2
-        if direction < -np.pi / 2 + 1e-9:
+        # −90° and 90° are one direction: within a millionth of a degree it is 90°.
+        if direction < -np.pi / 2 + np.radians(1e-6):
             direction += np.pi
     return Ellipse(first + second, abs(first - second), direction)
 

@@ -271,7 +271,7 @@ def _vectors() -> ScalarTable:
                 Scalar(f"{n}_min", f"abs({n}_along - {n}_against)", "малая полуось"),
                 Scalar(
                     f"{n}_deg",
-                    f"0 if {least} else 90 - mod(90 - {angle} + {_NOTHING}, 180) + {_NOTHING}",
+                    f"0 if {least} else 90 - mod(90 - {angle} + 0.000001, 180) + 0.000001",
                     "направление",
                 ),
             ]

@@ -31,12 +31,12 @@ from reports.inputs.model import (
     MassesSection,
     PolytropicGasSection,
     Regime,
-    Report,
     TableGasSection,
 )
 from reports.inputs.model_balance import BalanceSection
 from reports.inputs.model_crankshaft import CrankshaftSection
 from reports.inputs.model_cycle import CycleSection
+from reports.inputs.model_report import Report
 from reports.inputs.source import read_text, refuse_bomb, refused
 
 MAX_PROBLEMS = 200

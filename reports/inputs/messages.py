@@ -20,11 +20,11 @@ from reports.inputs.model import (
     MassesSection,
     PolytropicGasSection,
     Regime,
-    Report,
     TableGasSection,
 )
 from reports.inputs.model_crankshaft import ArmsSection, CrankshaftSection, WebSection
 from reports.inputs.model_cycle import CycleSection
+from reports.inputs.model_report import Report
 
 _HOMES: dict[str, tuple[type[Strictly], ...]] = {
     "[report]": (Report,),

@@ -7,7 +7,6 @@ Limits are hard and physically generous; what only looks odd is a warning
 
 from __future__ import annotations
 
-from datetime import UTC, datetime
 from typing import Annotated, Literal
 
 from pydantic import Field, Strict
@@ -16,6 +15,7 @@ from reports.inputs.meta import Strictly, choice, number, text
 from reports.inputs.model_balance import BalanceSection
 from reports.inputs.model_crankshaft import CrankshaftSection
 from reports.inputs.model_cycle import CycleSection
+from reports.inputs.model_report import Report
 from reports.units import DEG, KG, KW, MM, MPA, NONE, RPM
 
 MAX_CYLINDERS = 12
@@ -32,26 +32,6 @@ SOURCES = {
     "table": "по точкам диаграммы",
     "cycle": "по расчету цикла",
 }
-
-
-def _this_year() -> int:
-    return datetime.now(tz=UTC).year
-
-
-class Report(Strictly):
-    """[report]: what stands on the title page."""
-
-    student: Annotated[str, text("Студент")] = ""
-    group: Annotated[str, text("Группа")] = ""
-    institution: Annotated[str, text("Учебное заведение")] = ""
-    department: Annotated[str, text("Кафедра")] = ""
-    supervisor: Annotated[str, text("Руководитель")] = ""
-    variant: Annotated[str, text("Вариант")] = ""
-    year: Annotated[int, number("Год", "", NONE, 1950, 2150)] = Field(default_factory=_this_year)
-    city: Annotated[str, text("Город")] = ""
-    title: Annotated[str, text("Тема работы")] = (
-        "Расчет кинематики и динамики кривошипно-шатунного механизма"
-    )
 
 
 class EngineSection(Strictly):

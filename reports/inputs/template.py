@@ -19,6 +19,7 @@ from reports.inputs.model import PolytropicGasSection
 from reports.inputs.model_cycle import CycleSection
 from reports.resources import samples_dir
 
+_KEPT = ("title", "year", "frame", "detail")  # how the report is set, not who wrote it
 BLANK_SAMPLE = "gots-diesel"
 _HEAD = (
     "Исходные данные двигателя для kshm. Впишите свои значения вместо примера.",
@@ -54,7 +55,7 @@ def new_file(sample: str | None = None) -> str:
     document = tomlkit.parse(_sample_text(sample))
     report = document.get("report", {})
     for key in report:
-        if key not in ("title", "year"):
+        if key not in _KEPT:
             report[key] = ""
     if "year" in report:
         report["year"] = datetime.now(tz=UTC).year

@@ -32,6 +32,7 @@ def random_change(data: InputFile, rng: random.Random) -> tuple[Change, InputFil
         field
         for field in iter_fields(data)
         if not field.structural
+        and field.path[0] != "report"
         and (field.choices is not None or isinstance(field.value, float))
         and not field.name.startswith(("firing_offset", "throw_angle", "force_offset"))
     ]

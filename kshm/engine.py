@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
+from kshm.arrangement import Arrangement, ArticulatedRod, in_line
+
 if TYPE_CHECKING:
     from kshm.cycle_run import CycleRun
 
@@ -14,17 +16,42 @@ Method = Literal["textbook", "exact"]
 
 @dataclass(frozen=True, slots=True)
 class Geometry:
-    """Main dimensions of the crank mechanism [m]."""
+    """Main dimensions of the crank mechanism [m].
+
+    ``crank_offset`` is how far the cylinder's axis passes the shaft on the side to which
+    the crank turns at TDC, ``pin_offset`` how far the piston pin stands from the
+    cylinder's axis on the same side, Gots 1.4.
+    """
 
     bore: float
     crank_radius: float
     rod_length: float
     compression_ratio: float
+    crank_offset: float = 0.0
+    pin_offset: float = 0.0
 
     @property
     def lam(self) -> float:
         """Crank radius over rod length λ = r/L [-]."""
         return self.crank_radius / self.rod_length
+
+    @property
+    def offset(self) -> float:
+        """Distance e of the pin's path from the shaft axis [m]."""
+        return self.crank_offset + self.pin_offset
+
+    @property
+    def relative_offset(self) -> float:
+        """Relative offset k = e/r [-], Gots 1.4."""
+        return self.offset / self.crank_radius
+
+    @property
+    def stroke(self) -> float:
+        """Piston stroke [m]: 2r, with an offset S_д of Gots (11)."""
+        if self.offset == 0:
+            return 2 * self.crank_radius
+        r, rod, e = self.crank_radius, self.rod_length, self.offset
+        return math.sqrt((rod + r) ** 2 - e**2) - math.sqrt((rod - r) ** 2 - e**2)
 
     @property
     def piston_area(self) -> float:
@@ -37,9 +64,11 @@ class PolytropicGas:
     """Indicator diagram by polytropes as the program Dinn builds it.
 
     Pressures are absolute [Pa]; crank angles [rad] are counted from TDC before
-    the intake stroke.  ``ignition_advance`` is the angle from the start of
-    injection to TDC; ``combustion_start`` the angle at which the straight
-    pressure rise begins (φ_c, already delayed).
+    the intake stroke, in a two-stroke engine from the TDC of combustion.  An offset
+    moves the dead centres: angles are meant as if these stood at 0, π, 2π, 3π.
+    ``scavenge_open`` is used by two-stroke engines only.  ``ignition_advance`` is the
+    angle from the start of injection to TDC; ``combustion_start`` the angle at which the
+    straight pressure rise begins (φ_c, already delayed).
     """
 
     p_ambient: float
@@ -53,6 +82,7 @@ class PolytropicGas:
     ignition_advance: float
     exhaust_open: float
     exhaust_close: float
+    scavenge_open: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,9 +197,10 @@ class Balancing:
 
 @dataclass(frozen=True, slots=True)
 class Engine:
-    """A four-stroke in-line engine with a central mechanism, SI units.
+    """A piston engine, SI units.
 
     ``firing_offsets`` are θ_i [rad], one per cylinder, cylinder 1 first.
+    ``arrangement`` says where the cylinders stand; empty means in line.
     ``force_offsets`` replaces θ_i for the loads on the main journals only; it
     exists to reproduce the printed table П4.3, whose phases contradict the
     shaft, and is None otherwise.
@@ -192,6 +223,23 @@ class Engine:
     balancing: Balancing = field(default_factory=Balancing)
     name: str = field(default="engine")
     cycle: CycleRun | None = None  # the cycle calculation that the gas comes from
+    arrangement: Arrangement = ()
+    articulated: ArticulatedRod | None = None
+
+    def __post_init__(self) -> None:
+        """Give an engine without arrangement its cylinders in line."""
+        if not self.arrangement:
+            object.__setattr__(self, "arrangement", in_line(len(self.firing_offsets)))
+
+    @property
+    def is_in_line(self) -> bool:
+        """Whether all cylinders stand in one row, each on its own throw."""
+        return self.arrangement == in_line(self.cylinders)
+
+    @property
+    def is_basic(self) -> bool:
+        """Whether this is a four-stroke in-line engine with a central mechanism."""
+        return self.is_in_line and self.strokes == 4 and self.geometry.offset == 0
 
     @property
     def cylinders(self) -> int:

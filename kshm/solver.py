@@ -56,6 +56,9 @@ class BatchSolution:
 
 def solve_batch(engines: Sequence[Engine]) -> BatchSolution:
     """Solve engines of one structure together; see ``Batch`` for the shapes."""
+    if not all(engine.is_basic for engine in engines):
+        msg = "only four-stroke in-line engines with a central mechanism are solved yet"
+        raise NotImplementedError(msg)
     batch = stack(engines)
     return _chain(batch)
 

@@ -6,16 +6,15 @@ all errors are found at once; it keeps silent about what it cannot judge.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from reports.inputs.checks_cycle import check_cycle
 from reports.inputs.checks_gas import check_gas
+from reports.inputs.checks_layout import check_layout
 from reports.inputs.findings import Finding, Path, Values, radius_and_rod
 from reports.inputs.model import LAMBDA_MAX, LAMBDA_MIN
 from reports.units import number_text
 
-ANGLE_TOLERANCE_DEG = 0.01
 LENGTH_TOLERANCE = 1e-3
 USUAL_LAMBDA = (0.15, 0.45)
 USUAL_SHARE = (0.2, 0.3)
@@ -24,8 +23,7 @@ USUAL_SHARE = (0.2, 0.3)
 def check(values: Values) -> Iterator[Finding]:
     """Yield everything that does not fit together, errors and warnings."""
     yield from _geometry(values)
-    yield from _counts(values)
-    yield from _phases(values)
+    yield from check_layout(values)
     yield from _arms(values)
     yield from _masses(values)
     yield from check_gas(values)
@@ -72,50 +70,6 @@ def _ratio(ratio: float, path: Path) -> Iterator[Finding]:
         what = f"λ = {text} необычно"
         hint = f"обычно от {USUAL_LAMBDA[0]} до {USUAL_LAMBDA[1]}"
         yield Finding(path, what, hint, warning=True)
-
-
-def _counts(values: Values) -> Iterator[Finding]:
-    cylinders = values.get("engine", "cylinders")
-    if cylinders is None:
-        return
-    wanted = {
-        "firing_offsets_deg": (cylinders, "по одному на цилиндр"),
-        "throw_angles_deg": (cylinders, "по одному на колено"),
-        "main_lengths_mm": (cylinders + 1, "на одну шейку больше, чем колен"),
-        "force_offsets_deg": (cylinders, "по одному на колено"),
-        "webs": (2 * cylinders, "по две щеки на колено"),
-        "arms": (cylinders, "по одной записи на колено"),
-    }
-    for key, (count, rule) in wanted.items():
-        found = values.counts.get(("crankshaft", key))
-        if found is not None and found != count:
-            what = f"записей {found}, а нужно {count}"
-            hint = f"{rule}, цилиндров {cylinders}"
-            yield Finding(("crankshaft", key), what, hint)
-
-
-def _phases(values: Values) -> Iterator[Finding]:
-    offsets = values.get("crankshaft", "firing_offsets_deg")
-    angles = values.get("crankshaft", "throw_angles_deg")
-    for key, listed in (("firing_offsets_deg", offsets), ("throw_angles_deg", angles)):
-        if listed and listed[0] != 0:
-            what = f"первое значение {number_text(listed[0])}°, а нужно 0"
-            yield Finding(("crankshaft", key, 0), what, "углы отсчитываются от первого цилиндра")
-    if values.get("crankshaft", "force_offsets_deg") is not None:
-        what = "фазы сил заданы отдельно и могут противоречить валу"
-        hint = "ключ нужен только для воспроизведения таблицы П4.3"
-        yield Finding(("crankshaft", "force_offsets_deg"), what, hint, warning=True)
-    if not offsets or not angles or len(offsets) != len(angles):
-        return
-    for index, (offset, angle) in enumerate(zip(offsets, angles, strict=True)):
-        if index and abs(math.remainder(angle + offset, 360.0)) > ANGLE_TOLERANCE_DEG:
-            fitting = number_text(round(-offset % 360.0, 6))
-            what = (
-                f"угол колена {number_text(angle)}° не соответствует началу рабочего хода "
-                f"{number_text(offset)}° (firing_offsets_deg[{index + 1}])"
-            )
-            hint = f"по γ = −θ (mod 360) нужно {fitting}°"
-            yield Finding(("crankshaft", "throw_angles_deg", index), what, hint)
 
 
 def _arms(values: Values) -> Iterator[Finding]:

@@ -9,7 +9,6 @@ from reports.inputs.findings import Finding, Path, Values, radius_and_rod
 from reports.units import MPA, number_text
 
 FIRING_TDC_DEG = 360.0
-CYCLE_DEG = 720.0
 PRESSURE_TOLERANCE_MPA = 1e-6
 
 
@@ -125,12 +124,13 @@ def _table(values: Values) -> Iterator[Finding]:
             what = f"угол {number_text(here)}° не больше предыдущего {number_text(before)}°"
             yield Finding((*path, index), what, "углы должны строго возрастать")
     first, last = points[0], points[-1]
-    if first[0] != 0 or last[0] != CYCLE_DEG:
+    cycle = 180 * (values.get("engine", "strokes") or 4)
+    if first[0] != 0 or last[0] != cycle:
         what = (
             f"точки не покрывают цикл: от {number_text(first[0])} до {number_text(last[0])}°, "
-            "а нужно от 0 до 720°"
+            f"а нужно от 0 до {cycle}°"
         )
         yield Finding(path, what, "добавьте крайние точки")
     elif abs(first[1] - last[1]) > PRESSURE_TOLERANCE_MPA:
-        what = f"давление при 720° {MPA.text(last[1])} не равно давлению при 0° "
+        what = f"давление при {cycle}° {MPA.text(last[1])} не равно давлению при 0° "
         yield Finding((*path, len(points) - 1), what + MPA.text(first[1]), "цикл должен замыкаться")

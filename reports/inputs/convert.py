@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from kshm.arrangement import Arrangement, ArticulatedRod
 from kshm.cycle_diagram import polytropic_gas
 from kshm.cycle_run import CycleRun
 from kshm.engine import (
@@ -20,6 +21,7 @@ from kshm.engine import (
     Web,
 )
 from reports.inputs.cycle import cycle_run
+from reports.inputs.firing import arrangement
 from reports.inputs.model import (
     CycleGasSection,
     GasSection,
@@ -28,11 +30,13 @@ from reports.inputs.model import (
     PolytropicGasSection,
     TableGasSection,
 )
+from reports.inputs.model_articulated import ArticulatedSection
 from reports.inputs.model_balance import BalanceSection
 from reports.inputs.model_crankshaft import ArmsSection, CrankshaftSection, WebSection
 from reports.units import DEG, KG, KW, MM, MPA, RPM
 
 BDC_DEG = 540.0
+TWO_STROKE_BDC_DEG = 180.0
 FIRING_TDC_DEG = 360.0
 
 
@@ -47,9 +51,11 @@ def to_engine(model: InputFile) -> Engine:
     return Engine(
         geometry=geometry,
         omega=RPM.to_si(regime.speed_rpm),
-        gas=_gas(model.gas, run),
+        gas=_gas(model.gas, run, strokes=model.engine.strokes),
         masses=_masses(model, geometry.rod_length),
         crankshaft=_crankshaft(shaft),
+        arrangement=arrangement_of(model),
+        articulated=_articulated(model.articulated),
         firing_offsets=tuple(DEG.to_si(value) for value in shaft.firing_offsets_deg),
         strokes=model.engine.strokes,
         method=model.calculation.method,
@@ -65,9 +71,40 @@ def to_engine(model: InputFile) -> Engine:
     )
 
 
+def arrangement_of(model: InputFile) -> Arrangement:
+    """Return the places of the cylinders of a checked input."""
+    shaft = model.crankshaft
+    places = arrangement(
+        model.engine.layout,
+        model.engine.cylinders,
+        shaft.bank_angle_deg,
+        shaft.split_pin_deg,
+        articulated=model.articulated is not None,
+    )
+    if places is None:
+        msg = "the layout has no arrangement"
+        raise ValueError(msg)
+    return places
+
+
+def _articulated(section: ArticulatedSection | None) -> ArticulatedRod | None:
+    if section is None:
+        return None
+    return ArticulatedRod(
+        rod_length=MM.to_si(section.rod_length_mm),
+        radius=MM.to_si(section.radius_mm),
+        angle=DEG.to_si(section.angle_deg),
+        reciprocating=KG.to_si(section.reciprocating_kg),
+        big_end=KG.to_si(section.big_end_kg),
+    )
+
+
 def _geometry(model: InputFile, run: CycleRun | None) -> Geometry:
     given = model.geometry
+    crank_offset = pin_offset = 0.0
     if isinstance(given, GeometrySection):
+        crank_offset = MM.to_si(given.crank_offset_mm or 0.0)
+        pin_offset = MM.to_si(given.pin_offset_mm or 0.0)
         bore = MM.to_si(given.bore_mm)
         radius, rod = MM.to_si(crank_radius_mm(given)), MM.to_si(rod_length_mm(given))
     else:
@@ -76,7 +113,8 @@ def _geometry(model: InputFile, run: CycleRun | None) -> Geometry:
             raise ValueError(msg)
         bore, radius = run.design.bore, run.design.stroke / 2
         rod = radius / given.lambda_
-    return Geometry(bore, radius, rod, float(given.compression_ratio))
+    ratio = float(given.compression_ratio)
+    return Geometry(bore, radius, rod, ratio, crank_offset, pin_offset)
 
 
 def _power(model: InputFile, run: CycleRun | None) -> tuple[float | None, float, float]:
@@ -111,7 +149,7 @@ def rod_length_mm(geometry: GeometrySection) -> float:
     return crank_radius_mm(geometry) / geometry.lambda_
 
 
-def _gas(gas: GasSection, run: CycleRun | None) -> Gas:
+def _gas(gas: GasSection, run: CycleRun | None, *, strokes: int) -> Gas:
     p_ambient = MPA.to_si(gas.ambient_pressure_mpa)
     if isinstance(gas, TableGasSection):
         return TabulatedGas(
@@ -131,7 +169,8 @@ def _gas(gas: GasSection, run: CycleRun | None) -> Gas:
     if isinstance(gas, CycleGasSection):
         msg = "gas from a cycle needs its section"
         raise TypeError(msg)
-    advance, start, opens, closes = _angles(gas)
+    advance, start, opens, closes = _angles(gas, strokes)
+    scavenge = gas.scavenge_start_before_bdc_deg
     return PolytropicGas(
         p_ambient=p_ambient,
         p_intake=MPA.to_si(gas.intake_pressure_mpa),
@@ -144,19 +183,23 @@ def _gas(gas: GasSection, run: CycleRun | None) -> Gas:
         ignition_advance=advance,
         exhaust_open=opens,
         exhaust_close=closes,
+        scavenge_open=0.0 if scavenge is None else DEG.to_si(TWO_STROKE_BDC_DEG - scavenge),
     )
 
 
-def _angles(gas: PolytropicGasSection | CycleGasSection) -> tuple[float, float, float, float]:
+def _angles(
+    gas: PolytropicGasSection | CycleGasSection, strokes: int = 4
+) -> tuple[float, float, float, float]:
     """Advance, start of combustion, start and end of the exhaust [rad]."""
+    bdc = BDC_DEG if strokes == 4 else TWO_STROKE_BDC_DEG
     start = gas.combustion_start_deg
     if start is None:
         start = FIRING_TDC_DEG - gas.injection_advance_deg + gas.ignition_delay_deg
     return (
         DEG.to_si(gas.injection_advance_deg),
         DEG.to_si(start),
-        DEG.to_si(BDC_DEG - gas.exhaust_start_before_bdc_deg),
-        DEG.to_si(BDC_DEG + gas.exhaust_end_after_bdc_deg),
+        DEG.to_si(bdc - gas.exhaust_start_before_bdc_deg),
+        DEG.to_si(bdc + gas.exhaust_end_after_bdc_deg),
     )
 
 

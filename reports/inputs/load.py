@@ -19,6 +19,7 @@ from reports.errors import InputError, Problem, one_line
 from reports.inputs import cells, checks, messages
 from reports.inputs.fields import SECTIONS, Path, key_text
 from reports.inputs.findings import Finding, Values
+from reports.inputs.firing import FOLLOWING, expand
 from reports.inputs.meta import Strictly, hints, submodel
 from reports.inputs.model import (
     SOURCES,
@@ -33,6 +34,7 @@ from reports.inputs.model import (
     Regime,
     TableGasSection,
 )
+from reports.inputs.model_articulated import ArticulatedSection
 from reports.inputs.model_balance import BalanceSection
 from reports.inputs.model_crankshaft import CrankshaftSection
 from reports.inputs.model_cycle import CycleSection
@@ -51,10 +53,11 @@ SECTION_MODELS: dict[str, type[Strictly]] = {
     "regime": Regime,
     "cycle": CycleSection,
     "masses": MassesSection,
+    "articulated": ArticulatedSection,
     "crankshaft": CrankshaftSection,
     "balance": BalanceSection,
 }
-_OPTIONAL_SECTIONS = ("report", "calculation", "cycle", "balance")
+_OPTIONAL_SECTIONS = ("report", "calculation", "cycle", "articulated", "balance")
 _GASES: dict[str, type[Strictly]] = {
     "polytropic": PolytropicGasSection,
     "table": TableGasSection,
@@ -112,6 +115,10 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
     data = dict(raw)
     if locate is not None:
         data = reader.from_cells(data)
+    data, findings = expand(data)
+    reader.take(findings)
+    if findings:  # what would have followed from the order is not also missing
+        reader.empty |= {("crankshaft", key) for key in FOLLOWING}
     models = reader.sections(data)
     reader.take(checks.check(reader.values))
     if reader.problems:
@@ -179,7 +186,7 @@ class _Reader:
                     hint = f"добавьте раздел [{name}]"
                     self.problems.append(self.problem((name,), "нет раздела", hint))
                 continue
-            if name == "cycle" and name not in data:
+            if name in ("cycle", "articulated") and name not in data:
                 continue
             model = self._model_of(name, data.get(name, {}))
             if name == "geometry" and model is not None and _sizes_are_wanted(data):

@@ -22,6 +22,7 @@ from reports.inputs.model import (
     Regime,
     TableGasSection,
 )
+from reports.inputs.model_articulated import ArticulatedSection
 from reports.inputs.model_crankshaft import ArmsSection, CrankshaftSection, WebSection
 from reports.inputs.model_cycle import CycleSection
 from reports.inputs.model_report import Report
@@ -35,6 +36,7 @@ _HOMES: dict[str, tuple[type[Strictly], ...]] = {
     "[gas]": (PolytropicGasSection, TableGasSection, CycleGasSection),
     "[cycle]": (CycleSection,),
     "[masses]": (MassesSection,),
+    "[articulated]": (ArticulatedSection,),
     "[crankshaft]": (CrankshaftSection,),
     "[[crankshaft.webs]]": (WebSection,),
     "[[crankshaft.arms]]": (ArmsSection,),

@@ -12,6 +12,7 @@ from typing import Annotated, Literal
 from pydantic import Field, Strict
 
 from reports.inputs.meta import Strictly, choice, number, text
+from reports.inputs.model_articulated import ArticulatedSection
 from reports.inputs.model_balance import BalanceSection
 from reports.inputs.model_crankshaft import CrankshaftSection
 from reports.inputs.model_cycle import CycleSection
@@ -26,7 +27,8 @@ METHODS = {
     "textbook": "по учебнику: двучленное ускорение",
     "exact": "точное ускорение",
 }
-LAYOUTS = {"inline": "рядный"}
+LAYOUTS = {"inline": "рядный", "v": "V-образный", "opposed": "оппозитный"}
+STROKES = {"4": "4", "2": "2"}
 SOURCES = {
     "polytropic": "по политропам",
     "table": "по точкам диаграммы",
@@ -49,9 +51,10 @@ class EngineSection(Strictly):
         Field(ge=1, le=MAX_CYLINDERS),
     ]
     layout: Annotated[
-        Literal["inline"], choice("Расположение цилиндров", LAYOUTS, structural=True)
+        Literal["inline", "v", "opposed"],
+        choice("Расположение цилиндров", LAYOUTS, structural=True),
     ] = "inline"
-    strokes: Annotated[Literal[4], choice("Тактность", {"4": "4"}, structural=True, symbol="τ")] = 4
+    strokes: Annotated[Literal[4, 2], choice("Тактность", STROKES, structural=True, symbol="τ")] = 4
 
 
 class Calculation(Strictly):
@@ -86,6 +89,26 @@ class GeometrySection(Strictly):
         Field(default=None, alias="lambda")
     )
     compression_ratio: Annotated[float, number("Степень сжатия", "ε", NONE, 2, 50)]
+    crank_offset_mm: (
+        Annotated[
+            float,
+            number("Смещение оси цилиндра от оси вала в сторону вращения", "e_в", MM, -2000, 2000),
+        ]
+        | None
+    ) = None
+    pin_offset_mm: (
+        Annotated[
+            float,
+            number(
+                "Смещение поршневого пальца от оси цилиндра в сторону вращения",
+                "e_п",
+                MM,
+                -500,
+                500,
+            ),
+        ]
+        | None
+    ) = None
 
 
 class DesignGeometrySection(Strictly):
@@ -145,8 +168,15 @@ class PolytropicGasSection(Strictly):
         float, number("Начало выпуска до НМТ", "φ_в1", DEG, 0, 150)
     ]
     exhaust_end_after_bdc_deg: Annotated[
-        float, number("Конец свободного выпуска после НМТ", "φ_в2", DEG, 0, 180)
+        float, number("Конец выпуска после НМТ", "φ_в2", DEG, 0, 180)
     ]
+    scavenge_start_before_bdc_deg: (
+        Annotated[
+            float,
+            number("Начало продувки до НМТ (двухтактный двигатель)", "φ_пр", DEG, 0, 150),
+        ]
+        | None
+    ) = None
 
 
 class TableGasSection(Strictly):
@@ -236,5 +266,6 @@ class InputFile(Strictly):
     gas: Annotated[GasSection, Field(discriminator="source")]
     cycle: CycleSection | None = None
     masses: MassesSection
+    articulated: ArticulatedSection | None = None
     crankshaft: CrankshaftSection
     balance: BalanceSection = Field(default_factory=BalanceSection)

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Strict
 
-from reports.inputs.meta import Strictly, number
+from reports.inputs.meta import Strictly, number, text
 from reports.units import DEG, KG, MM
 
 
@@ -50,8 +50,27 @@ class ArmsSection(Strictly):
 
 
 class CrankshaftSection(Strictly):
-    """[crankshaft]: phases, journals, end masses, webs and arms, counted from the nose."""
+    """[crankshaft]: phases, journals, end masses, webs and arms, counted from the nose.
 
+    ``firing_order`` is a way to write the offsets: `reports.inputs.firing` puts them, and
+    the throw angles that are not given, in its place before the section is checked.
+    """
+
+    firing_order: Annotated[str, text("Порядок работы цилиндров, например 1-3-4-2")] | None = None
+    bank_angle_deg: (
+        Annotated[
+            float,
+            number("Угол развала: от левого ряда к правому по вращению", "γ_р", DEG, 0, 360),
+        ]
+        | None
+    ) = None
+    split_pin_deg: (
+        Annotated[
+            float,
+            number("Сдвиг шеек правого ряда по вращению", "δ_ш", DEG, -180, 180),
+        ]
+        | None
+    ) = None
     firing_offsets_deg: Annotated[
         tuple[
             Annotated[float, number("Цилиндр {n}: начало рабочего хода", "θ_{n}", DEG, 0, 720)],

@@ -16,6 +16,7 @@ from reports.inputs.load import SECTION_MODELS
 from reports.inputs.messages import likely_word, shown
 from reports.inputs.meta import Meta, Strictly, find_meta, hints, submodel
 from reports.inputs.model import PolytropicGasSection
+from reports.inputs.model_articulated import ArticulatedSection
 from reports.inputs.model_cycle import CycleSection
 from reports.resources import samples_dir
 
@@ -31,8 +32,12 @@ _HEAD = (
 _CYCLE_HINT = (
     'Давления газов можно взять из расчета цикла: gas.source = "cycle" и раздел [cycle];',
     "готовый пример дает команда kshm new --sample cycle-turbo-diesel.",
-    "[cycle]",
 )
+_ARTICULATED_HINT = ("Если шатуны правого ряда V-образного двигателя висят на главных:",)
+_COMMENTED: dict[str, tuple[type[Strictly], tuple[str, ...]]] = {
+    "cycle": (CycleSection, _CYCLE_HINT),  # an alternative to the pressures of [gas]
+    "articulated": (ArticulatedSection, _ARTICULATED_HINT),
+}
 
 
 def list_samples() -> tuple[str, ...]:
@@ -81,9 +86,9 @@ def _explained() -> str:
         document.add(tomlkit.comment(line))
     models: dict[str, type[Strictly]] = {**SECTION_MODELS, "gas": PolytropicGasSection}
     for name, title in SECTIONS.items():
-        if name == "cycle":  # an alternative to the pressures of [gas]
+        if name in _COMMENTED:
             document.add(tomlkit.nl())
-            for line in _cycle_lines():
+            for line in _commented(name):
                 document.add(tomlkit.comment(line))
             continue
         document.add(tomlkit.nl())
@@ -92,10 +97,12 @@ def _explained() -> str:
     return tomlkit.dumps(document)
 
 
-def _cycle_lines() -> Iterator[str]:
-    """The section [cycle] as comments: an alternative to the pressures of [gas]."""
-    yield from _CYCLE_HINT
-    for key, annotation in hints(CycleSection).items():
+def _commented(name: str) -> Iterator[str]:
+    """An optional section as comments: its hint, its head, its keys."""
+    model, hint = _COMMENTED[name]
+    yield from hint
+    yield f"[{name}]"
+    for key, annotation in hints(model).items():
         yield f"{key} = … {_note(find_meta(annotation))}"
 
 

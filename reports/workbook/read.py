@@ -36,7 +36,9 @@ _SECTIONS = (
     "gas",
     "cycle",
     "masses",
+    "articulated",
     "crankshaft",
+    "balance",
 )
 
 

@@ -240,11 +240,11 @@ CASES = {
     ),
     "other layout": (
         {"engine.layout": "V"},
-        "engine.layout: недопустимое значение «V»; пока поддерживается только inline",
+        "engine.layout: недопустимое значение «V»; допустимо: inline, v, opposed",
     ),
-    "two-stroke": (
-        {"engine.strokes": 2},
-        "engine.strokes: недопустимое значение 2; пока поддерживается только 4",
+    "three strokes": (
+        {"engine.strokes": 3},
+        "engine.strokes: недопустимое значение 3; допустимо: 4, 2",
     ),
     "odd step": (
         {"calculation.step_deg": 7},

@@ -1,0 +1,141 @@
+"""What may be written shorter: the firing order as text, throw angles that follow from it.
+
+`expand` works on the raw mapping, before its sections are checked: afterwards the offsets
+and the angles stand in it as if they had been written out.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from kshm.arrangement import Arrangement, in_line, opposed, throw_angle, v_shaped
+from reports.inputs.findings import Finding
+from reports.units import number_text
+
+_ORDER = re.compile(r"\d{1,2}(\s*[-–—,]\s*\d{1,2})*")
+_PATH = ("crankshaft", "firing_order")
+OPPOSED_BANK_DEG = 180.0
+FOLLOWING = ("firing_offsets_deg", "throw_angles_deg")  # what an order stands for
+
+
+def arrangement(
+    layout: str,
+    cylinders: int,
+    bank_angle_deg: float | None = None,
+    split_pin_deg: float | None = None,
+    *,
+    articulated: bool = False,
+) -> Arrangement | None:
+    """Return the places of the cylinders; None where the data do not make an engine."""
+    if layout == "inline":
+        return in_line(cylinders)
+    if cylinders % 2 or cylinders < 2:
+        return None
+    if layout == "opposed":
+        return opposed(cylinders)
+    if bank_angle_deg is None:
+        return None
+    split = math.radians(split_pin_deg or 0.0)
+    return v_shaped(
+        cylinders, math.radians(bank_angle_deg), split_pin=split, articulated=articulated
+    )
+
+
+def expand(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[Finding]]:
+    """Return the mapping with firing offsets and throw angles written out, and what is wrong.
+
+    What is of a wrong type is left to the check of its section.
+    """
+    engine, shaft = data.get("engine"), data.get("crankshaft")
+    result, findings = dict(data), list[Finding]()
+    if not isinstance(engine, dict) or not isinstance(shaft, dict):
+        return result, findings
+    cylinders, strokes = engine.get("cylinders"), engine.get("strokes", 4)
+    if not isinstance(cylinders, int) or isinstance(cylinders, bool) or strokes not in (2, 4):
+        return result, findings
+    shaft = dict(shaft)
+    result["crankshaft"] = shaft
+    layout = engine.get("layout", "inline")
+    if layout == "opposed":
+        shaft.setdefault("bank_angle_deg", OPPOSED_BANK_DEG)
+    order = shaft.get("firing_order")
+    if isinstance(order, str):
+        del shaft["firing_order"]
+        findings += _write_out(order, cylinders, 180 * strokes, shaft)
+    if "throw_angles_deg" not in shaft and not findings:
+        places = _places(data, str(layout), cylinders, shaft)
+        angles = _angles(places, shaft.get("firing_offsets_deg"))
+        if angles:
+            shaft["throw_angles_deg"] = angles
+    return result, findings
+
+
+def sequence(offsets: Sequence[float]) -> tuple[int, ...]:
+    """Return the numbers of the cylinders in the order in which they fire."""
+    rows = sorted((offset, i) for i, offset in enumerate(offsets, 1))
+    return tuple(i for _, i in rows)
+
+
+def _write_out(text: str, cylinders: int, period: float, shaft: dict[str, Any]) -> list[Finding]:
+    if not _ORDER.fullmatch(text.strip()):
+        what = "порядок работы записан непонятно"
+        return [Finding(_PATH, what, 'пример записи: "1-3-4-2"')]
+    numbers = [int(part) for part in re.findall(r"\d+", text)]
+    if sorted(numbers) != list(range(1, cylinders + 1)):
+        what = f"в порядке работы {'-'.join(map(str, numbers))} не все цилиндры по одному разу"
+        return [Finding(_PATH, what, f"назовите каждый цилиндр от 1 до {cylinders} один раз")]
+    first = numbers.index(1)
+    numbers = numbers[first:] + numbers[:first]
+    given = shaft.get("firing_offsets_deg")
+    if given is None:
+        places = {number: place for place, number in enumerate(numbers)}
+        step = period / cylinders
+        shaft["firing_offsets_deg"] = [places[i] * step for i in range(1, cylinders + 1)]
+        return []
+    if _numbers(given, cylinders) and list(sequence(given)) != numbers:
+        found = "-".join(map(str, sequence(given)))
+        what = (
+            f"порядок работы {'-'.join(map(str, numbers))} противоречит firing_offsets_deg, "
+            f"по которым порядок {found}"
+        )
+        return [Finding(_PATH, what, "оставьте один из двух ключей")]
+    return []
+
+
+def _numbers(values: object, count: int) -> bool:
+    return (
+        isinstance(values, list | tuple)
+        and len(values) == count
+        and all(isinstance(v, int | float) and math.isfinite(v) for v in values)
+    )
+
+
+def _places(
+    data: Mapping[str, Any], layout: str, cylinders: int, shaft: Mapping[str, Any]
+) -> Arrangement | None:
+    bank, split = shaft.get("bank_angle_deg"), shaft.get("split_pin_deg")
+    for value in (bank, split):
+        if value is not None and not isinstance(value, int | float):
+            return None
+    if not 1 <= cylinders <= 99:
+        return None
+    return arrangement(layout, cylinders, bank, split, articulated="articulated" in data)
+
+
+def _angles(places: Arrangement | None, offsets: object) -> list[float] | None:
+    """Throw angles [deg] that fit the first cylinder on every throw."""
+    if places is None or not _numbers(offsets, len(places)):
+        return None
+    found: dict[int, float] = {}
+    for place, offset in zip(places, offsets, strict=True):  # type: ignore[call-overload]
+        angle = round(math.degrees(throw_angle(place, math.radians(offset))), 6)
+        found.setdefault(place.throw, angle % 360)
+    return [found[throw] for throw in sorted(found)]
+
+
+def fitting_angle(angle_deg: float) -> str:
+    """Return an angle in 0…360 as messages show it."""
+    return number_text(round(angle_deg % 360, 6) % 360)

@@ -1,0 +1,245 @@
+"""Layouts in the input: firing orders as text, throw angles that follow, and what is refused."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from reports.inputs.convert import to_engine
+from reports.inputs.load import load_mapping
+
+
+def v_six(raw: dict) -> dict:
+    """A V6 of 90° with common pins at 120°: it fires at 90 and 150 degrees in turn."""
+    shaft = raw["crankshaft"]
+    raw["engine"] |= {"cylinders": 6, "layout": "v"}
+    shaft |= {
+        "bank_angle_deg": 90.0,
+        "firing_offsets_deg": [0.0, 240.0, 480.0, 90.0, 330.0, 570.0],
+        "throw_angles_deg": [0.0, 120.0, 240.0],
+    }
+    return raw
+
+
+def in_line_four(raw: dict, **shaft: object) -> dict:
+    raw["engine"]["cylinders"] = 4
+    old = raw["crankshaft"]
+    for key in ("firing_offsets_deg", "throw_angles_deg"):
+        del old[key]
+    old |= {
+        "main_lengths_mm": [30.0] * 5,
+        "webs": [dict(old["webs"][0]) for _ in range(8)],
+        "arms": [dict(old["arms"][0]) for _ in range(4)],
+        **shaft,
+    }
+    return raw
+
+
+def two_stroke(raw: dict) -> dict:
+    raw["engine"] |= {"strokes": 2}
+    shaft = raw["crankshaft"]
+    shaft |= {"firing_offsets_deg": [0.0, 120.0, 240.0], "throw_angles_deg": [0.0, 240.0, 120.0]}
+    raw["gas"] |= {
+        "exhaust_start_before_bdc_deg": 80.0,
+        "exhaust_end_after_bdc_deg": 80.0,
+        "scavenge_start_before_bdc_deg": 60.0,
+    }
+    return raw
+
+
+def articulated(raw: dict) -> dict:
+    v_six(raw)["articulated"] = {
+        "rod_length_mm": 110.0,
+        "radius_mm": 38.0,
+        "angle_deg": 90.0,
+        "reciprocating_kg": 1.9,
+        "big_end_kg": 0.6,
+    }
+    return raw
+
+
+def loaded(raw: dict):
+    return load_mapping(raw, source="f.toml").model
+
+
+def test_order_as_text_gives_even_offsets_and_throw_angles(raw):
+    shaft = loaded(in_line_four(raw, firing_order="1-3-4-2")).crankshaft
+    assert shaft.firing_offsets_deg == (0.0, 540.0, 180.0, 360.0)
+    assert shaft.throw_angles_deg == (0.0, 180.0, 180.0, 0.0)
+    assert shaft.firing_order is None
+
+
+def test_order_may_begin_with_any_cylinder(raw):
+    shaft = loaded(in_line_four(raw, firing_order="4 – 2 – 1 – 3")).crankshaft
+    assert shaft.firing_offsets_deg == (0.0, 540.0, 180.0, 360.0)
+
+
+def test_order_beside_uneven_offsets_that_agree(raw):
+    raw = v_six(raw)
+    raw["crankshaft"]["firing_order"] = "1-4-2-5-3-6"
+    assert loaded(raw).crankshaft.firing_offsets_deg == (0.0, 240.0, 480.0, 90.0, 330.0, 570.0)
+
+
+def test_throws_of_a_v_engine_from_offsets(raw):
+    raw = v_six(raw)
+    del raw["crankshaft"]["throw_angles_deg"]
+    engine = to_engine(loaded(raw))
+    angles = [math.degrees(throw.angle) for throw in engine.crankshaft.throws]
+    assert angles == pytest.approx([0, 120, 240])
+    assert [place.throw for place in engine.arrangement] == [0, 1, 2, 0, 1, 2]
+    assert [place.rod_place for place in engine.arrangement] == [0, 0, 0, 1, 1, 1]
+
+
+def test_split_pins_make_a_v_six_even(raw):
+    raw = v_six(raw)
+    del raw["crankshaft"]["firing_offsets_deg"], raw["crankshaft"]["throw_angles_deg"]
+    raw["crankshaft"] |= {"firing_order": "1-4-2-5-3-6", "split_pin_deg": -30.0}
+    engine = to_engine(loaded(raw))
+    angles = [math.degrees(throw.angle) for throw in engine.crankshaft.throws]
+    assert angles == pytest.approx([0, 120, 240])
+
+
+def test_opposed_engine_alternates_its_throws(raw):
+    raw = in_line_four(raw, firing_order="1-2-3-4")
+    raw["engine"]["layout"] = "opposed"
+    model = loaded(raw)
+    assert model.crankshaft.bank_angle_deg == 180
+    engine = to_engine(model)
+    assert [place.throw for place in engine.arrangement] == [0, 2, 1, 3]
+    angles = [math.degrees(throw.angle) for throw in engine.crankshaft.throws]
+    assert angles == pytest.approx([0, 180, 180, 0])
+
+
+MAKERS = {
+    "basic": lambda raw: raw,
+    "v": v_six,
+    "four": lambda raw: in_line_four(raw, firing_order="1-3-4-2"),
+    "two-stroke": two_stroke,
+    "articulated": articulated,
+}
+
+REFUSED = {
+    "unreadable order": (
+        "four", "crankshaft.firing_order", "один, три",
+        "crankshaft.firing_order: порядок работы записан непонятно; пример записи: \"1-3-4-2\"",
+    ),
+    "order without a cylinder": (
+        "four", "crankshaft.firing_order", "1-3-4-4",
+        "crankshaft.firing_order: в порядке работы 1-3-4-4 не все цилиндры по одному разу; "
+        "назовите каждый цилиндр от 1 до 4 один раз",
+    ),
+    "order against offsets": (
+        "basic", "crankshaft.firing_order", "1-3-2",
+        "crankshaft.firing_order: порядок работы 1-3-2 противоречит firing_offsets_deg, "
+        "по которым порядок 1-2-3; оставьте один из двух ключей",
+    ),
+    "odd v": (
+        "v", "engine.cylinders", 5,
+        "engine.cylinders: число цилиндров 5 нечетное, а рядов два; "
+        "задайте четное число или layout = \"inline\"",
+    ),
+    "bank angle against offsets": (
+        "v", "crankshaft.bank_angle_deg", 60.0,
+        "crankshaft.throw_angles_deg[1]: угол колена 0° не соответствует началу рабочего хода "
+        "90° (firing_offsets_deg[4]); по γ = 60° − θ (mod 360) нужно 330°",
+    ),
+    "split pin against offsets": (
+        "v", "crankshaft.split_pin_deg", 30.0,
+        "crankshaft.throw_angles_deg[1]: угол колена 0° не соответствует началу рабочего хода "
+        "90° (firing_offsets_deg[4]); по γ = 90° − θ − δ, δ = 30°, (mod 360) нужно 330°",
+    ),
+    "bank angle in line": (
+        "basic", "crankshaft.bank_angle_deg", 90.0,
+        "crankshaft.bank_angle_deg: у рядного двигателя один ряд цилиндров; "
+        "удалите ключ или задайте layout = \"v\"",
+    ),
+    "no bank angle": (
+        "v", "crankshaft.bank_angle_deg", None,
+        "crankshaft.bank_angle_deg: угол развала не задан; V-образному двигателю он нужен",
+    ),
+    "too few webs": (
+        "v", "crankshaft.webs", [],
+        "crankshaft.webs: записей 0, а нужно 6; по две щеки на колено, цилиндров 6, колен 3",
+    ),
+    "offset that locks": (
+        "basic", "geometry.crank_offset_mm", 101.0,
+        "geometry.crank_offset_mm: смещение 101 мм не меньше L − r = 101 мм: "
+        "механизм не провернется; уменьшите смещение или удлините шатун",
+    ),
+    "pin offset that locks": (
+        "basic", "geometry.pin_offset_mm", -150.0,
+        "geometry.pin_offset_mm: смещение −150 мм не меньше L − r = 101 мм: "
+        "механизм не провернется; уменьшите смещение или удлините шатун",
+    ),
+    "short articulated rod": (
+        "articulated", "articulated.rod_length_mm", 40.0,
+        "articulated.rod_length_mm: прицепной шатун 40 мм не достает до оси своего цилиндра: "
+        "его палец отходит от нее на 48.52 мм; "
+        "удлините шатун или поставьте палец ближе к углу развала",
+    ),
+    "articulated pin beyond the master rod": (
+        "articulated", "articulated.radius_mm", 150.0,
+        "articulated.radius_mm: палец прицепного шатуна дальше длины главного (148 мм); "
+        "уменьшите расстояние ρ",
+    ),
+    "articulated in line": (
+        "basic", "articulated",
+        {"rod_length_mm": 110.0, "radius_mm": 38.0, "angle_deg": 60.0,
+         "reciprocating_kg": 1.9, "big_end_kg": 0.6},
+        "articulated: прицепные шатуны бывают только у V-образного двигателя; "
+        "удалите раздел или задайте layout = \"v\"",
+    ),
+    "scavenging in a four-stroke": (
+        "basic", "gas.scavenge_start_before_bdc_deg", 60.0,
+        "gas.scavenge_start_before_bdc_deg: продувка есть только у двухтактного двигателя; "
+        "удалите ключ или задайте strokes = 2",
+    ),
+    "no scavenging": (
+        "two-stroke", "gas.scavenge_start_before_bdc_deg", None,
+        "gas.scavenge_start_before_bdc_deg: начало продувки не задано; "
+        "двухтактному двигателю оно нужно",
+    ),
+    "scavenging before the exhaust": (
+        "two-stroke", "gas.scavenge_start_before_bdc_deg", 85.0,
+        "gas.scavenge_start_before_bdc_deg: продувка начинается за 85° до НМТ, не позже выпуска "
+        "(80°); выпуск должен открываться раньше продувки",
+    ),
+    "offset beyond the cycle": (
+        "two-stroke", "crankshaft.firing_offsets_deg", [0.0, 120.0, 600.0],
+        "crankshaft.firing_offsets_deg[3]: начало рабочего хода 600° вне цикла двухтактного "
+        "двигателя; допустимо до 360°",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_refused_with_one_line(case, raw, refused):
+    maker, path, value, message = REFUSED[case]
+    raw = MAKERS[maker](raw)
+    section, _, key = path.partition(".")
+    if not key:
+        raw[section] = value
+    elif value is None:
+        del raw[section][key]
+    else:
+        raw[section][key] = value
+    assert refused(raw) == [f"f.toml: {message}"]
+
+
+@pytest.mark.parametrize("maker", MAKERS)
+def test_accepted(maker, raw):
+    to_engine(loaded(MAKERS[maker](raw)))
+
+
+def test_forced_phases_only_in_line(raw, refused):
+    raw = v_six(raw)
+    raw["crankshaft"]["force_offsets_deg"] = [0.0, 240.0, 480.0]
+    (line,) = refused(raw)
+    assert "особые фазы сил возможны только у рядного двигателя" in line
+
+
+def test_unusual_offset_is_a_warning(raw):
+    raw["geometry"]["crank_offset_mm"] = 20.0
+    (warning,) = load_mapping(raw, source="f.toml").warnings
+    assert "k = e/r = 0.4255 необычно" in warning.line()

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from kshm import balance_results, harmonics, inertia_results, torque_results
 from kshm import dimensionless as segal
 from kshm.engine import Engine
+from kshm.masses import mass_scalars
 from kshm.nomenclature import quantity
 
 if TYPE_CHECKING:
@@ -44,6 +45,7 @@ def companion_scalars(engine: Engine, raw: BatchSolution, index: int) -> dict[st
         **balance_results.scalars(engine),
         **inertia_results.scalars(engine, raw, index),
         **torque_results.scalars(engine, raw, index),
+        **mass_scalars(engine),
     }
 
 

@@ -10,6 +10,7 @@ from kshm.arrangement import Arrangement, ArticulatedRod, in_line
 
 if TYPE_CHECKING:
     from kshm.cycle_run import CycleRun
+    from kshm.masses import Estimate, Swinging, Weighing
 
 Method = Literal["textbook", "exact"]
 
@@ -104,6 +105,8 @@ class RodMasses:
     piston_group: float
     rod: float
     centre: float  # l_1: pin axis to the rod's centre of mass [m]
+    inertia: float | None = None  # I_ш about the centre of mass [kg·m²], where it is known
+    basis: Weighing | Swinging | Estimate | None = None  # what the values were found from
 
 
 @dataclass(frozen=True, slots=True)

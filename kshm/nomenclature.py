@@ -11,6 +11,7 @@ import re
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
+from kshm.nomenclature_chapters import CHAPTER_ROWS, CHAPTER_UNITS
 from kshm.nomenclature_companions import COMPANION_ROWS, COMPANION_UNITS
 from kshm.nomenclature_cycle import ROWS as CYCLE_ROWS
 from kshm.nomenclature_cycle import UNITS as CYCLE_UNITS
@@ -48,7 +49,7 @@ UNITS: dict[str, Unit] = {
     "kg": Unit("кг"),
     "percent": Unit("%", 0.01),
     **{key: Unit(*row) for key, row in CYCLE_UNITS.items()},
-    **{key: Unit(label, si) for key, label, si in COMPANION_UNITS},
+    **{key: Unit(label, si) for key, label, si in (*COMPANION_UNITS, *CHAPTER_UNITS)},
 }
 
 
@@ -272,7 +273,15 @@ _ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X", "XI", "XI
           "XIII", "XIV", "XV", "XVI", "XVII", "XVIII")  # fmt: skip
 
 _ALL: dict[str, Quantity] = {
-    row[0]: Quantity(*row) for row in (*_ROWS, *_SCALARS, *_THROWS, *COMPANION_ROWS, *CYCLE_ROWS)
+    row[0]: Quantity(*row)
+    for row in (
+        *_ROWS,
+        *_SCALARS,
+        *_THROWS,
+        *COMPANION_ROWS,
+        *CYCLE_ROWS,
+        *CHAPTER_ROWS,
+    )
 }
 
 

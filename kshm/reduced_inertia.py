@@ -51,17 +51,20 @@ def parts_of(engine: Engine) -> Parts:
     length = geometry.rod_length
     if isinstance(masses, RodMasses):
         rod, centre, piston = masses.rod, masses.centre, masses.piston_group
+        known = masses.inertia
     else:
         share = choice.rod_small_end_share
         rod = masses.rod_big_end / (1 - share)
         centre, piston = (1 - share) * length, masses.reciprocating - share * rod
+        known = None
+    inertia = choice.rod_mass_factor * rod * centre * (length - centre)
     return Parts(
         radius=geometry.crank_radius,
         rod_length=length,
         crank_inertia=throw_inertia(engine),
         rod_mass=rod,
         rod_centre=centre,
-        rod_inertia=choice.rod_mass_factor * rod * centre * (length - centre),
+        rod_inertia=inertia if known is None else known,
         piston_mass=piston,
     )
 

@@ -54,6 +54,9 @@ KELVIN = Unit("k", "К")
 MJ_KG = Unit("mj_kg", "МДж/кг", times=1e6)
 KG_KMOL = Unit("kg_kmol", "кг/кмоль")
 KJ_KG_K = Unit("kj_kg_k", "кДж/(кг·К)", times=1000.0)
+PER_MIN = Unit("per_min", "мин⁻¹", over=60.0)
+KG_M2 = Unit("kg_m2", "кг·м²")
+KG_PER_M2 = Unit("kg_per_m2", "кг/м²")
 MPA_S_M = Unit("mpa_s_m", "МПа·с/м", times=1e6)
 
 

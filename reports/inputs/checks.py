@@ -11,13 +11,13 @@ from collections.abc import Iterator
 from reports.inputs.checks_cycle import check_cycle
 from reports.inputs.checks_gas import check_gas
 from reports.inputs.checks_layout import check_layout
+from reports.inputs.checks_masses import check_masses
 from reports.inputs.findings import Finding, Path, Values, radius_and_rod
 from reports.inputs.model import LAMBDA_MAX, LAMBDA_MIN
 from reports.units import number_text
 
 LENGTH_TOLERANCE = 1e-3
 USUAL_LAMBDA = (0.15, 0.45)
-USUAL_SHARE = (0.2, 0.3)
 
 
 def check(values: Values) -> Iterator[Finding]:
@@ -25,7 +25,7 @@ def check(values: Values) -> Iterator[Finding]:
     yield from _geometry(values)
     yield from check_layout(values)
     yield from _arms(values)
-    yield from _masses(values)
+    yield from check_masses(values)
     yield from check_gas(values)
     yield from check_cycle(values)
 
@@ -81,45 +81,3 @@ def _arms(values: Values) -> Iterator[Finding]:
             what = f"длина колена с одной стороны шатуна равна нулю (сумма плеч {sum(lengths):g})"
             hint = "задайте l1, l2 и l5, l6 больше нуля"
             yield Finding(("crankshaft", "arms", index), what, hint)
-
-
-def _masses(values: Values) -> Iterator[Finding]:
-    direct = ("reciprocating_kg", "rod_big_end_kg")
-    parts = ("piston_group_kg", "rod_kg")
-    centre = ("rod_centre_mm", "rod_small_end_share")
-    if not values.sure("masses", *direct, *parts, *centre):
-        return
-    given = {key for key in (*direct, *parts, *centre) if values.get("masses", key) is not None}
-    advice = (
-        "задайте либо reciprocating_kg и rod_big_end_kg, "
-        "либо piston_group_kg, rod_kg и одно из rod_centre_mm, rod_small_end_share"
-    )
-    rest = given - set(direct)
-    if given & set(direct) and rest:
-        yield Finding(("masses",), "смешаны два способа задания масс", advice)
-    elif rest and set(centre) <= given:
-        yield Finding(("masses",), "заданы и rod_centre_mm, и rod_small_end_share", advice)
-    elif given != set(direct) and not (set(parts) <= given and given & set(centre)):
-        yield Finding(("masses",), "масс недостаточно", advice)
-    else:
-        yield from _rod_centre(values)
-
-
-def _rod_centre(values: Values) -> Iterator[Finding]:
-    pair = radius_and_rod(values)
-    place = values.get("masses", "rod_centre_mm")
-    share = values.get("masses", "rod_small_end_share")
-    key = "rod_small_end_share"
-    if place is not None:
-        key = "rod_centre_mm"
-        if pair is None:
-            return
-        if place >= pair[1]:
-            what = f"центр масс {number_text(place)} мм лежит не между головками шатуна"
-            yield Finding(("masses", key), what, f"длина шатуна {number_text(pair[1])} мм")
-            return
-        share = 1 - place / pair[1]
-    if share is not None and not USUAL_SHARE[0] <= share <= USUAL_SHARE[1]:
-        what = f"доля массы шатуна у пальца {number_text(round(share, 4))} необычна"
-        hint = f"обычно от {USUAL_SHARE[0]} до {USUAL_SHARE[1]}"
-        yield Finding(("masses", key), what, hint, warning=True)

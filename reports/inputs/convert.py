@@ -8,18 +8,16 @@ from kshm.cycle_run import CycleRun
 from kshm.engine import (
     Balancing,
     Crankshaft,
-    DirectMasses,
     EndMass,
     Engine,
     Gas,
     Geometry,
-    Masses,
     PolytropicGas,
-    RodMasses,
     TabulatedGas,
     Throw,
     Web,
 )
+from reports.inputs.convert_masses import to_masses, with_masses
 from reports.inputs.cycle import cycle_run
 from reports.inputs.firing import arrangement
 from reports.inputs.model import (
@@ -43,16 +41,16 @@ FIRING_TDC_DEG = 360.0
 def to_engine(model: InputFile) -> Engine:
     """Return the engine in SI units; the input must have passed `reports.inputs.load`."""
     regime = model.regime
-    shaft = model.crankshaft
-    forces = shaft.force_offsets_deg
     run = cycle_run(model)
     geometry = _geometry(model, run)
+    shaft = with_masses(model, geometry)
+    forces = shaft.force_offsets_deg
     power, efficiency, fullness = _power(model, run)
     return Engine(
         geometry=geometry,
         omega=RPM.to_si(regime.speed_rpm),
         gas=_gas(model.gas, run, strokes=model.engine.strokes),
-        masses=_masses(model, geometry.rod_length),
+        masses=to_masses(model, geometry),
         crankshaft=_crankshaft(shaft),
         arrangement=arrangement_of(model),
         articulated=_articulated(model.articulated),
@@ -203,31 +201,6 @@ def _angles(
     )
 
 
-def _masses(model: InputFile, rod_length: float) -> Masses:
-    masses = model.masses
-    if masses.reciprocating_kg is not None and masses.rod_big_end_kg is not None:
-        return DirectMasses(
-            reciprocating=KG.to_si(masses.reciprocating_kg),
-            rod_big_end=KG.to_si(masses.rod_big_end_kg),
-        )
-    if masses.piston_group_kg is None or masses.rod_kg is None:
-        msg = "masses are incomplete"
-        raise ValueError(msg)
-    if masses.rod_centre_mm is not None:
-        centre = MM.to_si(masses.rod_centre_mm)
-    elif masses.rod_small_end_share is not None:
-        # m_1 / m = (L - l_1) / L, Gots (20)
-        centre = (1 - masses.rod_small_end_share) * rod_length
-    else:
-        msg = "masses do not fix the rod's centre of mass"
-        raise ValueError(msg)
-    return RodMasses(
-        piston_group=KG.to_si(masses.piston_group_kg),
-        rod=KG.to_si(masses.rod_kg),
-        centre=centre,
-    )
-
-
 def _balancing(section: BalanceSection) -> Balancing:
     values = {key: float(value) for key, value in section.model_dump().items()}
     radius = MM.to_si(values.pop("shaft_radius_mm"))
@@ -269,7 +242,7 @@ def _throw(
         arms=(l1, l2, l3, l4, l5, l6),
         left_web=_web(left),
         right_web=_web(right),
-        pin_mass=KG.to_si(shaft.pin_mass_kg),
+        pin_mass=KG.to_si(shaft.pin_mass_kg or 0.0),
         left_web_thickness=MM.to_si(arms.left_web_mm),
         right_web_thickness=MM.to_si(arms.right_web_mm),
     )
@@ -277,7 +250,7 @@ def _throw(
 
 def _web(web: WebSection) -> Web:
     return Web(
-        mass=KG.to_si(web.mass_kg),
+        mass=KG.to_si(web.mass_kg or 0.0),
         angle=DEG.to_si(web.angle_deg),
         counterweight_mass=KG.to_si(web.counterweight_kg),
         counterweight_angle=DEG.to_si(web.counterweight_angle_deg),

@@ -29,7 +29,6 @@ from reports.inputs.model import (
     EngineSection,
     GeometrySection,
     InputFile,
-    MassesSection,
     PolytropicGasSection,
     Regime,
     TableGasSection,
@@ -38,6 +37,7 @@ from reports.inputs.model_articulated import ArticulatedSection
 from reports.inputs.model_balance import BalanceSection
 from reports.inputs.model_crankshaft import CrankshaftSection
 from reports.inputs.model_cycle import CycleSection
+from reports.inputs.model_masses import MassesSection
 from reports.inputs.model_report import Report
 from reports.inputs.source import read_text, refuse_bomb, refused
 

@@ -17,7 +17,6 @@ from reports.inputs.model import (
     CycleGasSection,
     EngineSection,
     GeometrySection,
-    MassesSection,
     PolytropicGasSection,
     Regime,
     TableGasSection,
@@ -25,6 +24,7 @@ from reports.inputs.model import (
 from reports.inputs.model_articulated import ArticulatedSection
 from reports.inputs.model_crankshaft import ArmsSection, CrankshaftSection, WebSection
 from reports.inputs.model_cycle import CycleSection
+from reports.inputs.model_masses import MassesSection
 from reports.inputs.model_report import Report
 
 _HOMES: dict[str, tuple[type[Strictly], ...]] = {

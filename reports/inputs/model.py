@@ -16,8 +16,9 @@ from reports.inputs.model_articulated import ArticulatedSection
 from reports.inputs.model_balance import BalanceSection
 from reports.inputs.model_crankshaft import CrankshaftSection
 from reports.inputs.model_cycle import CycleSection
+from reports.inputs.model_masses import MassesSection
 from reports.inputs.model_report import Report
-from reports.units import DEG, KG, KW, MM, MPA, NONE, RPM
+from reports.units import DEG, KW, MM, MPA, NONE, RPM
 
 MAX_CYLINDERS = 12
 STEPS = (1, 2, 3, 5, 10, 15, 30)
@@ -226,33 +227,6 @@ class CycleGasSection(Strictly):
 
 
 GasSection = PolytropicGasSection | TableGasSection | CycleGasSection
-
-
-class MassesSection(Strictly):
-    """[masses]: m_j and m_2, or the piston group, the rod and its centre of mass."""
-
-    reciprocating_kg: (
-        Annotated[float, number("Масса возвратно-движущихся деталей", "m_j", KG, 0.001, 5000)]
-        | None
-    ) = None
-    rod_big_end_kg: (
-        Annotated[float, number("Масса шатуна, отнесенная к кривошипу", "m_2", KG, 0.001, 5000)]
-        | None
-    ) = None
-    piston_group_kg: (
-        Annotated[float, number("Масса поршневой группы", "m_п", KG, 0.001, 5000)] | None
-    ) = None
-    rod_kg: Annotated[float, number("Масса шатуна", "m_ш", KG, 0.001, 5000)] | None = None
-    rod_centre_mm: (
-        Annotated[float, number("Расстояние от пальца до центра масс шатуна", "l_1", MM, 1, 6000)]
-        | None
-    ) = None
-    rod_small_end_share: (
-        Annotated[
-            float, number("Доля массы шатуна у поршневого пальца", "m_1/m_ш", NONE, 0.02, 0.8)
-        ]
-        | None
-    ) = None
 
 
 class InputFile(Strictly):

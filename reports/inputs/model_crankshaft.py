@@ -13,7 +13,15 @@ from reports.units import DEG, KG, MM
 class WebSection(Strictly):
     """[[crankshaft.webs]]: a web and its counterweight; masses reduced to the crank radius."""
 
-    mass_kg: Annotated[float, number("Щека {n}: приведенная масса", "m_щ{n}", KG, 0, 5000)]
+    mass_kg: (
+        Annotated[float, number("Щека {n}: приведенная масса", "m_щ{n}", KG, 0, 5000)] | None
+    ) = None
+    actual_mass_kg: (
+        Annotated[float, number("Щека {n}: действительная масса", "m_щ{n}", KG, 0, 5000)] | None
+    ) = None
+    centre_mm: (
+        Annotated[float, number("Щека {n}: радиус центра масс", "ρ_{n}", MM, -2000, 2000)] | None
+    ) = None
     angle_deg: Annotated[
         float, number("Щека {n}: угол против вращения от кривошипа", "α_щ{n}", DEG, -360, 360)
     ] = 0.0
@@ -95,7 +103,9 @@ class CrankshaftSection(Strictly):
         ],
         Strict(False),
     ]
-    pin_mass_kg: Annotated[float, number("Приведенная масса шатунной шейки", "m_шш", KG, 0, 5000)]
+    pin_mass_kg: (
+        Annotated[float, number("Приведенная масса шатунной шейки", "m_шш", KG, 0, 5000)] | None
+    ) = None
     nose_mass_kg: Annotated[
         float, number("Внешний противовес на носке: приведенная масса", "m_вп1", KG, 0, 5000)
     ] = 0.0

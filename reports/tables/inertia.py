@@ -139,11 +139,7 @@ def _parts(model: InputFile) -> ScalarTable:
             Scalar("I_crank", "I_main + I_pin + 2*I_web", "Ильченко (35)"),
             Scalar("rod_mass", rod, "исходные данные или m₂ и доля"),
             Scalar("rod_x", centre, "исходные данные или доля"),
-            Scalar(
-                "I_rod",
-                "balance_rod_mass_factor*rod_mass*rod_x*(L_rod - rod_x)",
-                "две замещающие массы",
-            ),
+            _rod_inertia(model),
             Scalar("piston_mass", piston, "исходные данные или m_j"),
             Scalar(
                 "I_counterweights",
@@ -152,6 +148,13 @@ def _parts(model: InputFile) -> ScalarTable:
             ),
         ),
     )
+
+
+def _rod_inertia(model: InputFile) -> Scalar:
+    if model.masses.swing_edges_mm is not None or model.masses.rod_inertia_kg_m2 is not None:
+        return Scalar("I_rod", "I_sh", "Гоц (26) или задано")
+    text = "balance_rod_mass_factor*rod_mass*rod_x*(L_rod - rod_x)"
+    return Scalar("I_rod", text, "две замещающие массы")
 
 
 def _results() -> ScalarTable:

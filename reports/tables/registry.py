@@ -12,6 +12,8 @@ from reports.tables.cycle_results import result_blocks
 from reports.tables.cycle_speed import cycle_charts, speed_blocks
 from reports.tables.cylinder import cylinder_blocks
 from reports.tables.journals import journal_blocks
+from reports.tables.rename import substituted
+from reports.tables.rod_masses import mass_blocks, stand_ins
 from reports.tables.spec import Model
 from reports.tables.summary import summary_blocks
 from reports.tables.torques import torque_tables
@@ -37,6 +39,7 @@ def build_model(model: InputFile) -> Model:
         *speed_blocks(model),
         mechanism.geometry(model),
         mechanism.masses(model),
+        *mass_blocks(model),
         *mechanism.kinematic_tables(turn),
         *cylinder_blocks(model, cycle),
         *torque_tables(cylinders, cycle),
@@ -48,6 +51,6 @@ def build_model(model: InputFile) -> Model:
     return Model(
         model,
         tuple(iter_fields(model)),
-        blocks,
+        substituted(blocks, stand_ins(model)),
         (*cycle_charts(model), *charts(throws, rays), *companion_charts(model)),
     )

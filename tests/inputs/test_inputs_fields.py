@@ -76,7 +76,7 @@ def test_a_field_tells_all(raw):
         maximum=5000,
         choices=None,
         structural=False,
-        optional=False,
+        optional=True,
     )
 
 

@@ -8,6 +8,7 @@ MASS_ADVICE = (
     "задайте либо reciprocating_kg и rod_big_end_kg, "
     "либо piston_group_kg, rod_kg и одно из rod_centre_mm, rod_small_end_share"
 )
+MORE_WAYS = "; еще способы: взвешивание, качания, оценка estimate_fuel"
 TABLE = [[0, 0.1], [180, 0.1], [360, 8], [720, 0.1]]
 
 
@@ -220,7 +221,7 @@ CASES = {
     ),
     "masses incomplete": (
         {"masses.rod_big_end_kg": GONE},
-        f"masses: масс недостаточно; {MASS_ADVICE}",
+        f"masses: масс недостаточно; {MASS_ADVICE}{MORE_WAYS}",
     ),
     "centre given twice": (
         {

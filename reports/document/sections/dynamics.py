@@ -10,6 +10,7 @@ from markupsafe import Markup
 from reports.document.blocks import TableBlock
 from reports.document.figures import Level, Mark, line_chart, pv_diagram
 from reports.document.sections.chapter import Chapter
+from reports.document.sections.masses import mass_notes
 from reports.document.sections.plots import PHI, over_phi, phi, series
 from reports.document.spec_tables import scalar_table
 from reports.document.terms import Terms
@@ -43,6 +44,7 @@ def dynamics(chapter: Chapter) -> Markup:
         polytropic=polytropic,
         pressure=_pressure_tex(terms) if polytropic else "",
         masses=masses,
+        mass_notes=partial(mass_notes, chapter),
         at=EXAMPLE,
         exact=chapter.input.calculation.method == "exact",
         inertia=inertia,

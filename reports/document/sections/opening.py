@@ -109,7 +109,9 @@ def _phases(fields: Sequence[Field], model: InputFile) -> TableBlock:
 
 def _webs(fields: Sequence[Field]) -> TableBlock:
     count = sum(field.name.endswith("_counterweight_kg") for field in fields)
-    keys = ("mass_kg", "angle_deg", "counterweight_kg", "counterweight_angle_deg")
+    keys: tuple[str, ...] = (
+        "mass_kg", "angle_deg", "counterweight_kg", "counterweight_angle_deg",
+    )  # fmt: skip
     heads = (
         (r"m_{\mathrm{щ}}", "кг"),
         (r"\alpha_{\mathrm{щ}}", "°"),
@@ -117,6 +119,12 @@ def _webs(fields: Sequence[Field]) -> TableBlock:
         (r"\alpha_{\mathrm{пр}}", "°"),
     )
     columns = [Column("Щека"), *(Column(symbol_head(tex, unit)) for tex, unit in heads)]
+    names = {field.name for field in fields}
+    if "web_1_actual_mass_kg" in names:
+        keys = ("actual_mass_kg", "centre_mm", *keys[1:])
+        columns.insert(2, Column(symbol_head(r"\rho", "мм")))
+    elif "web_1_mass_kg" not in names:  # estimated: see the section on masses
+        keys, columns = keys[1:], [columns[0], *columns[2:]]
     cells = [list(_named(fields, f"web_{{}}_{key}", count)) for key in keys]
     return table_block(
         columns, [[str(i), *row] for i, row in enumerate(zip(*cells, strict=True), 1)]

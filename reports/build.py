@@ -80,6 +80,6 @@ def build(path: Path, loaded: Loaded, folder: Path, kinds: tuple[Kind, ...]) -> 
 
             progress.step("Отчёт HTML")
             target = folder / f"{path.stem}.html"
-            write_text(target, report_html(model, values))
+            write_text(target, report_html(model, values, source=path))
             files.append(target)
     return Built(tuple(files), missing)

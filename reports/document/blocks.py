@@ -129,6 +129,7 @@ class TitlePage:
     ministry: str = ""
     institution: str = ""
     department: str = ""
+    discipline: str = ""
     student: str = ""
     group: str = ""
     supervisor: str = ""

@@ -110,19 +110,25 @@ def environment(
     attributes take the filter ``plain``.
 
     Args:
-        overrides: A folder whose files replace templates of the same name.
+        overrides: A folder whose files replace templates of the same name; they may build
+            on the ones they replace, ``{% extends "kshm/report/cover.html.j2" %}``, and run
+            in Jinja's sandbox.
         media: "print" writes long tables the way that is fast on paper and names the fonts by
             ``kshm-font:``; "screen" writes plain tables and embeds the fonts.
     """
     import jinja2
+    from jinja2.sandbox import ImmutableSandboxedEnvironment
 
     from reports import resources
 
-    folders = [resources.templates_dir()]
+    own = jinja2.FileSystemLoader(resources.templates_dir())
+    loaders: list[jinja2.BaseLoader] = [own]
     if overrides is not None:
-        folders.insert(0, overrides)
-    result = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(folders),
+        replaced = {"report": jinja2.FileSystemLoader(overrides), "kshm": own}
+        loaders.insert(0, jinja2.PrefixLoader(replaced))
+    kind = jinja2.Environment if overrides is None else ImmutableSandboxedEnvironment
+    result = kind(
+        loader=jinja2.ChoiceLoader(loaders),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
         finalize=_finalize,

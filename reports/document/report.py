@@ -9,31 +9,37 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from markupsafe import Markup
 
+from reports.document import overrides
 from reports.document.blocks import DocumentInfo
 from reports.document.drawing import Drawing
-from reports.document.render import AttachedFile, environment, render_pdf
+from reports.document.render import AttachedFile, RenderError, environment, render_pdf
 from reports.document.sections import (
     closing,
     companions,
     crankpin,
     cycle,
     dynamics,
+    front,
     journals,
     kinematics,
     opening,
 )
 from reports.document.sections import torque as torques
 from reports.document.sections.chapter import Chapter
+from reports.document.sections.torque import worst
 from reports.document.terms import Terms
 from reports.document.writer import Draft, Writer
 from reports.errors import SystemPartMissing
 from reports.inputs.model import InputFile
 from reports.tables.spec import Model
 from reports.tables.values import Values
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
 
 CHAPTERS: tuple[Callable[[Chapter], Markup], ...] = (
     opening.introduction,
@@ -59,6 +65,7 @@ def report_pdf(model: Model, values: Values, *, source: Path, workbook: bytes) -
     Raises:
         SystemPartMissing: pango is not on this machine.
         RenderError: the page could not be set as the templates say.
+        InputError: the folder of own templates is missing or one of them is wrong.
     """
     from reports.doctor import PANGO_COMMAND, pango_loads
 
@@ -68,17 +75,46 @@ def report_pdf(model: Model, values: Values, *, source: Path, workbook: bytes) -
         AttachedFile(f"исходные-данные{source.suffix}", source.read_bytes(), "Исходные данные"),
         AttachedFile(f"{source.stem}.xlsx", workbook, "Книга Excel с формулами", "Supplement"),
     ]
-    return render_pdf(report_page(model, values, media="print"), attachments=files)
+    folder = overrides.find(model.input.report.templates, source.parent)
+    page = report_page(model, values, media="print", templates=folder)
+    try:
+        return render_pdf(page, attachments=files)
+    except RenderError as error:
+        if folder is None:
+            raise
+        raise overrides.style_error(folder, str(error)) from error
 
 
-def report_html(model: Model, values: Values) -> str:
-    """The report as one self-contained page for the screen and for printing."""
-    return report_page(model, values, media="screen")
+def report_html(model: Model, values: Values, *, source: Path) -> str:
+    """The report as one self-contained page for the screen and for printing.
+
+    Raises:
+        InputError: the folder of own templates is missing or one of them is wrong.
+    """
+    folder = overrides.find(model.input.report.templates, source.parent)
+    return report_page(model, values, media="screen", templates=folder)
 
 
-def report_page(model: Model, values: Values, *, media: Literal["print", "screen"]) -> str:
-    """The whole page as HTML with style sheet, formulas and figures inside."""
-    env = environment(media=media)
+def report_page(
+    model: Model,
+    values: Values,
+    *,
+    media: Literal["print", "screen"],
+    templates: Path | None = None,
+) -> str:
+    """The whole page as HTML with style sheet, formulas and figures inside.
+
+    Args:
+        model: specifications of the engine.
+        values: their values.
+        media: "print" for WeasyPrint, "screen" for a browser.
+        templates: a folder of own templates, see :mod:`reports.document.overrides`.
+    """
+    with overrides.told(templates):
+        return _page(model, values, environment(templates, media=media))
+
+
+def _page(model: Model, values: Values, env: Environment) -> str:
     terms = Terms(model, values)
     draft = Draft()
     planned = Writer(env, draft)
@@ -87,11 +123,25 @@ def report_page(model: Model, values: Values, *, media: Literal["print", "screen
         writer = Writer(env, draft.order.numbering(), drawing)
         body = _write(Chapter(terms, writer, env))
     writer.n.check()
-    template = env.get_template("report/report.html.j2")
-    return template.render(
-        doc=_info(model.input),
-        cover_page=opening.title_page(model.input),
-        toc=writer.contents(),
+    return _whole(env, Chapter(terms, writer, env), body)
+
+
+def _whole(env: Environment, chapter: Chapter, body: Markup) -> str:
+    """The page around the written chapters; what it counts is known by now."""
+    terms = chapter.terms
+    return env.get_template("report/report.html.j2").render(
+        doc=_info(chapter.input),
+        input=chapter.input,
+        t=terms,
+        cover_page=front.title_page(chapter.input),
+        task=front.assignment(chapter),
+        brief=front.abstract(chapter),
+        block=front.title_block(chapter.input),
+        exact=chapter.input.calculation.method == "exact",
+        load=worst(terms, "worst_main_load"),
+        failed=len(closing.failed(terms)),
+        checks=len(closing.check_keys(terms)),
+        toc=chapter.writer.contents(),
         content=body,
     )
 

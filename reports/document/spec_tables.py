@@ -16,15 +16,21 @@ from reports.tables.spec import Grid, TableSpec
 
 
 def angle_table(
-    terms: Terms, table: str, keys: Sequence[str] | None = None, *, own_symbols: bool = False
+    terms: Terms,
+    table: str,
+    keys: Sequence[str] | None = None,
+    *,
+    own_symbols: bool = False,
+    every: int = 1,
 ) -> TableBlock:
-    """A table over the crank angle with all rows.
+    """A table over the crank angle, by default with all rows.
 
     Args:
         terms: symbols and values.
         table: id of the table.
         keys: its columns, by default all but the helpers.
         own_symbols: symbols of formulas instead of those of the nomenclature.
+        every: print each row of this number and the last one.
     """
     spec = terms.model.tables[table]
     columns = [c for c in spec.columns if (c.key in keys if keys else not c.helper)]
@@ -38,7 +44,9 @@ def angle_table(
         cells.append(["" if blank and v == 0 else numbers.fixed(v, digits) for v in values])
         tex = terms.tex(f"{table}.{column.key}") if own_symbols else q.tex
         heads.append(Column(symbol_head(tex, q.unit_label)))
-    return table_block(heads, list(zip(*cells, strict=True)))
+    rows = list(zip(*cells, strict=True))
+    last = len(rows) - 1
+    return table_block(heads, [row for i, row in enumerate(rows) if i % every == 0 or i == last])
 
 
 def result_columns(spec: TableSpec, *, but: Iterable[str] = ()) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from unittest import mock
 
 import pytest
@@ -18,7 +19,7 @@ def text_of(name: str) -> str:
     """The report's HTML without its formulas and figures, tags taken out."""
     model = build_model(loaded(name))
     with mock.patch.object(report_module, "CHAPTERS", (cycle.cycle, closing.sources)):
-        page = report_module.report_html(model, evaluate_model(model))
+        page = report_module.report_html(model, evaluate_model(model), source=Path("t.toml"))
     page = re.sub(r"<svg.*?</svg>", " ", page, flags=re.DOTALL)
     page = re.sub(r"<style.*?</style>", " ", page, flags=re.DOTALL)
     return re.sub(r"\s+", " ", re.sub(r"<[^>]+>", "", page))

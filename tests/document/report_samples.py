@@ -93,7 +93,7 @@ def rendered(name: str) -> Rendered:
 def html_page(name: str) -> str:
     """The page for the screen."""
     source = terms(name)
-    return report.report_html(source.model, source.values)
+    return report.report_html(source.model, source.values, source=Path("t.toml"))
 
 
 def pdf_with_files(name: str, folder: Path) -> bytes:

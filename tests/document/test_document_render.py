@@ -154,8 +154,7 @@ def test_unknown_names_are_refused():
 
 
 def test_templates_can_be_replaced(tmp_path):
-    (tmp_path / "report").mkdir()
-    (tmp_path / "report" / "report.css.j2").write_text("p{color:#123456}", encoding="utf-8")
+    (tmp_path / "report.css.j2").write_text("p{color:#123456}", encoding="utf-8")
     from reports.document.blocks import DocumentInfo
 
     template = environment(tmp_path).get_template("report/base.html.j2")

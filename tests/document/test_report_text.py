@@ -2,6 +2,7 @@
 
 import json
 import re
+from pathlib import Path
 
 import pytest
 from pdftools import fonts_of, pages_of
@@ -48,7 +49,7 @@ def test_foreign_text_is_set_as_plain_text(hostile, tmp_path):
 
 
 def test_html_is_one_self_contained_page(hostile):
-    page = report_html(hostile.model, hostile.values)
+    page = report_html(hostile.model, hostile.values, source=Path("t.toml"))
     assert "<script" not in page and "<img" not in page and "<link" not in page
     addresses = re.findall(r'(?:src|href)="([^"]*)"', page) + re.findall(r"url\(([^)]*)\)", page)
     assert addresses and all(a.strip("'\"").startswith(("#", "data:")) for a in addresses)
@@ -60,7 +61,7 @@ def test_the_same_input_gives_the_same_page():
     t = terms("one")
     first = html_page("one")
     formula_lines.cache_clear()
-    assert report_html(t.model, t.values) == first
+    assert report_html(t.model, t.values, source=Path("t.toml")) == first
 
 
 def test_substitution_shows_numbers_and_result():

@@ -37,6 +37,8 @@ SOURCES = (
     ),
 )  # fmt: skip
 
+SHORT_EVERY = 3  # rows of the tables over the crank angle in a short report
+
 
 def checks(chapter: Chapter) -> Markup:
     """Table of checks and what the failed ones mean."""
@@ -158,5 +160,12 @@ def _plan(
     size: str = "",
 ) -> TablePlan:
     spec = terms.model.tables[key]
-    build = partial(angle_table, terms, key, columns, own_symbols=key in ("gas", "P4_1"))
+    build = partial(
+        angle_table,
+        terms,
+        key,
+        columns,
+        own_symbols=key in ("gas", "P4_1"),
+        every=SHORT_EVERY if terms.model.input.report.detail == "short" else 1,
+    )
     return TablePlan(build, spec.title, number=number or spec.number, size=size)

@@ -1,4 +1,4 @@
-"""Title page, introduction and the table of input data."""
+"""Introduction and the tables of input data."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from functools import partial
 
 from markupsafe import Markup
 
-from reports.document.blocks import Column, TableBlock, TitlePage, symbol_head, table_block
+from reports.document.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.sections.chapter import Chapter
 from reports.document.spec_tables import list_block, unit_cell
 from reports.document.symbols import inline_html
@@ -26,23 +26,6 @@ _TITLES = {
     "crankshaft_main_diameter_mm": r"d_{\mathrm{к.ш}}",
     "crankshaft_pin_mass_kg": r"m_{\mathrm{ш.ш}}",
 }
-
-
-def title_page(model: InputFile) -> TitlePage:
-    """Words of the title page; what is missing is left to be written by hand."""
-    report = model.report
-    return TitlePage(
-        title=report.title,
-        subtitle=model.engine.name,
-        institution=report.institution,
-        department=f"Кафедра: {report.department}" if report.department else "",
-        student=report.student,
-        group=report.group,
-        supervisor=report.supervisor,
-        variant=report.variant,
-        city=report.city,
-        year=str(report.year),
-    )
 
 
 def introduction(chapter: Chapter) -> Markup:

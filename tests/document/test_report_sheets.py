@@ -1,0 +1,169 @@
+"""Title, assignment, abstract, the ЕСКД frame, the short report, own templates."""
+
+import re
+from pathlib import Path
+
+import pytest
+from pdftools import pages_of, poppler
+from report_samples import ONE, rendered, terms, terms_of
+
+from reports.document.render import render
+from reports.document.report import report_html, report_page
+from reports.errors import InputError
+
+DATA = """[report]
+student = "Иванов И. И."
+group = "ДВС-121"
+supervisor = "Петров П. П."
+institution = "Университет"
+department = "Тепловые двигатели"
+discipline = "Динамика двигателей"
+designation = "КП.01.00.000 ПЗ"
+controller = "Нормов Н. Н."
+approver = "Утверждаев У. У."
+issued = "01.09.2026"
+due = "20.12.2026"
+frame = "eskd"
+detail = "short"
+"""
+
+
+@pytest.fixture(scope="module")
+def framed(tmp_path_factory):
+    t = terms_of(ONE.replace("step_deg = 30", "step_deg = 15").replace("[report]\n", DATA))
+    result = render(report_page(t.model, t.values, media="print"))
+    assert result.warnings == ()
+    folder = tmp_path_factory.mktemp("framed")
+    return result, pages_of(result.pdf, folder), folder
+
+
+def flat(text: str) -> str:
+    return " ".join(text.split())
+
+
+def test_abstract_counts_what_is_there(tmp_path):
+    result = rendered("one")
+    text = "\n".join(pages_of(result.pdf, tmp_path))
+    said = re.search(r"Отчёт\s(\d+)\sс\.,\s(\d+)\sрис\.,\s(\d+)\sтабл\.,\s(\d+)\sисточн\.", text)
+    pages, figures, tables, sources = map(int, said.groups())
+    assert pages == result.pages
+    assert figures == len(re.findall(r"Рисунок\s\d+\s—", text))
+    assert tables == len(re.findall(r"Таблица\s\S+\s—", text))
+    listed = text[text.index("БИБЛИОГРАФИЧЕСКИЙ СПИСОК", text.index("Основные результаты")) :]
+    assert sources == len(re.findall(r"(?m)^\s*\d+\.\s+[А-Я]", listed[: listed.index("ПРИЛОЖ")]))
+
+
+def test_assignment_is_filled_from_the_input(framed):
+    sheet = flat(framed[1][1])
+    for words in ("ЗАДАНИЕ на курсовой проект", "Студент: Иванов И. И.", "Срок сдачи: 20.12.2026",
+                  "Дата выдачи задания: 01.09.2026", "диаметр цилиндра — 80 мм",
+                  "частота вращения — 3600 мин"):  # fmt: skip
+        assert words in sheet, words
+    assert "sup" not in sheet
+
+
+def test_what_is_not_known_is_left_to_the_pen(tmp_path):
+    sheet = pages_of(rendered("one").pdf, tmp_path)[1]
+    assert re.search(r"Студент:\s*$", sheet, flags=re.MULTILINE)
+
+
+def test_title_block_on_the_first_text_sheet_only(framed):
+    result, pages, _ = framed
+    assert all("докум" not in page for page in pages[:2])
+    first = flat(pages[2])
+    for words in ("Разраб. Иванов", "Пров. Петров", "Н. контр. Нормов", "Утв. Утверждаев",
+                  "КП.01.00.000 ПЗ", "Листов", f"3 {result.pages}"):  # fmt: skip
+        assert words in first, words
+    for number, page in enumerate(pages[3:], start=4):
+        text = flat(page)
+        assert "докум" in text and "Разраб" not in text and "КП.01.00.000 ПЗ" in text
+        assert re.search(rf"\b{number}\b", text)
+
+
+def test_without_frame_there_is_no_title_block(tmp_path):
+    text = "".join(pages_of(rendered("one").pdf, tmp_path))
+    assert "докум" not in text
+
+
+def test_short_report_prints_every_third_row(framed):
+    text = "\n".join(framed[1])
+    start = re.search(r"Таблица\sП4\.1\s—", text).start()
+    end = re.search(r"Таблица\sП4\.2\s—", text).start()
+    rows = [int(a) for a in re.findall(r"(?m)^\s*(\d+)\s+−?\d+,\d+", text[start:end])]
+    assert rows == [*range(0, 720, 45), 720]
+    assert "каждая третья строка" in flat(text).replace("\u2010 ", "")
+
+
+def own(folder: Path, name: str, text: str) -> str:
+    (folder / "own").mkdir(exist_ok=True)
+    (folder / "own" / name).write_text(text, encoding="utf-8")
+    return ONE.replace("[report]\n", '[report]\ntemplates = "own"\n')
+
+
+def html_of(text: str, folder: Path) -> str:
+    t = terms_of(text)
+    return report_html(t.model, t.values, source=folder / "in.toml")
+
+
+def test_own_templates_replace_and_extend(tmp_path):
+    own(tmp_path, "report.css.j2", "{% include 'kshm/report/report.css.j2' %} p { color: #123456 }")
+    text = own(tmp_path, "cover.html.j2", "<p>Бланк {{ cover_page.year }}</p>")
+    page = html_of(text, tmp_path)
+    assert "Бланк 2024" in page and "#123456" in page and "Расчётно-пояснительная" not in page
+    assert "Расчётно-пояснительная" in html_of(ONE, tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "line", "words"),
+    [
+        ("cover.html.j2", "<p>\n{% if %}</p>", 2, "Expected an expression"),
+        ("cover.html.j2", "<p>\n\n{{ nothing.here }}</p>", 3, "'nothing' is undefined"),
+        ("cover.html.j2", "\n{{ ''.__class__.__mro__ }}", 2, "unsafe"),
+    ],
+)
+def test_a_broken_template_is_told_by_line(tmp_path, name, text, line, words):
+    source = own(tmp_path, name, text)
+    with pytest.raises(InputError) as caught:
+        html_of(source, tmp_path)
+    (message,) = caught.value.lines()
+    assert f"{name}, строка {line}" in message and words in message
+
+
+def test_a_template_in_another_encoding_is_told(tmp_path):
+    source = own(tmp_path, "cover.html.j2", "")
+    (tmp_path / "own" / "cover.html.j2").write_bytes("<p>\nБланк</p>".encode("cp1251"))
+    with pytest.raises(InputError, match=r"cover\.html\.j2, строка 2"):
+        html_of(source, tmp_path)
+
+
+def test_a_missing_folder_and_an_unknown_name_are_refused(tmp_path):
+    source = ONE.replace("[report]\n", '[report]\ntemplates = "own"\n')
+    with pytest.raises(InputError, match=r"report\.templates: нет папки"):
+        html_of(source, tmp_path)
+    own(tmp_path, "covers.html.j2", "x")
+    with pytest.raises(InputError, match=r"covers\.html\.j2 ничего не заменяет"):
+        html_of(source, tmp_path)
+
+
+def test_wrong_css_names_the_folder(tmp_path):
+    from reports.document.report import report_pdf
+
+    source = own(tmp_path, "frame.css.j2", "")
+    own(tmp_path, "report.css.j2", "p { colour: red }")
+    t = terms_of(source)
+    (tmp_path / "in.toml").write_text(source, encoding="utf-8")
+    with pytest.raises(InputError, match=r"own: .*colour"):
+        report_pdf(t.model, t.values, source=tmp_path / "in.toml", workbook=b"")
+
+
+def test_page_boxes_are_a4(framed):
+    _, _, folder = framed
+    boxes = poppler("pdfinfo", "-box", str(folder / "text.pdf"))
+    assert re.search(r"MediaBox:\s+0\.00\s+0\.00\s+595\.2\d\s+841\.8\d", boxes)
+
+
+def test_numbers_of_the_abstract_are_those_of_the_engine():
+    t = terms("one")
+    page = report_html(t.model, t.values, source=Path("in.toml"))
+    brief = page[page.index("Реферат") : page.index(">Содержание<")]
+    assert t.num("M_mean") in brief and t.num("Rpin_max_kN") in brief

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kshm import balance_results, harmonics, inertia_results, torque_results
+from kshm import balance_results, harmonics, inertia_results, reference, torque_results
 from kshm import dimensionless as segal
 from kshm.engine import Engine
 from kshm.masses import mass_scalars
@@ -29,6 +29,7 @@ def companion_columns(engine: Engine, raw: BatchSolution, index: int) -> dict[st
         **balance_results.columns(engine),
         **inertia_results.columns(engine, raw, index),
         **torque_results.columns(engine, raw, index),
+        **reference.columns(engine),
     }
     return {
         **_segal(engine),
@@ -46,6 +47,7 @@ def companion_scalars(engine: Engine, raw: BatchSolution, index: int) -> dict[st
         **inertia_results.scalars(engine, raw, index),
         **torque_results.scalars(engine, raw, index),
         **mass_scalars(engine),
+        **reference.scalars(engine),
     }
 
 

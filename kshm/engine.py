@@ -226,6 +226,8 @@ class Engine:
     balancing: Balancing = field(default_factory=Balancing)
     name: str = field(default="engine")
     cycle: CycleRun | None = None  # the cycle calculation that the gas comes from
+    reference_lambdas: tuple[float, ...] = ()  # λ of the reference tables, none if not asked for
+    reference_angle: float = 0.0  # crank angle of the drawn mechanism [rad]
     arrangement: Arrangement = ()
     articulated: ArticulatedRod | None = None
 

@@ -12,6 +12,7 @@ from reports.inputs.checks_cycle import check_cycle
 from reports.inputs.checks_gas import check_gas
 from reports.inputs.checks_layout import check_layout
 from reports.inputs.checks_masses import check_masses
+from reports.inputs.checks_reference import check_reference
 from reports.inputs.findings import Finding, Path, Values, radius_and_rod
 from reports.inputs.model import LAMBDA_MAX, LAMBDA_MIN
 from reports.units import number_text
@@ -28,6 +29,7 @@ def check(values: Values) -> Iterator[Finding]:
     yield from check_masses(values)
     yield from check_gas(values)
     yield from check_cycle(values)
+    yield from check_reference(values)
 
 
 def _geometry(values: Values) -> Iterator[Finding]:

@@ -40,7 +40,7 @@ FIRING_TDC_DEG = 360.0
 
 def to_engine(model: InputFile) -> Engine:
     """Return the engine in SI units; the input must have passed `reports.inputs.load`."""
-    regime = model.regime
+    regime, reference = model.regime, model.reference
     run = cycle_run(model)
     geometry = _geometry(model, run)
     shaft = with_masses(model, geometry)
@@ -66,6 +66,8 @@ def to_engine(model: InputFile) -> Engine:
         balancing=_balancing(model.balance),
         name=model.engine.name,
         cycle=run,
+        reference_lambdas=() if reference is None else reference.lambdas,
+        reference_angle=0.0 if reference is None else DEG.to_si(reference.angle_deg),
     )
 
 

@@ -49,6 +49,7 @@ SECTIONS = {
     "articulated": "Прицепной шатун",
     "crankshaft": "Коленчатый вал",
     "balance": "Уравновешивание и маховик",
+    "reference": "Справочные таблицы",
 }
 _LIST_SECTIONS = {
     ("gas", "points"): "Индикаторная диаграмма по точкам",
@@ -58,6 +59,7 @@ _LIST_SECTIONS = {
     ("crankshaft", "main_lengths_mm"): "Коренные шейки",
     ("crankshaft", "webs"): "Щеки и противовесы",
     ("crankshaft", "arms"): "Плечи колен",
+    ("reference", "lambdas"): "Справочные таблицы: значения λ",
 }
 _LIST_NAMES = {
     "firing_offsets_deg": "firing_offset_{n}_deg",
@@ -67,6 +69,7 @@ _LIST_NAMES = {
     "webs": "web_{n}_{key}",
     "arms": "throw_{n}_{key}",
     "points": "gas_point_{n}_{key}",
+    "lambdas": "reference_lambda_{n}_value",
 }
 _POINT_KEYS = ("deg", "mpa")
 

@@ -38,6 +38,7 @@ from reports.inputs.model_balance import BalanceSection
 from reports.inputs.model_crankshaft import CrankshaftSection
 from reports.inputs.model_cycle import CycleSection
 from reports.inputs.model_masses import MassesSection
+from reports.inputs.model_reference import ReferenceSection
 from reports.inputs.model_report import Report
 from reports.inputs.source import read_text, refuse_bomb, refused
 
@@ -56,8 +57,9 @@ SECTION_MODELS: dict[str, type[Strictly]] = {
     "articulated": ArticulatedSection,
     "crankshaft": CrankshaftSection,
     "balance": BalanceSection,
+    "reference": ReferenceSection,
 }
-_OPTIONAL_SECTIONS = ("report", "calculation", "cycle", "articulated", "balance")
+_OPTIONAL_SECTIONS = ("report", "calculation", "cycle", "articulated", "balance", "reference")
 _GASES: dict[str, type[Strictly]] = {
     "polytropic": PolytropicGasSection,
     "table": TableGasSection,
@@ -186,7 +188,7 @@ class _Reader:
                     hint = f"добавьте раздел [{name}]"
                     self.problems.append(self.problem((name,), "нет раздела", hint))
                 continue
-            if name in ("cycle", "articulated") and name not in data:
+            if name in ("cycle", "articulated", "reference") and name not in data:
                 continue
             model = self._model_of(name, data.get(name, {}))
             if name == "geometry" and model is not None and _sizes_are_wanted(data):

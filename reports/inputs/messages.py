@@ -25,6 +25,7 @@ from reports.inputs.model_articulated import ArticulatedSection
 from reports.inputs.model_crankshaft import ArmsSection, CrankshaftSection, WebSection
 from reports.inputs.model_cycle import CycleSection
 from reports.inputs.model_masses import MassesSection
+from reports.inputs.model_reference import ReferenceSection
 from reports.inputs.model_report import Report
 
 _HOMES: dict[str, tuple[type[Strictly], ...]] = {
@@ -37,6 +38,7 @@ _HOMES: dict[str, tuple[type[Strictly], ...]] = {
     "[cycle]": (CycleSection,),
     "[masses]": (MassesSection,),
     "[articulated]": (ArticulatedSection,),
+    "[reference]": (ReferenceSection,),
     "[crankshaft]": (CrankshaftSection,),
     "[[crankshaft.webs]]": (WebSection,),
     "[[crankshaft.arms]]": (ArmsSection,),

@@ -17,6 +17,7 @@ from reports.inputs.model_balance import BalanceSection
 from reports.inputs.model_crankshaft import CrankshaftSection
 from reports.inputs.model_cycle import CycleSection
 from reports.inputs.model_masses import MassesSection
+from reports.inputs.model_reference import ReferenceSection
 from reports.inputs.model_report import Report
 from reports.units import DEG, KW, MM, MPA, NONE, RPM
 
@@ -243,3 +244,4 @@ class InputFile(Strictly):
     articulated: ArticulatedSection | None = None
     crankshaft: CrankshaftSection
     balance: BalanceSection = Field(default_factory=BalanceSection)
+    reference: ReferenceSection | None = None

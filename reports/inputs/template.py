@@ -18,6 +18,7 @@ from reports.inputs.meta import Meta, Strictly, find_meta, hints, submodel
 from reports.inputs.model import PolytropicGasSection
 from reports.inputs.model_articulated import ArticulatedSection
 from reports.inputs.model_cycle import CycleSection
+from reports.inputs.model_reference import ReferenceSection
 from reports.resources import samples_dir
 
 _KEPT = ("title", "year", "frame", "detail")  # how the report is set, not who wrote it
@@ -34,9 +35,11 @@ _CYCLE_HINT = (
     "готовый пример дает команда kshm new --sample cycle-turbo-diesel.",
 )
 _ARTICULATED_HINT = ("Если шатуны правого ряда V-образного двигателя висят на главных:",)
+_REFERENCE_HINT = ("Таблицы 1–3, 5–8 и рисунки 3–10 учебника для любых λ; lambdas — список:",)
 _COMMENTED: dict[str, tuple[type[Strictly], tuple[str, ...]]] = {
     "cycle": (CycleSection, _CYCLE_HINT),  # an alternative to the pressures of [gas]
     "articulated": (ArticulatedSection, _ARTICULATED_HINT),
+    "reference": (ReferenceSection, _REFERENCE_HINT),
 }
 
 

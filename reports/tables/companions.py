@@ -6,6 +6,7 @@ from reports.inputs.model import InputFile
 from reports.tables.balance import balance_blocks, balance_charts
 from reports.tables.inertia import inertia_blocks, inertia_charts
 from reports.tables.neiman import neiman_blocks, neiman_charts
+from reports.tables.reference import reference_blocks, reference_charts
 from reports.tables.segal import segal_blocks, segal_charts
 from reports.tables.spec import Block, ChartSpec
 from reports.tables.torque_orders import torque_order_blocks, torque_order_charts
@@ -21,6 +22,7 @@ def companion_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block,
         *torque_order_blocks(model, cycle),
         *segal_blocks(),
         *neiman_blocks(),
+        *reference_blocks(model, turn),
     )
 
 
@@ -32,4 +34,5 @@ def companion_charts(model: InputFile) -> tuple[ChartSpec, ...]:
         *torque_order_charts(),
         *segal_charts(),
         *neiman_charts(),
+        *reference_charts(model),
     )

@@ -26,6 +26,7 @@ _LISTS = {
     "web": ("crankshaft", "webs"),
     "throw": ("crankshaft", "arms"),
     "gas_point": ("gas", "points"),
+    "reference_lambda": ("reference", "lambdas"),
 }
 _SECTIONS = (
     "report",
@@ -39,6 +40,7 @@ _SECTIONS = (
     "articulated",
     "crankshaft",
     "balance",
+    "reference",
 )
 
 
@@ -59,7 +61,7 @@ def load_workbook_input(path: Path) -> Loaded:
             continue
         wanted[target] = places[name]
         _put(raw, target, value)
-    for section in ("gas", "crankshaft"):
+    for section in ("gas", "crankshaft", "reference"):
         _close_lists(raw.get(section, {}))
 
     def locate(target: tuple[str | int, ...]) -> str:

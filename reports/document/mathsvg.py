@@ -76,8 +76,9 @@ def formula(tex: str) -> Formula:
         f"margin:0 {-_PAD:.2f}em"
     )
     svg = (
-        f'<svg class="tex" role="img" aria-label="{escape_html(plain(tex))}" style="{style}" '
-        f'viewBox="{-pad:g} 0 {width + 2 * pad:g} {height:g}">{"".join(body)}</svg>'
+        f'<svg class="tex" role="img" style="{style}" '
+        f'viewBox="{-pad:g} 0 {width + 2 * pad:g} {height:g}">'
+        f"<title>{escape_html(plain(tex), quote=False)}</title>{''.join(body)}</svg>"
     )
     return Formula(svg, width_em, height_em, depth_em, tex)
 

@@ -91,9 +91,10 @@ def render(
     with _quiet_gc(), _warnings() as warnings:
         page = weasyprint.HTML(string=html, base_url=None, url_fetcher=_fetcher())
         # The same configuration for parsing and layout, or @font-face is dropped silently.
-        document = page.render(font_config=FontConfiguration(), pdf_variant=variant)
+        document = page.render(font_config=FontConfiguration(), pdf_variant=variant, pdf_tags=True)
         pdf = document.write_pdf(
             pdf_variant=variant,
+            pdf_tags=True,  # alternative texts stand in the tags
             pdf_identifier=identifier or _identifier(html),
             attachments=[_attachment(item) for item in attachments],
         )
@@ -140,6 +141,7 @@ def environment(
     result.globals["media"] = media
     result.filters["plain"] = texts.plain
     result.filters["sym"] = _symbol
+    result.filters["titled"] = texts.titled
     result.filters["tex"] = _formula
     return result
 

@@ -36,6 +36,14 @@ def plain(text: object) -> Markup:
     return escape(printable(Markup(text).striptags() if isinstance(text, Markup) else str(text)))
 
 
+def titled(svg: str, title: object) -> Markup:
+    """An inline SVG with an alternative text: a ``<title>`` as its first child."""
+    head, bracket, rest = svg.partition(">")
+    return Markup("{}{}<title>{}</title>{}").format(
+        Markup(head), Markup(bracket), plain(title), Markup(rest)
+    )
+
+
 def raised(text: str) -> str:
     """The same for labels of figures: raised signs become mathtext (``мин$^{-1}$``)."""
     return _RUN.sub(

@@ -1,6 +1,7 @@
 """Title, assignment, abstract, the ЕСКД frame, the short report, own templates."""
 
 import re
+import zlib
 from pathlib import Path
 
 import pytest
@@ -167,3 +168,22 @@ def test_numbers_of_the_abstract_are_those_of_the_engine():
     page = report_html(t.model, t.values, source=Path("in.toml"))
     brief = page[page.index("Реферат") : page.index(">Содержание<")]
     assert t.num("M_mean") in brief and t.num("Rpin_max_kN") in brief
+
+
+def unpacked(pdf: bytes) -> bytes:
+    """The PDF with the streams of its objects open to read."""
+    out = [pdf]
+    for piece in pdf.split(b"endstream")[:-1]:
+        _, found, data = piece.rpartition(b"stream\n")
+        if found and b"/ObjStm" in piece[-len(data) - 400 :]:
+            out.append(zlib.decompress(data))
+    return b"".join(out)
+
+
+def test_every_figure_and_formula_is_told_in_words(framed):
+    data = unpacked(framed[0].pdf)
+    said = [bytes.fromhex(hex_[4:].decode()).decode("utf-16-be")
+            for hex_ in re.findall(rb"/Alt\s*<(feff[0-9a-f]+)>", data)]  # fmt: skip
+    assert data.count(b"/Alt ") == data.count(b"/S /Figure") > 100
+    (torque,) = [text for text in said if text.startswith("Индикаторный крутящий момент")]
+    assert "наибольшее" in torque and "при φ = " in torque and "Н·м" in torque

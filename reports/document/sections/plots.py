@@ -7,7 +7,9 @@ from functools import partial
 
 import numpy as np
 
+from reports.document import numbers
 from reports.document.figures import Level, Mark, Panel, Series, line_chart, stacked_panels
+from reports.document.mathsvg import plain
 from reports.document.terms import Terms
 from reports.document.writer import Figure
 
@@ -40,7 +42,22 @@ def over_phi(
     draw = partial(
         line_chart, x, curves, PHI, y_label, height=height, levels=tuple(levels), marks=tuple(marks)
     )
-    return Figure(draw, caption)
+    return Figure(draw, caption, spoken(terms, caption, names))
+
+
+def spoken(terms: Terms, caption: str, names: Sequence[str]) -> str:
+    """Alternative text of curves over the crank angle: the caption and each one's extremes."""
+    said = []
+    for name in names:
+        x, y = phi(terms, name.rpartition(".")[0]), terms.column(name)
+        unit = terms.unit(name)
+        parts = (
+            f"{word} {numbers.significant(float(y[row]), 4)}{' ' if unit else ''}{unit}"
+            f" при φ = {numbers.fixed(x[row], 0)}°"
+            for word, row in (("наибольшее", int(np.argmax(y))), ("наименьшее", int(np.argmin(y))))
+        )
+        said.append(f"{plain(terms.tex(name))}: {', '.join(parts)}")
+    return f"{caption}. {'; '.join(said)}"
 
 
 def extreme_marks(terms: Terms, name: str) -> tuple[Mark, ...]:
@@ -70,5 +87,7 @@ def panels(
         )
         caption = f"{title}: {words}" if len(chunk) > 1 else f"{title}: {captions[start]}"
         draw = partial(stacked_panels, x, shown, PHI, panel_height=50.0, same_scale=True)
-        result.append((str(start // size + 1), Figure(draw, caption)))
+        result.append(
+            (str(start // size + 1), Figure(draw, caption, spoken(terms, caption, chunk)))
+        )
     return result

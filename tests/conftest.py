@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import tempfile
 from functools import lru_cache
 from pathlib import Path
 
@@ -17,6 +18,14 @@ from reports.resources import samples_dir
 # Random engines are slow to solve on a loaded machine: no deadline, the same examples in CI.
 settings.register_profile("kshm", deadline=None, derandomize=True, print_blob=True)
 settings.load_profile("kshm")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Formulas and figures are kept for this run only, shared by its processes."""
+    if not hasattr(config, "workerinput"):
+        folder = tempfile.TemporaryDirectory(prefix="kshm-tests-", ignore_cleanup_errors=True)
+        os.environ["KSHM_CACHE"] = folder.name
+        config.add_cleanup(folder.cleanup)
 
 
 @lru_cache(maxsize=32)

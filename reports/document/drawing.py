@@ -17,6 +17,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import BinaryIO
 
+from reports.document import store
+
 _LEAST = 4  # figures from which a second process pays
 _PACKAGE = Path(__file__).resolve().parents[2]
 
@@ -26,11 +28,14 @@ class Drawing:
 
     def __init__(self, calls: Mapping[str, Callable[[], str]]) -> None:
         self._calls = dict(calls)
-        self._done: dict[str, str] = {}
+        self._keys = {name: _key(call) for name, call in self._calls.items()}
+        kept = ((name, store.store().get(key)) for name, key in self._keys.items() if key)
+        self._done: dict[str, str] = {name: svg for name, svg in kept if svg is not None}
+        self._left = [item for item in self._calls.items() if item[0] not in self._done]
         self._news = threading.Condition()
         self._ended = True
         self._process: subprocess.Popen[bytes] | None = None
-        if len(self._calls) >= _LEAST and (os.cpu_count() or 1) > 1:
+        if len(self._left) >= _LEAST and (os.cpu_count() or 1) > 1:
             self._start()
 
     def __enter__(self) -> Drawing:
@@ -56,7 +61,10 @@ class Drawing:
         with self._news:
             self._news.wait_for(lambda: key in self._done or self._ended)
             found = self._done.get(key)
-        return self._calls[key]() if found is None else found
+        svg = self._calls[key]() if found is None else found
+        if self._keys[key]:
+            store.store().put(self._keys[key], svg)
+        return svg
 
     def _start(self) -> None:
         paths = [str(_PACKAGE), *filter(None, [os.environ.get("PYTHONPATH")])]
@@ -80,7 +88,7 @@ class Drawing:
             return
         try:
             with process.stdin as pipe:
-                pickle.dump(list(self._calls.items()), pipe)
+                pickle.dump(self._left, pipe)
         except (OSError, pickle.PicklingError, AttributeError):
             process.kill()
 
@@ -97,6 +105,14 @@ class Drawing:
             with self._news:
                 self._ended = True
                 self._news.notify_all()
+
+
+def _key(call: Callable[[], str]) -> str:
+    """Key of a figure in the store; empty for a call that cannot be told from others."""
+    try:
+        return store.key("figure", pickle.dumps(call, protocol=5))
+    except (pickle.PicklingError, AttributeError, TypeError):
+        return ""
 
 
 def serve(source: BinaryIO, target: BinaryIO) -> None:

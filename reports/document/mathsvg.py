@@ -12,6 +12,7 @@ Conventions of the TeX: Cyrillic indices as ``P_{\mathrm{г}}``, decimal comma a
 from __future__ import annotations
 
 import functools
+import json
 import logging
 import re
 from collections.abc import Iterable
@@ -19,6 +20,7 @@ from dataclasses import dataclass
 from html import escape as escape_html
 from typing import Any
 
+from reports.document import store
 from reports.document.symbols import GREEK
 from reports.document.texsplit import balanced, break_points, tokens
 from reports.document.texwords import for_mathtext
@@ -65,6 +67,19 @@ def formula(tex: str) -> Formula:
     Raises:
         FormulaError: mathtext does not understand the TeX; the message shows the place.
     """
+    key = store.key("formula", tex.encode())
+    kept = store.store().get(key)
+    if kept is not None:
+        found = json.loads(kept)
+        width, height, depth = found["size"]
+        return Formula(found["svg"], width, height, depth, tex)
+    made = _set(tex)
+    size = (made.width_em, made.height_em, made.depth_em)
+    store.store().put(key, json.dumps({"svg": made.svg, "size": size}))
+    return made
+
+
+def _set(tex: str) -> Formula:
     width, height, depth, glyphs, rects = _parse(tex)
     baseline = height - depth
     pad = _PAD * _UNITS

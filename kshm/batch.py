@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from kshm.engine import Engine, PolytropicGas, TabulatedGas
+from kshm.engine import Engine, PolytropicGas
 from kshm.gas import PolytropicArrays
 from kshm.inertia import point_masses, throw_mass
 from kshm.journals import ThrowArrays
@@ -95,7 +95,7 @@ def stack(engines: Sequence[Engine]) -> Batch:
 
 def _stack_gas(engines: Sequence[Engine]) -> PolytropicArrays | None:
     gases = [engine.gas for engine in engines]
-    if any(isinstance(gas, TabulatedGas) for gas in gases):
+    if not all(isinstance(gas, PolytropicGas) for gas in gases):
         return None
     polytropic = [gas for gas in gases if isinstance(gas, PolytropicGas)]
     names = PolytropicArrays.__dataclass_fields__

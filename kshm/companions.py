@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kshm import balance_results, harmonics, inertia_results, reference, torque_results
+from kshm import balance_results, diagram, harmonics, inertia_results, reference, torque_results
 from kshm import dimensionless as segal
 from kshm.engine import Engine
 from kshm.masses import mass_scalars
@@ -30,6 +30,7 @@ def companion_columns(engine: Engine, raw: BatchSolution, index: int) -> dict[st
         **inertia_results.columns(engine, raw, index),
         **torque_results.columns(engine, raw, index),
         **reference.columns(engine),
+        **diagram.diagram_columns(engine),
     }
     return {
         **_segal(engine),
@@ -48,7 +49,14 @@ def companion_scalars(engine: Engine, raw: BatchSolution, index: int) -> dict[st
         **torque_results.scalars(engine, raw, index),
         **mass_scalars(engine),
         **reference.scalars(engine),
+        **diagram.diagram_scalars(engine, _gas_work(engine, raw, index)),
     }
+
+
+def _gas_work(engine: Engine, raw: BatchSolution, index: int) -> float:
+    """∮p dV of cylinder 1 by trapezoids [J]."""
+    volume = engine.geometry.piston_area * raw.displacement[index, 0]
+    return float(np.trapezoid(raw.p[index, 0], volume))
 
 
 def in_units(columns: Columns) -> Columns:

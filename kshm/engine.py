@@ -93,9 +93,35 @@ class TabulatedGas:
     p_ambient: float
     angles: tuple[float, ...]
     pressures: tuple[float, ...]
+    smooth: bool = False  # cubics without overshoot instead of straight lines
 
 
-Gas = PolytropicGas | TabulatedGas
+@dataclass(frozen=True, slots=True)
+class RoundedGas:
+    """Rounded indicator diagram of a four-stroke engine; absolute Pa, angles [rad].
+
+    ``peak`` is z_д and ``join`` the end of its rounding, both as angles in the cycle;
+    ``settle`` is the angle at which the intake pressure is reached.
+    """
+
+    p_ambient: float
+    p_intake: float
+    p_residual: float
+    p_max: float
+    n_compression: float
+    n_expansion: float
+    rho: float
+    combustion_start: float
+    tdc_rise: float  # p_c''/p_c
+    peak: float
+    peak_share: float  # p_zд/p_z
+    join: float
+    exhaust_open: float
+    exhaust_close: float
+    settle: float
+
+
+Gas = PolytropicGas | TabulatedGas | RoundedGas
 
 
 @dataclass(frozen=True, slots=True)

@@ -71,8 +71,30 @@ _REFERENCE: tuple[Row, ...] = (
     ("draw_H_x", "OH/r", "OH/r", "", "отрезок OH: скорость поршня в долях rω", "0.0000"),
 )  # fmt: skip
 
-CHAPTER_ROWS: tuple[Row, ...] = (*_MASSES, *_REFERENCE)
+_DIAGRAM: tuple[Row, ...] = (
+    ("p_i_area", "pi", "p_i", "MPa", "среднее индикаторное давление по площади диаграммы", "0.0000"),
+    ("phi_peak_deg", "φzд", r"\varphi_{z\mathrm{д}}", "deg", "действительный конец сгорания", "0.0"),
+    ("phi_join_deg", "φj", r"\varphi_{j}", "deg", "выход на линию расширения", "0.0"),
+    ("peak_share", "pzд/pz", r"p_{z\mathrm{д}}/p_z", "", "действительное наибольшее давление к расчётному", "0.00"),
+    ("p_b", "pb", "p_b", "MPa", "давление конца расширения по политропе", "0.0000"),
+    *((f"{of}_{key}{mark}", symbol, tex, unit, title, fmt)
+      for of, mark in (("node", ""), ("node", "#"), ("point", ""))
+      for key, symbol, tex, unit, title, fmt in (
+          ("deg", "φ", r"\varphi", "deg", "угол точки диаграммы", "0.0"),
+          ("MPa", "p", "p", "MPa", "давление в точке диаграммы", "0.0000"),
+          ("step", "Δφ", r"\Delta\varphi", "deg", "шаг до следующей точки", "0.0"),
+          ("chord", "Δp/Δφ", r"\Delta p/\Delta\varphi", "MPa_deg", "наклон хорды", "0.00000"),
+          ("slope", "p′", "p'", "MPa_deg", "наклон кривой в точке", "0.00000"),
+          ("two", "a2", "a_2", "MPa_deg2", "коэффициент при квадрате угла", "0.00E+00"),
+          ("three", "a3", "a_3", "MPa_deg3", "коэффициент при кубе угла", "0.00E+00"))),
+    ("point", "№", "n", "", "номер точки", "0"),
+)  # fmt: skip
+
+CHAPTER_ROWS: tuple[Row, ...] = (*_MASSES, *_REFERENCE, *_DIAGRAM)
 CHAPTER_UNITS: tuple[tuple[str, str, float], ...] = (
     ("kg_m2", "кг/м²", 1.0),
     ("s", "с", 1.0),
+    ("MPa_deg", "МПа/°", 1e6),
+    ("MPa_deg2", "МПа/°²", 1e6),
+    ("MPa_deg3", "МПа/°³", 1e6),
 )

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from kshm import forces, gas, journals, kinematics, torque, wear
+from kshm import diagram, forces, gas, journals, kinematics, torque, wear
 from kshm.batch import Batch, stack
-from kshm.engine import Engine, TabulatedGas
+from kshm.engine import Engine
 from kshm.solution import Solution
 
 Array = NDArray[np.float64]
@@ -75,9 +75,7 @@ def _pressure(batch: Batch, phi: Array) -> Array:
     for engine, angles in zip(
         batch.engines, np.broadcast_to(phi, (len(batch.engines), *phi.shape[1:])), strict=True
     ):
-        if isinstance(engine.gas, TabulatedGas):
-            points = np.array(engine.gas.angles), np.array(engine.gas.pressures)
-            rows.append(gas.tabulated_pressure(angles, *points))
+        rows.append(diagram.engine_pressure(engine, angles))
     return np.stack(rows)
 
 

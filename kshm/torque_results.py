@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kshm import kinematics, torque_harmonics
-from kshm.engine import Engine, PolytropicGas
+from kshm.engine import Engine, PolytropicGas, RoundedGas
 from kshm.inertia import point_masses
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ def motored(engine: Engine, raw: BatchSolution, index: int) -> Array:
     phi = raw.phi
     pressure = raw.p[index, 0]
     between = (phi > np.pi + 1e-9) & (phi < 3 * np.pi - 1e-9)
-    if isinstance(engine.gas, PolytropicGas):
+    if isinstance(engine.gas, PolytropicGas | RoundedGas):
         geometry = engine.geometry
         r, lam = np.array(geometry.crank_radius), np.array(geometry.lam)
         share = kinematics.displacement_exact(phi, r, lam) / (2 * r)

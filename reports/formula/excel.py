@@ -128,6 +128,11 @@ def _call(name: str, args: list[ast.expr], refs: References) -> tuple[str, int]:
         return f"ATAN2({x},{y})", _ATOM
     if name == "interpolate":
         return _interpolate(args, refs), 2
+    if name == "element":
+        run = refs.column(_key(args[0]), repeat_last=True)
+        return f"INDEX({run},{_emit(args[1], refs)[0]})", _ATOM
+    if name == "spline":
+        return _spline(args, refs), 2
     return f"{_FUNCTIONS[name]}({','.join(_emit(arg, refs)[0] for arg in args)})", _ATOM
 
 
@@ -171,3 +176,13 @@ def _interpolate(args: list[ast.expr], refs: References) -> str:
     x0, x1 = f"INDEX({xs},{row})", f"INDEX({xs},{row}+1)"
     y0, y1 = f"INDEX({ys},{row})", f"INDEX({ys},{row}+1)"
     return f"{y0}+({y1}-{y0})*({x}-{x0})/({x1}-{x0})"
+
+
+def _spline(args: list[ast.expr], refs: References) -> str:
+    """Cubic from the knot before, its row by MATCH, capped so that the last knot works."""
+    x = _wrapped(args[0], 3, refs)
+    body = refs.column(_key(args[1]), repeat_last=False)
+    row = f"MATCH({_emit(args[0], refs)[0]},{body},1)"
+    knot, *powers = (f"INDEX({refs.column(_key(arg), repeat_last=True)},{row})" for arg in args[1:])
+    u = f"({x}-{knot})"
+    return f"{powers[0]}+{u}*({powers[1]}+{u}*({powers[2]}+{u}*{powers[3]}))"

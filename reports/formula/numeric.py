@@ -32,6 +32,22 @@ def _fourier(turn: Callable[[Value], Value]) -> Callable[[Value, Value, Value], 
     return coefficient
 
 
+def _element(run: Value, number: Value) -> Value:
+    values = np.asarray(run, dtype=float)
+    rows = np.asarray(number, dtype=float).astype(int) - 1
+    return values[np.clip(rows, 0, len(values) - 1)]
+
+
+def _spline(x: Value, knots: Value, c0: Value, c1: Value, c2: Value, c3: Value) -> Value:
+    """Cubic from the last knot at or before ``x``."""
+    places = np.asarray(knots, dtype=float)
+    row = np.clip(np.searchsorted(places, x, side="right") - 1, 0, len(places) - 2)
+    u = np.asarray(x) - places[row]
+    first, second, third, fourth = (np.asarray(c, dtype=float)[row] for c in (c0, c1, c2, c3))
+    return first + u * (second + u * (third + u * fourth))
+
+
+_FUNCTIONS |= {"element": _element, "spline": _spline}
 _FUNCTIONS |= {"fourier_cos": _fourier(np.cos), "fourier_sin": _fourier(np.sin)}
 
 _OPERATORS: dict[type[ast.AST], Callable[[Value, Value], Value]] = {

@@ -13,6 +13,8 @@ FUNCTIONS: dict[str, tuple[int, int]] = {
     "mod": (2, 2), "min": (1, 40), "max": (1, 40), "total": (1, 40),
     "rad": (1, 1), "deg": (1, 1),
     "interpolate": (3, 3),
+    "element": (2, 2),  # of a run by its number from 1
+    "spline": (6, 6),  # x, knots and four coefficients of the cubic from each knot on
     "fourier_cos": (3, 3), "fourier_sin": (3, 3),
 }  # fmt: skip
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from reports.inputs.checks_rounded import check_rounded
 from reports.inputs.findings import Finding, Path, Values, radius_and_rod
 from reports.units import MPA, number_text
 
@@ -21,6 +22,8 @@ def check_gas(values: Values) -> Iterator[Finding]:
         yield from _timing(values)
         yield from _pressures(values)
         yield from _odd_pressures(values)
+    elif source == "rounded":
+        yield from check_rounded(values)
     else:
         yield from _table(values)
 

@@ -17,6 +17,7 @@ from kshm.engine import (
     Throw,
     Web,
 )
+from reports.inputs.convert_gas import rounded_gas
 from reports.inputs.convert_masses import to_masses, with_masses
 from reports.inputs.cycle import cycle_run
 from reports.inputs.firing import arrangement
@@ -31,6 +32,7 @@ from reports.inputs.model import (
 from reports.inputs.model_articulated import ArticulatedSection
 from reports.inputs.model_balance import BalanceSection
 from reports.inputs.model_crankshaft import ArmsSection, CrankshaftSection, WebSection
+from reports.inputs.model_gas import RoundedGasSection
 from reports.units import DEG, KG, KW, MM, MPA, RPM
 
 BDC_DEG = 540.0
@@ -156,7 +158,10 @@ def _gas(gas: GasSection, run: CycleRun | None, *, strokes: int) -> Gas:
             p_ambient=p_ambient,
             angles=tuple(DEG.to_si(angle) for angle, _ in gas.points),
             pressures=tuple(MPA.to_si(pressure) for _, pressure in gas.points),
+            smooth=gas.interpolation == "monotone",
         )
+    if isinstance(gas, RoundedGasSection):
+        return rounded_gas(gas)
     if run is not None:
         advance, start, opens, closes = _angles(gas)
         return polytropic_gas(

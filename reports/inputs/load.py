@@ -17,6 +17,7 @@ from pydantic import ValidationError
 
 from reports.errors import InputError, Problem, one_line
 from reports.inputs import cells, checks, messages
+from reports.inputs.diagram_file import with_points
 from reports.inputs.fields import SECTIONS, Path, key_text
 from reports.inputs.findings import Finding, Values
 from reports.inputs.firing import FOLLOWING, expand
@@ -37,6 +38,7 @@ from reports.inputs.model_articulated import ArticulatedSection
 from reports.inputs.model_balance import BalanceSection
 from reports.inputs.model_crankshaft import CrankshaftSection
 from reports.inputs.model_cycle import CycleSection
+from reports.inputs.model_gas import RoundedGasSection
 from reports.inputs.model_masses import MassesSection
 from reports.inputs.model_reference import ReferenceSection
 from reports.inputs.model_report import Report
@@ -64,6 +66,7 @@ _GASES: dict[str, type[Strictly]] = {
     "polytropic": PolytropicGasSection,
     "table": TableGasSection,
     "cycle": CycleGasSection,
+    "rounded": RoundedGasSection,
 }
 
 
@@ -82,11 +85,14 @@ def load_toml(path: FilePath | str) -> Loaded:
         InputError: With everything that is wrong with the file.
     """
     file = FilePath(path)
-    return load_text(read_text(file), source=file.name)
+    return load_text(read_text(file), source=file.name, folder=file.parent)
 
 
-def load_text(text: str, *, source: str) -> Loaded:
-    """Check the text of an input file; `source` names it in messages."""
+def load_text(text: str, *, source: str, folder: FilePath | None = None) -> Loaded:
+    """Check the text of an input file; `source` names it in messages.
+
+    `folder` is where a file with the points of the indicator diagram is looked for.
+    """
     refuse_bomb(source, text)
     try:
         raw = tomllib.loads(text)
@@ -97,7 +103,7 @@ def load_text(text: str, *, source: str) -> Loaded:
         raise refused(source, what, hint) from None
     if not raw:
         raise refused(source, "файл пуст", "заготовку даст команда «kshm new»")
-    return load_mapping(raw, source=source)
+    return load_mapping(with_points(raw, folder or FilePath(), source), source=source)
 
 
 def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None = None) -> Loaded:
@@ -212,7 +218,7 @@ class _Reader:
         what = "обязательный ключ не задан"
         if "source" in raw:
             what = f"недопустимое значение {messages.shown(source)}"
-        hint = "допустимо: " + ", ".join(_GASES)
+        hint = "допустимо: " + ", ".join((*_GASES, "file"))
         if ("gas", "source") not in self.empty:
             self.problems.append(self.problem(("gas", "source"), what, hint))
         return None

@@ -24,6 +24,7 @@ from reports.inputs.model import (
 from reports.inputs.model_articulated import ArticulatedSection
 from reports.inputs.model_crankshaft import ArmsSection, CrankshaftSection, WebSection
 from reports.inputs.model_cycle import CycleSection
+from reports.inputs.model_gas import RoundedGasSection
 from reports.inputs.model_masses import MassesSection
 from reports.inputs.model_reference import ReferenceSection
 from reports.inputs.model_report import Report
@@ -34,7 +35,7 @@ _HOMES: dict[str, tuple[type[Strictly], ...]] = {
     "[calculation]": (Calculation,),
     "[geometry]": (GeometrySection,),
     "[regime]": (Regime,),
-    "[gas]": (PolytropicGasSection, TableGasSection, CycleGasSection),
+    "[gas]": (PolytropicGasSection, TableGasSection, CycleGasSection, RoundedGasSection),
     "[cycle]": (CycleSection,),
     "[masses]": (MassesSection,),
     "[articulated]": (ArticulatedSection,),

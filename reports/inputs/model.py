@@ -16,6 +16,7 @@ from reports.inputs.model_articulated import ArticulatedSection
 from reports.inputs.model_balance import BalanceSection
 from reports.inputs.model_crankshaft import CrankshaftSection
 from reports.inputs.model_cycle import CycleSection
+from reports.inputs.model_gas import INTERPOLATIONS, ROUNDED, RoundedGasSection
 from reports.inputs.model_masses import MassesSection
 from reports.inputs.model_reference import ReferenceSection
 from reports.inputs.model_report import Report
@@ -35,6 +36,7 @@ SOURCES = {
     "polytropic": "по политропам",
     "table": "по точкам диаграммы",
     "cycle": "по расчету цикла",
+    **ROUNDED,
 }
 
 
@@ -188,6 +190,10 @@ class TableGasSection(Strictly):
     ambient_pressure_mpa: Annotated[
         float, number("Давление окружающей среды", "p_0", MPA, 0.01, 0.5)
     ] = 0.1
+    interpolation: Annotated[
+        Literal["linear", "monotone"],
+        choice("Соединение точек", INTERPOLATIONS, structural=True),
+    ] = "linear"
     points: Annotated[
         tuple[
             Annotated[
@@ -227,7 +233,7 @@ class CycleGasSection(Strictly):
     ]
 
 
-GasSection = PolytropicGasSection | TableGasSection | CycleGasSection
+GasSection = PolytropicGasSection | TableGasSection | CycleGasSection | RoundedGasSection
 
 
 class InputFile(Strictly):

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from reports.inputs.model import InputFile, TableGasSection
+from reports.inputs.model_gas import RoundedGasSection
 from reports.tables.cycle_names import from_cycle
+from reports.tables.diagram import diagram_blocks, is_smooth, rounded_pressure, smooth_pressure
 from reports.tables.mechanism import acceleration
 from reports.tables.spec import Block, Column, Scalar, ScalarTable, TableSpec
 
@@ -12,7 +14,7 @@ EDGE = "0.0000001"  # degrees: the angles come from whole degrees and sums of th
 
 def gas_scalars(model: InputFile) -> tuple[ScalarTable, ...]:
     """Corner points of the polytropic diagram; none for a table of points."""
-    if isinstance(model.gas, TableGasSection):
+    if isinstance(model.gas, TableGasSection | RoundedGasSection):
         return ()
     start = (
         "gas_combustion_start_deg"
@@ -72,6 +74,10 @@ def volume_ratio(phi: str) -> str:
 
 def pressure(model: InputFile, phi: str, ratio: str) -> str:
     """Absolute gas pressure [MPa] at the angle and volume ratio of the named columns."""
+    if isinstance(model.gas, RoundedGasSection):
+        return rounded_pressure(phi, ratio)
+    if is_smooth(model):
+        return smooth_pressure(phi)
     if isinstance(model.gas, TableGasSection):
         return f"interpolate({phi}, gas_points_deg, gas_points_mpa)"
     eps, rho = "geometry_compression_ratio", "gas_preexpansion_ratio"
@@ -199,7 +205,12 @@ def cylinder_table_id(number: int) -> str:
 def cylinder_blocks(model: InputFile, rows: tuple[float, ...]) -> tuple[Block, ...]:
     """Gas, П4.1 and the forces of all other cylinders."""
     count = model.engine.cylinders
-    blocks: list[Block] = [*gas_scalars(model), gas_table(model, rows), forces_table(model, rows)]
+    blocks: list[Block] = [
+        *gas_scalars(model),
+        *diagram_blocks(model),
+        gas_table(model, rows),
+        forces_table(model, rows),
+    ]
     blocks += [shifted_table(model, rows, i) for i in range(2, count + 1)]
     if model.crankshaft.force_offsets_deg is not None:
         blocks += [shifted_table(model, rows, i, forced=True) for i in range(1, count + 1)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from reports.inputs.model import InputFile, TableGasSection
 from reports.tables.cycle_names import from_cycle, section_of
+from reports.tables.diagram import is_smooth, smooth_pressure
 from reports.tables.segal import rows
 from reports.tables.spec import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
 
@@ -16,7 +17,11 @@ _NOISE = "0.000000001"
 def _tangential(model: InputFile, cycle: tuple[float, ...]) -> TableSpec:
     shape = "sin(rad(phi_deg) + P4_1.beta_rad)/cos(P4_1.beta_rad)"
     if isinstance(model.gas, TableGasSection):
-        cold = "interpolate(min(phi_deg, 720 - phi_deg), gas_points_deg, gas_points_mpa)"
+        cold = (
+            smooth_pressure("min(phi_deg, 720 - phi_deg)")
+            if is_smooth(model)
+            else ("interpolate(min(phi_deg, 720 - phi_deg), gas_points_deg, gas_points_mpa)")
+        )
     else:
         cold = from_cycle(
             model,

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reports.formula.numeric import evaluate
-from reports.tables.spec import Column, Model, Scalar
+from reports.tables.spec import Column, Grid, Model, Scalar
 
 Array = NDArray[np.float64]
 
@@ -33,6 +33,12 @@ class _Evaluation:
         for table in model.tables.values():
             for column in table.columns:
                 self.nodes[f"{table.id}.{column.key}"] = column
+        self.runs = {
+            f"{block.id}.{row.of}": [cell.key for cell in row.cells if cell is not None]
+            for block in model.blocks
+            if isinstance(block, Grid)
+            for row in block.rows
+        }
         for field in model.inputs:
             value = field.value
             if field.choices is not None and isinstance(value, str):
@@ -48,6 +54,9 @@ class _Evaluation:
 
     def value(self, key: str) -> Any:  # noqa: ANN401
         if key in self.done:
+            return self.done[key]
+        if key in self.runs:
+            self.done[key] = np.array([self.value(name) for name in self.runs[key]], dtype=float)
             return self.done[key]
         if key in self.running:
             msg = f"the formulas refer to each other in a circle at {key}"

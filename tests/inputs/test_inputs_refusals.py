@@ -209,11 +209,12 @@ CASES = {
     ),
     "unknown source": (
         {"gas.source": "x"},
-        "gas.source: недопустимое значение «x»; допустимо: polytropic, table, cycle",
+        "gas.source: недопустимое значение «x»; допустимо: polytropic, table, cycle, rounded, file",
     ),
     "no source": (
         {"gas.source": GONE},
-        "gas.source: обязательный ключ не задан; допустимо: polytropic, table, cycle",
+        "gas.source: обязательный ключ не задан; "
+        "допустимо: polytropic, table, cycle, rounded, file",
     ),
     "masses mixed": (
         {"masses.rod_kg": 1.7},

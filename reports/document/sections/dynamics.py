@@ -10,12 +10,15 @@ from markupsafe import Markup
 from reports.document.blocks import TableBlock
 from reports.document.figures import Level, Mark, line_chart, pv_diagram
 from reports.document.sections.chapter import Chapter
+from reports.document.sections.diagram import rounded_text
 from reports.document.sections.masses import mass_notes
 from reports.document.sections.plots import PHI, over_phi, phi, series
 from reports.document.spec_tables import scalar_table
 from reports.document.terms import Terms
 from reports.document.writer import Figure, TablePlan
 from reports.inputs.model import TableGasSection
+from reports.inputs.model_gas import RoundedGasSection
+from reports.tables.diagram import is_smooth
 
 EXAMPLE = 390.0  # shortly after the greatest pressure
 
@@ -23,7 +26,7 @@ EXAMPLE = 390.0  # shortly after the greatest pressure
 def dynamics(chapter: Chapter) -> Markup:
     """Masses, pressure of the gases and the forces of one cylinder."""
     terms, gas = chapter.terms, chapter.input.gas
-    polytropic = not isinstance(gas, TableGasSection)
+    polytropic = not isinstance(gas, TableGasSection | RoundedGasSection)
     figures = {
         "pv": _pv(terms),
         "p_phi": _p_phi(terms),
@@ -42,6 +45,8 @@ def dynamics(chapter: Chapter) -> Markup:
         figures=figures,
         points=points,
         polytropic=polytropic,
+        rounded=partial(rounded_text, chapter),
+        smooth=is_smooth(chapter.input),
         pressure=_pressure_tex(terms) if polytropic else "",
         masses=masses,
         mass_notes=partial(mass_notes, chapter),

@@ -16,6 +16,7 @@ from reports.document.writer import TablePlan
 from reports.formula.tex import input_symbol_tex
 from reports.inputs.fields import Field
 from reports.inputs.model import InputFile, TableGasSection
+from reports.tables.diagram import is_smooth
 
 _LISTS = ("firing_offset_", "throw_angle_", "force_offset_", "web_", "gas_point_")
 _ARMS = ("l1", "l2", "l3", "l4", "l5", "l6", "left_web", "right_web")
@@ -45,7 +46,10 @@ def input_data(chapter: Chapter) -> Markup:
         "points": TablePlan(partial(_points, model), "Точки индикаторной диаграммы"),
     }
     return chapter.page(
-        "inputs.html.j2", plans=plans, by_points=isinstance(model.gas, TableGasSection)
+        "inputs.html.j2",
+        plans=plans,
+        by_points=isinstance(model.gas, TableGasSection),
+        smooth=is_smooth(model),
     )
 
 

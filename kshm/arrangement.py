@@ -16,14 +16,15 @@ class Cylinder:
 
     ``throw`` counts from 0 at the nose; ``axis`` is the angle of the cylinder's axis from
     that of cylinder 1 [rad]; ``rod_place`` is 0 for the rod nearer to the nose (between l2
-    and l3 of Gots figure 36), 1 for the other (between l4 and l5); ``pin_angle`` turns this
-    rod's half of a split pin against the throw [rad]; ``master`` is the number from 0 of the
-    cylinder whose rod carries this one's articulated rod.
+    and l3 of Gots figure 36), 1 for the other (between l4 and l5); ``pin`` tells the halves
+    of a split pin apart, ``pin_angle`` turns this one against the throw [rad]; ``master`` is
+    the number from 0 of the cylinder whose rod carries this one's articulated rod.
     """
 
     throw: int
     axis: float = 0.0
     rod_place: int = 0
+    pin: int = 0
     pin_angle: float = 0.0
     master: int | None = None
 
@@ -53,24 +54,24 @@ def in_line(count: int) -> Arrangement:
 
 
 def v_shaped(
-    count: int, bank_angle: float, *, split_pin: float = 0.0, articulated: bool = False
+    count: int, bank_angle: float, *, split_pin: float | None = None, articulated: bool = False
 ) -> Arrangement:
     """Two banks with two rods on every pin: throw k carries cylinders k and k + n, Gots 2.7.2.
 
     Args:
         count: number of cylinders, even.
         bank_angle: from the left bank's axis to the right one's [rad].
-        split_pin: how far the right rods' halves of the pins stand ahead [rad].
+        split_pin: how far the right rods' halves of the pins stand ahead [rad]; None for
+            pins that both rods share.
         articulated: the right rods hang on the left ones.
     """
     throws = count // 2
     left = tuple(Cylinder(throw) for throw in range(throws))
-    right = tuple(
-        Cylinder(throw, bank_angle, 0, 0.0, throw)
-        if articulated
-        else Cylinder(throw, bank_angle, 1, split_pin)
-        for throw in range(throws)
-    )
+    if articulated:
+        right = tuple(Cylinder(throw, bank_angle, master=throw) for throw in range(throws))
+    else:
+        pin, turned = (0, 0.0) if split_pin is None else (1, split_pin)
+        right = tuple(Cylinder(throw, bank_angle, 1, pin, turned) for throw in range(throws))
     return left + right
 
 
@@ -89,3 +90,19 @@ def throw_angle(cylinder: Cylinder, firing_offset: float) -> float:
     in line γ ≡ −θ.
     """
     return (cylinder.axis - cylinder.pin_angle - firing_offset) % (2 * math.pi)
+
+
+def pins(arrangement: Arrangement) -> tuple[tuple[int, ...], ...]:
+    """Cylinders (from 0) on every crankpin, the pins counted from the nose."""
+    places = sorted({(c.throw, c.pin) for c in arrangement})
+    return tuple(
+        tuple(i for i, c in enumerate(arrangement) if (c.throw, c.pin) == place) for place in places
+    )
+
+
+def throws(arrangement: Arrangement) -> tuple[tuple[int, ...], ...]:
+    """Cylinders (from 0) on every throw from the nose."""
+    count = 1 + max(c.throw for c in arrangement)
+    return tuple(
+        tuple(i for i, c in enumerate(arrangement) if c.throw == throw) for throw in range(count)
+    )

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from kshm.arrangement import Arrangement, ArticulatedRod, Cylinder
+from kshm.articulated import Linkage
 from kshm.engine import Engine, PolytropicGas
 from kshm.gas import PolytropicArrays
 from kshm.inertia import point_masses, throw_mass
@@ -31,12 +33,30 @@ class Batch:
     m_2: Array
     m_k: Array
     exact: NDArray[np.bool_]
+    k: Array  # relative offset e/r
+    piston_stroke: Array
     theta: Array  # (engines, cylinders, 1)
     force_theta: Array
+    axis: Array  # of the cylinder from that of cylinder 1, (engines, cylinders, 1)
+    pin_angle: Array  # of the split pin's half, (engines, cylinders, 1)
+    pin_mass: Array  # m_2 that turns with the crankpin, (engines, cylinders, 1)
+    arrangement: Arrangement
+    articulated: ArticulatedArrays | None
     p_ambient: Array
     gas: PolytropicArrays | None  # None: tables of points
     throws: ThrowArrays
     rays: int
+
+
+@dataclass(frozen=True, slots=True)
+class ArticulatedArrays:
+    """Articulated rods of all engines, (engines, 1, 1) as the scalars of ``Batch``."""
+
+    link: Linkage
+    reciprocating: Array
+    big_end: Array
+    cylinders: tuple[int, ...]  # those that hang on others
+    masters: tuple[int, ...]
 
 
 def structure(engine: Engine) -> tuple[object, ...]:
@@ -48,6 +68,7 @@ def structure(engine: Engine) -> tuple[object, ...]:
         engine.rays,
         len(engine.crankshaft.throws),
         type(engine.gas),
+        tuple((c.throw, c.rod_place, c.pin, c.master) for c in engine.arrangement),
     )
 
 
@@ -61,12 +82,15 @@ def stack(engines: Sequence[Engine]) -> Batch:
         msg = "no engines to solve"
         raise ValueError(msg)
     if len({structure(engine) for engine in engines}) > 1:
-        msg = "engines of one batch must have one structure: cylinders, strokes, step, rays, gas"
+        msg = "engines of one batch must have one structure: layout, strokes, step, rays, gas"
         raise ValueError(msg)
     first = engines[0]
 
     def scalars(get: Callable[[Engine], float]) -> Array:
         return np.array([get(engine) for engine in engines], dtype=float)[:, None, None]
+
+    def per_cylinder(get: Callable[[Cylinder], float]) -> Array:
+        return np.array([[get(c) for c in engine.arrangement] for engine in engines])[:, :, None]
 
     masses = [point_masses(e.masses, e.geometry.rod_length) for e in engines]
     degrees = np.arange(0, first.strokes * 180 + first.step_deg, first.step_deg, dtype=float)
@@ -84,12 +108,52 @@ def stack(engines: Sequence[Engine]) -> Batch:
         m_2=np.array([pair[1] for pair in masses])[:, None, None],
         m_k=scalars(lambda e: throw_mass(e.crankshaft.throws[0])),
         exact=np.array([engine.method == "exact" for engine in engines])[:, None, None],
+        k=scalars(lambda e: e.geometry.relative_offset),
+        piston_stroke=scalars(lambda e: e.geometry.stroke),
         theta=theta,
         force_theta=forced[:, :, None],
+        axis=per_cylinder(lambda c: c.axis),
+        pin_angle=per_cylinder(lambda c: c.pin_angle),
+        pin_mass=np.array([pair[1] for pair in masses])[:, None, None]
+        * per_cylinder(lambda c: float(c.master is None)),
+        arrangement=first.arrangement,
+        articulated=_stack_articulated(engines),
         p_ambient=scalars(lambda e: e.gas.p_ambient),
         gas=_stack_gas(engines),
         throws=_stack_throws(engines),
         rays=first.rays,
+    )
+
+
+def _stack_articulated(engines: Sequence[Engine]) -> ArticulatedArrays | None:
+    first = engines[0]
+    pairs = [(i, c.master) for i, c in enumerate(first.arrangement) if c.master is not None]
+    rods = [(e, e.articulated) for e in engines if e.articulated is not None]
+    if not pairs:
+        return None
+    if len(rods) != len(engines):
+        msg = "the arrangement has articulated rods, the engine does not describe them"
+        raise ValueError(msg)
+    slave = pairs[0][0]
+
+    def scalars(get: Callable[[Engine, ArticulatedRod], float]) -> Array:
+        return np.array([get(engine, rod) for engine, rod in rods], dtype=float)[:, None, None]
+
+    link = Linkage(
+        r=scalars(lambda e, _: e.geometry.crank_radius),
+        rod_length=scalars(lambda e, _: e.geometry.rod_length),
+        offset=scalars(lambda e, _: e.geometry.offset),
+        bank=scalars(lambda e, _: e.arrangement[slave].axis),
+        radius=scalars(lambda _, rod: rod.radius),
+        angle=scalars(lambda _, rod: rod.angle),
+        own_length=scalars(lambda _, rod: rod.rod_length),
+    )
+    return ArticulatedArrays(
+        link,
+        reciprocating=scalars(lambda _, rod: rod.reciprocating),
+        big_end=scalars(lambda _, rod: rod.big_end),
+        cylinders=tuple(i for i, _ in pairs),
+        masters=tuple(master for _, master in pairs),
     )
 
 

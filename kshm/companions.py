@@ -24,7 +24,12 @@ SHOWN_ORDERS = (1, 2, 4, 6)
 
 
 def companion_columns(engine: Engine, raw: BatchSolution, index: int) -> dict[str, Columns]:
-    """Table id → column key → values in the units of the tables."""
+    """Table id → column key → values in the units of the tables.
+
+    Made for four-stroke in-line engines with a central mechanism; others get none.
+    """
+    if not engine.is_basic:
+        return {}
     others = {
         **balance_results.columns(engine),
         **inertia_results.columns(engine, raw, index),
@@ -40,7 +45,9 @@ def companion_columns(engine: Engine, raw: BatchSolution, index: int) -> dict[st
 
 
 def companion_scalars(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float]:
-    """All scalars of the companion sources in SI units."""
+    """All scalars of the companion sources in SI units; of basic engines only."""
+    if not engine.is_basic:
+        return {}
     return {
         **_segal_scalars(engine),
         **_neiman_scalars(engine),

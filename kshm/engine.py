@@ -21,15 +21,15 @@ class Geometry:
 
     ``crank_offset`` is how far the cylinder's axis passes the shaft on the side to which
     the crank turns at TDC, ``pin_offset`` how far the piston pin stands from the
-    cylinder's axis on the same side, Gots 1.4.
+    cylinder's axis on the same side, Gots 1.4.  None of both: a central mechanism.
     """
 
     bore: float
     crank_radius: float
     rod_length: float
     compression_ratio: float
-    crank_offset: float = 0.0
-    pin_offset: float = 0.0
+    crank_offset: float | None = None
+    pin_offset: float | None = None
 
     @property
     def lam(self) -> float:
@@ -39,7 +39,12 @@ class Geometry:
     @property
     def offset(self) -> float:
         """Distance e of the pin's path from the shaft axis [m]."""
-        return self.crank_offset + self.pin_offset
+        return (self.crank_offset or 0.0) + (self.pin_offset or 0.0)
+
+    @property
+    def is_central(self) -> bool:
+        """Whether the mechanism is meant to have no offset, not even one of zero."""
+        return self.crank_offset is None and self.pin_offset is None
 
     @property
     def relative_offset(self) -> float:
@@ -270,7 +275,7 @@ class Engine:
     @property
     def is_basic(self) -> bool:
         """Whether this is a four-stroke in-line engine with a central mechanism."""
-        return self.is_in_line and self.strokes == 4 and self.geometry.offset == 0
+        return self.is_in_line and self.strokes == 4 and self.geometry.is_central
 
     @property
     def cylinders(self) -> int:

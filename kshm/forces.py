@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from kshm.kinematics import CENTRAL
+
 Array = NDArray[np.float64]
 
 
@@ -20,7 +22,7 @@ class RodForces:
     T: Array
 
 
-def decompose(axial: Array, phi: Array, lam: Array) -> RodForces:
+def decompose(axial: Array, phi: Array, lam: Array, k: Array = CENTRAL) -> RodForces:
     """Split the axial force P_s into N, S, K, T with the exact rod angle, Gots (34)-(37).
 
     The rod pushes the crankpin along the unit vector from the piston pin to the
@@ -29,8 +31,8 @@ def decompose(axial: Array, phi: Array, lam: Array) -> RodForces:
     """
     # Plane with x along the rotation at TDC and y up the cylinder axis; lengths over L.
     pin_x, pin_y = lam * np.sin(phi), lam * np.cos(phi)
-    rod_x = pin_x
-    rod_y = -np.sqrt(1 - pin_x**2)
+    rod_x = pin_x - lam * k  # the piston pin stands at the offset
+    rod_y = -np.sqrt(1 - rod_x**2)
     thrust = -axial / rod_y
     force_x, force_y = thrust * rod_x, thrust * rod_y
     radial = (force_x * pin_x + force_y * pin_y) / lam

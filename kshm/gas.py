@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from kshm.kinematics import displacement_exact
-
 Array = NDArray[np.float64]
 
-FULL = 4 * np.pi  # four-stroke cycle [rad]
 # Angles come from whole degrees: 1e-9 rad decides on which side of a switch a point lies.
 SLACK = 1e-9
 
@@ -30,55 +28,150 @@ class PolytropicArrays:
     ignition_advance: Array
     exhaust_open: Array
     exhaust_close: Array
+    scavenge_open: Array
 
 
-def volume_ratio(phi: Array, r: Array, lam: Array, eps: Array) -> Array:
-    """Cylinder volume over clearance volume V/V_c [-] from the exact displacement."""
-    return 1 + (eps - 1) * displacement_exact(phi, r, lam) / (2 * r)
+@dataclass(frozen=True, slots=True)
+class Stroke:
+    """When and how the volume of each cylinder changes, as arrays that broadcast.
+
+    ``ratio`` gives V/V_c [-] at crank angles [rad] of the cylinder; ``tdc`` and ``bdc`` are
+    its dead centres [rad], 0 and π in a central mechanism.
+    """
+
+    ratio: Callable[[Array], Array]
+    tdc: Array
+    bdc: Array
+
+
+def volume_ratio(displacement: Array, stroke: Array, eps: Array) -> Array:
+    """Cylinder volume over clearance volume V/V_c [-]; V_c from the piston's own stroke."""
+    ratio: Array = 1 + (eps - 1) * displacement / stroke
+    return ratio
 
 
 def polytropic_pressure(
-    phi: Array, r: Array, lam: Array, eps: Array, gas: PolytropicArrays
+    phi: Array, motion: Stroke, eps: Array, gas: PolytropicArrays, *, strokes: int = 4
 ) -> Array:
-    """Absolute gas pressure [Pa] at the angles ``phi`` [rad] taken modulo 4π.
+    """Absolute gas pressure [Pa] at the angles ``phi`` [rad] of the cylinder.
 
-    φ = 0 is TDC before intake.  Intake at p_a, compression from BDC by the
-    polytrope n_1, from φ_c a straight rise towards p_z that would end after the
-    injection advance, then the isobar to ρV_c and the polytrope n_2, a straight
-    line from the start of the exhaust to its end, p_r afterwards (and at φ = 0).
+    The timing is counted from the dead centres that the mechanism has: an offset moves
+    them, and the angles of ``gas`` with them.
     """
-    angle = np.mod(phi, FULL)
-    ratio = volume_ratio(angle, r, lam, eps)
+    timing = _Timing(phi, motion, eps, gas, 2 * np.pi * (strokes // 2))
+    return _two_stroke(timing) if strokes == 2 else _four_stroke(timing)
 
-    compression = gas.p_intake * (eps / ratio) ** gas.n_compression
-    start_ratio = volume_ratio(gas.combustion_start, r, lam, eps)
-    at_start = gas.p_intake * (eps / start_ratio) ** gas.n_compression
-    slope = (gas.p_max - at_start) / gas.ignition_advance
-    rise = np.minimum(gas.p_max, at_start + slope * (angle - gas.combustion_start))
-    expansion = gas.p_max * np.minimum(1.0, (gas.rho / ratio) ** gas.n_expansion)
 
-    open_ratio = volume_ratio(gas.exhaust_open, r, lam, eps)
-    at_open = gas.p_max * np.minimum(1.0, (gas.rho / open_ratio) ** gas.n_expansion)
-    fraction = (angle - gas.exhaust_open) / (gas.exhaust_close - gas.exhaust_open)
-    release = at_open + (gas.p_residual - at_open) * fraction
+class _Timing:
+    """Angles from the piston's TDC and the curves that both kinds of cycle share."""
 
-    intake = np.broadcast_to(gas.p_intake, ratio.shape)
-    residual = np.broadcast_to(gas.p_residual, ratio.shape)
+    def __init__(
+        self, phi: Array, motion: Stroke, eps: Array, gas: PolytropicArrays, period: float
+    ) -> None:
+        self.angle = np.mod(phi - motion.tdc, period)
+        self.ratio = motion.ratio(phi)
+        self.half = motion.bdc - motion.tdc
+        self.eps, self.gas, self._motion = eps, gas, motion
+
+    def ratio_at(self, angle: Array) -> Array:
+        """V/V_c at an angle from TDC."""
+        return self._motion.ratio(angle + self._motion.tdc)
+
+    def from_bdc(self, angle: Array) -> Array:
+        """Angle of the input, meant for a BDC half a turn after TDC, from this TDC."""
+        return angle + (self.half - np.pi)
+
+    def compression(self, ratio: Array, begin: Array) -> Array:
+        """Polytrope n_1 from p_a at the ratio ``begin``."""
+        pressure: Array = self.gas.p_intake * (begin / ratio) ** self.gas.n_compression
+        return pressure
+
+    def rise(self, angle: Array, begin: Array) -> Array:
+        """Straight rise from the start of combustion, at most to p_z."""
+        gas = self.gas
+        at_start = self.compression(self.ratio_at(gas.combustion_start), begin)
+        slope = (gas.p_max - at_start) / gas.ignition_advance
+        return np.minimum(gas.p_max, at_start + slope * (angle - gas.combustion_start))
+
+    def expansion(self, ratio: Array) -> Array:
+        """Isobar to ρV_c and polytrope n_2."""
+        gas = self.gas
+        return gas.p_max * np.minimum(1.0, (gas.rho / ratio) ** gas.n_expansion)
+
+    def line(self, begin: Array, from_: Array, end: Array, to: Array) -> Array:
+        """Straight line of the pressure over the angle."""
+        fraction = (self.angle - begin) / (end - begin)
+        pressure: Array = from_ + (to - from_) * fraction
+        return pressure
+
+
+def _four_stroke(t: _Timing) -> Array:
+    """Intake at p_a, compression from BDC, combustion, expansion, exhaust.
+
+    φ = 0 is TDC before intake.  Compression by the polytrope n_1, from φ_c a straight
+    rise towards p_z that would end after the injection advance, then the isobar to ρV_c
+    and the polytrope n_2, a straight line from the start of the exhaust to its end, p_r
+    afterwards (and at φ = 0).
+    """
+    gas, angle = t.gas, t.angle
+    opens, closes = t.from_bdc(gas.exhaust_open), t.from_bdc(gas.exhaust_close)
+    at_open = t.expansion(t.ratio_at(opens))
+    intake = np.broadcast_to(gas.p_intake, t.ratio.shape)
+    residual = np.broadcast_to(gas.p_residual, t.ratio.shape)
     conditions = [
         angle <= SLACK,
-        angle <= np.pi + SLACK,
+        angle <= t.half + SLACK,
         angle <= gas.combustion_start + SLACK,
         angle <= 2 * np.pi + SLACK,
-        angle <= gas.exhaust_open + SLACK,
-        angle <= gas.exhaust_close + SLACK,
+        angle <= opens + SLACK,
+        angle <= closes + SLACK,
     ]
-    values = [residual, intake, compression, rise, expansion, release]
+    values = [
+        residual,
+        intake,
+        t.compression(t.ratio, t.eps),
+        t.rise(angle, t.eps),
+        t.expansion(t.ratio),
+        t.line(opens, at_open, closes, gas.p_residual),
+    ]
     return np.select(conditions, values, default=residual)
+
+
+def _two_stroke(t: _Timing) -> Array:
+    """Expansion, free exhaust, scavenging, compression, combustion: one turn.
+
+    φ = 0 = 360° is TDC of combustion.  Where the ports are open the scheme of Dinn has
+    nothing to say: here straight lines over the angle, from the expansion curve at the
+    opening of the exhaust to p_r at the opening of the scavenging ports (free exhaust) and
+    on to p_a where the exhaust closes; compression begins there by the polytrope n_1.
+    """
+    gas, angle = t.gas, t.angle
+    opens, closes = t.from_bdc(gas.exhaust_open), t.from_bdc(gas.exhaust_close)
+    scavenge = t.from_bdc(gas.scavenge_open)
+    begin = t.ratio_at(closes)
+    at_open = t.expansion(t.ratio_at(opens))
+    turn = np.full_like(angle, 2 * np.pi)
+    conditions = [
+        angle <= SLACK,
+        angle <= opens + SLACK,
+        angle <= scavenge + SLACK,
+        angle <= closes + SLACK,
+        angle <= gas.combustion_start + SLACK,
+    ]
+    values = [
+        t.rise(turn, begin),
+        t.expansion(t.ratio),
+        t.line(opens, at_open, scavenge, gas.p_residual),
+        t.line(scavenge, gas.p_residual, closes, gas.p_intake),
+        t.compression(t.ratio, begin),
+    ]
+    return np.select(conditions, values, default=t.rise(angle, begin))
 
 
 def tabulated_pressure(phi: Array, angles: Array, pressures: Array) -> Array:
     """Absolute gas pressure [Pa] by straight lines between the given points.
 
-    Straight lines cannot overshoot.  ``angles`` [rad] rise from 0 to 4π.
+    Straight lines cannot overshoot.  ``angles`` [rad] rise from 0 to the cycle's end.
     """
-    return np.interp(np.mod(phi, FULL), angles, pressures)
+    pressure: Array = np.interp(np.mod(phi, angles[-1]), angles, pressures)
+    return pressure

@@ -34,6 +34,10 @@ def throw_mass(throw: Throw) -> float:
 
 
 def rotating_mass(engine: Engine) -> float:
-    """Rotating mass of the first throw with its rod m_r = m_к + m_2 [kg], Gots (29)."""
+    """Rotating mass of the first throw with its rods m_r = m_к + Σm_2 [kg], Gots (29).
+
+    Two rods on a pin count twice; an articulated rod hangs on its master and does not.
+    """
     _, big_end = point_masses(engine.masses, engine.geometry.rod_length)
-    return throw_mass(engine.crankshaft.throws[0]) + big_end
+    rods = sum(place.throw == 0 and place.master is None for place in engine.arrangement)
+    return throw_mass(engine.crankshaft.throws[0]) + rods * big_end

@@ -39,13 +39,48 @@ class Positions:
 
     left_web: Array
     rod: Array
+    right_rod: Array  # the second rod of a V engine's throw
     pin: Array
     right_web: Array
     length: Array
 
 
+@dataclass(frozen=True, slots=True)
+class Rods:
+    """Which throw carries each rod, and where; arrays of shape (engines, cylinders)."""
+
+    throw: tuple[int, ...]
+    place: tuple[int, ...]  # 0 the rod nearer to the nose, 1 the other
+    turn: Array  # δ: how far a split pin's half stands ahead of its throw [rad]
+    mass: Array  # m_2 that turns with the pin [kg]
+
+    def summed(self, values: Array, throws: int) -> Array:
+        """Sum over the rods of every throw: (engines, cylinders, …) to (engines, throws, …)."""
+        total = np.zeros((values.shape[0], throws, *values.shape[2:]))
+        for rod, throw in enumerate(self.throw):
+            total[:, throw] += values[:, rod]
+        return total
+
+    def places(self, found: Positions) -> Array:
+        """Distance of each rod from its throw's left support [m], (engines, cylinders)."""
+        both = (found.rod, found.right_rod)
+        columns = [
+            both[place][:, throw] for throw, place in zip(self.throw, self.place, strict=True)
+        ]
+        return np.stack(columns, axis=1)
+
+
+def in_throw_frame(K: Array, T: Array, turn: Array) -> tuple[Array, Array]:
+    """Forces K and T on a split pin's half as components of its throw's frame.
+
+    ``turn`` [rad] is how far the half stands ahead of the throw; it broadcasts.
+    """
+    cos, sin = np.cos(turn), np.sin(turn)
+    return K * cos + T * sin, T * cos - K * sin
+
+
 def positions(throws: ThrowArrays) -> Positions:
-    """Places of webs, rod and pin along each throw, Gots figures 35 and 36 (in-line)."""
+    """Places of webs, rods and pin along each throw, Gots figures 35 and 36."""
     l1, l2, l3, l4, l5, l6 = np.moveaxis(throws.arms, -1, 0)
     h_left, h_right = throws.left_web_thickness, throws.right_web_thickness
     rod = l1 + h_left + l2
@@ -53,6 +88,7 @@ def positions(throws: ThrowArrays) -> Positions:
     return Positions(
         left_web=l1 + h_left / 2,
         rod=rod,
+        right_rod=rod + l3 + l4,
         pin=rod + l3,
         right_web=right + h_right / 2,
         length=right + h_right + l6,
@@ -65,15 +101,18 @@ def right_share(place: Array, length: Array) -> Array:
 
 
 def centrifugal_reactions(
-    throws: ThrowArrays, r: Array, omega: Array, rod_big_end: Array
+    throws: ThrowArrays, r: Array, omega: Array, rods: Rods
 ) -> tuple[Array, Array]:
     """Constant reactions of both supports to centrifugal forces [N], Gots (44)-(49).
+
+    With two rods on a throw C_3 is the mass m_2 of the left one, C_5 that of the right one.
+    Half of a split pin's mass stands in the direction of each half, in the middle of the pin.
 
     Args:
         throws: shape (engines, throws).
         r: crank radius [m], shape (engines, 1).
         omega: angular velocity [rad/s], same shape.
-        rod_big_end: m_2 [kg], same shape.
+        rods: the rods on the throws.
 
     Returns:
         Left and right reactions, shape (engines, throws, 2), the last axis being
@@ -81,10 +120,17 @@ def centrifugal_reactions(
     """
     unit = r * omega**2
     place = positions(throws)
-    loads: list[tuple[Array, Array, Array]] = [
-        (place.rod, rod_big_end * unit, np.zeros_like(place.rod)),
-        (place.pin, throws.pin_mass * unit, np.zeros_like(place.rod)),
-    ]
+    count = place.rod.shape[1]
+    up, ahead = np.cos(rods.turn), np.sin(rods.turn)
+    carried = rods.summed(np.ones_like(rods.turn), count)
+    pin_up, pin_ahead = (rods.summed(part, count) / carried for part in (up, ahead))
+    loads: list[tuple[Array, Array, Array]] = []
+    for which, where in enumerate((place.rod, place.right_rod)):
+        mass = rods.mass * (np.array(rods.place) == which)
+        along, across = (rods.summed(mass * part, count) * unit for part in (up, ahead))
+        loads.append((where, along, -across))
+    pin = throws.pin_mass * unit
+    loads.append((place.pin, pin * pin_up, -pin * pin_ahead))
     for side, where in enumerate((place.left_web, place.right_web)):
         web = throws.web_mass[..., side] * unit
         web_angle = throws.web_angle[..., side]
@@ -137,14 +183,16 @@ def to_shaft_axes(vector: Array, gamma: Array) -> Array:
 
 
 def main_reactions(
-    K: Array, T: Array, throws: ThrowArrays, constant: tuple[Array, Array]
+    K: Array, T: Array, throws: ThrowArrays, rods: Rods, constant: tuple[Array, Array]
 ) -> tuple[Array, Array, Array]:
     """Reactions of every main bearing on its journal [N] in shaft axes, Gots (50)-(57).
 
     Args:
-        K: force towards the crank axis at each throw [N], (engines, throws, angles).
-        T: force along the rotation at each throw [N], same shape.
+        K: force of each rod towards the crank axis in its throw's frame [N],
+            (engines, cylinders, angles).
+        T: force of each rod along the rotation in its throw's frame [N], same shape.
         throws: the throws.
+        rods: the rods on the throws.
         constant: left and right centrifugal reactions, see ``centrifugal_reactions``.
 
     Returns:
@@ -152,11 +200,13 @@ def main_reactions(
         after each journal, same shape; the last axis is x, y.
     """
     place = positions(throws)
-    share = right_share(place.rod, place.length)[..., None, None]
+    count = place.rod.shape[1]
+    length = place.length[:, list(rods.throw)]
+    share = right_share(rods.places(place), length)[..., None, None]
     # A push along T is answered against rotation ("left"), a push K inwards by "up".
     answer = np.stack([T, K], axis=-1)
-    left = constant[0][:, :, None, :] + (1 - share) * answer
-    right = constant[1][:, :, None, :] + share * answer
+    left = constant[0][:, :, None, :] + rods.summed((1 - share) * answer, count)
+    right = constant[1][:, :, None, :] + rods.summed(share * answer, count)
     gamma = throws.angle[:, :, None]
     left, right = to_shaft_axes(left, gamma), to_shaft_axes(right, gamma)
     engines, count, angles, _ = left.shape

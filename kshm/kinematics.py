@@ -1,7 +1,9 @@
-"""Kinematics of the central crank mechanism, Gots chapter 1.
+"""Kinematics of the crank mechanism, Gots chapter 1: central and with an offset.
 
 Every function takes arrays that broadcast (the crank angle on the last axis)
-and returns SI values.  Angles are in radians, φ = 0 at top dead centre.
+and returns SI values.  Angles are in radians.  φ = 0 where the crank is parallel
+to the cylinder's axis: top dead centre of the central mechanism.  ``k`` = e/r is
+the relative offset of Gots 1.4; zero gives the central mechanism bit for bit.
 """
 
 from __future__ import annotations
@@ -11,18 +13,30 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-
-def rod_angle(phi: Array, lam: Array) -> Array:
-    """Rod angle β [rad], positive in the direction of rotation, Gots (2), (7)."""
-    return np.arcsin(lam * np.sin(phi))
+CENTRAL: Array = np.zeros(())
 
 
-def displacement_exact(phi: Array, r: Array, lam: Array) -> Array:
-    """Piston displacement from TDC [m], exact, Gots (1)."""
+def rod_angle(phi: Array, lam: Array, k: Array = CENTRAL) -> Array:
+    """Rod angle β [rad], positive in the direction of rotation, Gots (2), (7), (13), (17)."""
+    return np.arcsin(lam * (np.sin(phi) - k))
+
+
+def dead_centres(lam: Array, k: Array) -> tuple[Array, Array]:
+    """Crank angles of TDC and BDC [rad], Gots (9), (10): near 0 and near π.
+
+    φ_1 as printed; BDC stands at π − φ_2 with the sign of (10).
+    """
+    return np.arcsin(lam * k / (1 + lam)), np.pi + np.arcsin(lam * k / (1 - lam))
+
+
+def displacement_exact(phi: Array, r: Array, lam: Array, k: Array = CENTRAL) -> Array:
+    """Piston displacement from TDC [m], exact, Gots (1), (12)."""
     # Distance of the piston pin from the crank axis, straight from the triangle.
     rod = r / lam
-    pin = r * np.cos(phi) + np.sqrt(rod**2 - (r * np.sin(phi)) ** 2)
-    return r + rod - pin
+    pin = r * np.cos(phi) + np.sqrt(rod**2 - (r * np.sin(phi) - k * r) ** 2)
+    top = np.where(k == 0, r + rod, np.sqrt((r + rod) ** 2 - (k * r) ** 2))
+    displacement: Array = top - pin
+    return displacement
 
 
 def displacement_orders(phi: Array, r: Array, lam: Array) -> tuple[Array, Array]:
@@ -30,9 +44,20 @@ def displacement_orders(phi: Array, r: Array, lam: Array) -> tuple[Array, Array]
     return r * (1 - np.cos(phi)), r * lam / 2 * np.sin(phi) ** 2
 
 
-def velocity_exact(phi: Array, r: Array, lam: Array, omega: Array) -> Array:
+def displacement_offset(phi: Array, r: Array, lam: Array, k: Array) -> Array:
+    """What an offset adds to the two-term displacement [m], Gots (14) less (3).
+
+    (14) keeps the exact height of TDC, so the two-term s is slightly off zero there.
+    """
+    rod = 1 / lam
+    top = np.sqrt((rod + 1) ** 2 - k**2) - (rod + 1)
+    added: Array = r * (top + lam * k * (k / 2 - np.sin(phi)))
+    return added
+
+
+def velocity_exact(phi: Array, r: Array, lam: Array, omega: Array, k: Array = CENTRAL) -> Array:
     """Piston velocity [m/s], exact, Gots 1.2 (instant centre of the rod)."""
-    beta = rod_angle(phi, lam)
+    beta = rod_angle(phi, lam, k)
     velocity: Array = r * omega * (np.sin(phi) + np.tan(beta) * np.cos(phi))
     return velocity
 
@@ -42,9 +67,15 @@ def velocity_orders(phi: Array, r: Array, lam: Array, omega: Array) -> tuple[Arr
     return r * omega * np.sin(phi), r * omega * lam * np.sin(phi) * np.cos(phi)
 
 
-def acceleration_exact(phi: Array, r: Array, lam: Array, omega: Array) -> Array:
-    """Piston acceleration [m/s²], exact: the second derivative of Gots (1)."""
-    beta = rod_angle(phi, lam)
+def velocity_offset(phi: Array, r: Array, lam: Array, omega: Array, k: Array) -> Array:
+    """What an offset adds to the two-term velocity [m/s], Gots (15) less (4)."""
+    added: Array = -r * omega * lam * k * np.cos(phi)
+    return added
+
+
+def acceleration_exact(phi: Array, r: Array, lam: Array, omega: Array, k: Array = CENTRAL) -> Array:
+    """Piston acceleration [m/s²], exact: the second derivative of Gots (1), (12)."""
+    beta = rod_angle(phi, lam, k)
     cos_b = np.cos(beta)
     shape = np.cos(phi + beta) / cos_b + lam * np.cos(phi) ** 2 / cos_b**3
     acceleration: Array = r * omega**2 * shape
@@ -57,17 +88,34 @@ def acceleration_orders(phi: Array, r: Array, lam: Array, omega: Array) -> tuple
     return centripetal * np.cos(phi), centripetal * lam * (2 * np.cos(phi) ** 2 - 1)
 
 
-def rod_angular_velocity(phi: Array, lam: Array, omega: Array) -> tuple[Array, Array]:
-    """Angular velocity of the rod [rad/s], exact and approximate, Gots (8)."""
-    exact = omega * lam * np.cos(phi) / np.cos(rod_angle(phi, lam))
+def acceleration_offset(phi: Array, r: Array, lam: Array, omega: Array, k: Array) -> Array:
+    """What an offset adds to the two-term acceleration [m/s²], Gots (16) less (6)."""
+    added: Array = r * omega**2 * lam * k * np.sin(phi)
+    return added
+
+
+def rod_angular_velocity(
+    phi: Array, lam: Array, omega: Array, k: Array = CENTRAL
+) -> tuple[Array, Array]:
+    """Angular velocity of the rod [rad/s], exact and approximate, Gots (8), (18), (18a)."""
+    exact = omega * lam * np.cos(phi) / np.cos(rod_angle(phi, lam, k))
     return exact, omega * lam * np.cos(phi)
 
 
-def rod_angular_acceleration(phi: Array, lam: Array, omega: Array) -> tuple[Array, Array]:
-    """Angular acceleration of the rod [rad/s²], exact and approximate, Gots 1.3."""
-    cos_b = np.cos(rod_angle(phi, lam))
-    exact = -(omega**2) * lam * (1 - lam**2) * np.sin(phi) / cos_b**3
-    return exact, -(omega**2) * lam * np.sin(phi)
+def rod_angular_acceleration(
+    phi: Array, lam: Array, omega: Array, k: Array = CENTRAL
+) -> tuple[Array, Array]:
+    """Angular acceleration of the rod [rad/s²], exact and approximate, Gots 1.3, (19), (19a).
+
+    (19a) is printed without its minus.
+    """
+    beta = rod_angle(phi, lam, k)
+    cos_b = np.cos(beta)
+    central = -(omega**2) * lam * (1 - lam**2) * np.sin(phi) / cos_b**3
+    # From cosβ·β'' = sinβ·β'² − λ sinφ, the relation (13) differentiated twice.
+    turning = lam * np.cos(phi) / cos_b
+    exact = omega**2 * (np.sin(beta) * turning**2 - lam * np.sin(phi)) / cos_b
+    return np.where(k == 0, central, exact), -(omega**2) * lam * np.sin(phi)
 
 
 def max_velocity_angle(lam: Array) -> Array:
@@ -82,9 +130,9 @@ def max_velocity(r: Array, lam: Array, omega: Array) -> Array:
     return first + second
 
 
-def mean_velocity(r: Array, omega: Array) -> Array:
-    """Mean piston speed c_m = 2rω/π [m/s], Gots 1.2."""
-    return 2 * r * omega / np.pi
+def mean_velocity(piston_stroke: Array, omega: Array) -> Array:
+    """Mean piston speed c_m = Sω/π [m/s], Gots 1.2."""
+    return piston_stroke * omega / np.pi
 
 
 def reference_functions(phi: Array, lam: Array) -> dict[str, Array]:

@@ -15,6 +15,7 @@ from kshm.nomenclature_chapters import CHAPTER_ROWS, CHAPTER_UNITS
 from kshm.nomenclature_companions import COMPANION_ROWS, COMPANION_UNITS
 from kshm.nomenclature_cycle import ROWS as CYCLE_ROWS
 from kshm.nomenclature_cycle import UNITS as CYCLE_UNITS
+from kshm.nomenclature_layout import LAYOUT_ROWS
 
 
 @dataclass(frozen=True, slots=True)
@@ -281,6 +282,7 @@ _ALL: dict[str, Quantity] = {
         *COMPANION_ROWS,
         *CYCLE_ROWS,
         *CHAPTER_ROWS,
+        *LAYOUT_ROWS,
     )
 }
 

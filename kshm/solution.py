@@ -10,9 +10,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kshm import kinematics
+from kshm.arrangement import pins
 from kshm.companions import companion_columns, companion_scalars
 from kshm.cycle_summary import cycle_columns
 from kshm.engine import Engine
+from kshm.layout_columns import (
+    articulated_columns,
+    direction,
+    has_single_rods,
+    layout_columns,
+    pin_table,
+    shown_pins,
+    throw_torque_key,
+    wear_table,
+)
 from kshm.nomenclature import quantity, ray_key
 from kshm.summary import summarise
 
@@ -53,12 +64,16 @@ class Solution:
             "P4_1": self._forces(),
             **{f"cylinder_{i + 1}": self._cylinder(i) for i in range(1, self.engine.cylinders)},
             "P4_2": self._torques(),
-            "crankpin": self._crankpin(),
+            **{pin_table(n): self._crankpin(n) for n in range(len(shown_pins(self.engine)))},
+            **layout_columns(self.engine, self.raw, self._index),
             **{f"P4_3_{k + 1}": self._journal(k) for k in range(self._journals)},
             "P4_4": self._running_main(),
             "P4_5": self._running_pin(),
             "P4_5s": self._running_pin_statics(),
-            "table_14": self._wear(self.raw.pin_rays[self._index]),
+            **{
+                wear_table(n): self._wear(self.raw.pin_rays[self._index, n])
+                for n in range(len(shown_pins(self.engine)))
+            },
             **{
                 f"table_14_main_{k + 1}": self._wear(self.raw.journal_rays[self._index, k])
                 for k in range(self._journals)
@@ -105,12 +120,13 @@ class Solution:
         engine = self.engine
         return np.arange(0.0, engine.strokes * 180 + engine.step_deg, engine.step_deg)
 
-    def _turn(self) -> tuple[Array, Array, Array, Array, Array]:
-        """φ over one turn with r, λ, ω as arrays for the kinematic tables."""
+    def _turn(self) -> tuple[Array, Array, Array, Array, Array, Array]:
+        """φ over one turn with r, λ, ω, k as arrays for the kinematic tables."""
         degrees = self._degrees[self._degrees <= 360]
         geometry = self.engine.geometry
         r, lam = np.array(geometry.crank_radius), np.array(geometry.lam)
-        return degrees, np.radians(degrees), r, lam, np.array(self.engine.omega)
+        k = np.array(geometry.relative_offset)
+        return degrees, np.radians(degrees), r, lam, np.array(self.engine.omega), k
 
     def _units(self, values: Columns) -> Columns:
         return {key: value / quantity(key).si for key, value in values.items()}
@@ -119,7 +135,7 @@ class Solution:
         return {"phi_deg": self._degrees if degrees is None else degrees, **self._units(values)}
 
     def _piston(self) -> Columns:
-        degrees, phi, r, lam, omega = self._turn()
+        degrees, phi, r, lam, omega, k = self._turn()
         s1, s2 = kinematics.displacement_orders(phi, r, lam)
         v1, v2 = kinematics.velocity_orders(phi, r, lam, omega)
         j1, j2 = kinematics.acceleration_orders(phi, r, lam, omega)
@@ -128,14 +144,23 @@ class Solution:
             "v1_m_s": v1, "v2_m_s": v2, "v_m_s": v1 + v2,
             "j1_m_s2": j1, "j2_m_s2": j2, "j_m_s2": j1 + j2,
         }  # fmt: skip
+        if not self.engine.geometry.is_central:
+            sk = kinematics.displacement_offset(phi, r, lam, k)
+            vk = kinematics.velocity_offset(phi, r, lam, omega, k)
+            jk = kinematics.acceleration_offset(phi, r, lam, omega, k)
+            values = {
+                "s1_mm": s1, "s2_mm": s2, "sk_mm": sk, "s_mm": s1 + s2 + sk,
+                "v1_m_s": v1, "v2_m_s": v2, "vk_m_s": vk, "v_m_s": v1 + v2 + vk,
+                "j1_m_s2": j1, "j2_m_s2": j2, "jk_m_s2": jk, "j_m_s2": j1 + j2 + jk,
+            }  # fmt: skip
         return self._with_phi(values, degrees)
 
     def _rod(self) -> Columns:
-        degrees, phi, _, lam, omega = self._turn()
-        exact, approx = kinematics.rod_angular_velocity(phi, lam, omega)
-        eps_exact, eps_approx = kinematics.rod_angular_acceleration(phi, lam, omega)
+        degrees, phi, _, lam, omega, k = self._turn()
+        exact, approx = kinematics.rod_angular_velocity(phi, lam, omega, k)
+        eps_exact, eps_approx = kinematics.rod_angular_acceleration(phi, lam, omega, k)
         values = {
-            "beta_rad": kinematics.rod_angle(phi, lam),
+            "beta_rad": kinematics.rod_angle(phi, lam, k),
             "omega_rod_exact_1_s": exact,
             "omega_rod_approx_1_s": approx,
             "eps_rod_exact_1_s2": eps_exact,
@@ -146,7 +171,7 @@ class Solution:
     def _gas(self) -> Columns:
         raw, e = self.raw, self._index
         geometry = self.engine.geometry
-        swept = geometry.piston_area * 2 * geometry.crank_radius
+        swept = geometry.piston_area * geometry.stroke
         displacement = raw.displacement[e, 0]
         volume = swept / (geometry.compression_ratio - 1) + geometry.piston_area * displacement
         ratio = volume * (geometry.compression_ratio - 1) / swept
@@ -167,18 +192,12 @@ class Solution:
         return self._with_phi(
             {
                 "phase_deg": raw.local_phi[e, cylinder],
-                "volume_ratio": self._volume_ratio(cylinder),
+                "volume_ratio": raw.volume_ratio[e, cylinder],
                 "p_MPa": raw.p[e, cylinder],
                 **values,
+                **articulated_columns(raw, e, cylinder),
             }
         )
-
-    def _volume_ratio(self, cylinder: int) -> Array:
-        geometry = self.engine.geometry
-        stroke = 2 * geometry.crank_radius
-        share = self.raw.displacement[self._index, cylinder] / stroke
-        ratio: Array = 1 + (geometry.compression_ratio - 1) * share
-        return ratio
 
     def _cylinder_values(self, cylinder: int) -> Columns:
         raw, at = self.raw, (self._index, cylinder)
@@ -193,19 +212,24 @@ class Solution:
         values = {f"M{i + 1}_Nm": raw.torque[e, i] for i in range(self.engine.cylinders)}
         return self._with_phi({**values, "Msum_Nm": raw.torque_sum[e]})
 
-    def _crankpin(self) -> Columns:
-        raw, e = self.raw, self._index
+    def _crankpin(self, pin: int) -> Columns:
+        raw, at = self.raw, (self._index, pin)
         unit = self.engine.geometry.crank_radius * self.engine.omega**2
-        throw = raw.batch.m_k[e, 0, 0] * unit / self.engine.geometry.piston_area
+        area = self.engine.geometry.piston_area
+        own = [raw.K[self._index, i] for i in pins(self.engine.arrangement)[pin]]
         values = {
-            "T_MPa": raw.T[e, 0],
-            "K_MPa": raw.K[e, 0],
-            "Krod_MPa": -raw.pin_up[e],
-            "Rpin_MPa": raw.pin_load[e],
-            "psi_deg": direction(raw.T[e, 0], -raw.pin_up[e]),
-            "Ksum_MPa": -raw.pin_up[e] - throw,
-            "Rthrow_MPa": raw.throw_load[e],
+            "T_MPa": raw.pin_side[at],
+            "K_MPa": np.sum(own, axis=0),
+            "Krod_MPa": -raw.pin_up[at],
+            "Rpin_MPa": raw.pin_load[at],
+            "psi_deg": direction(raw.pin_side[at], -raw.pin_up[at]),
         }
+        if has_single_rods(self.engine):
+            throw = raw.batch.m_k[self._index, 0, 0] * unit / area
+            values |= {
+                "Ksum_MPa": -raw.pin_up[at] - throw,
+                "Rthrow_MPa": raw.throw_load[at],
+            }
         return self._with_phi(values)
 
     def _journal(self, journal: int) -> Columns:
@@ -240,21 +264,20 @@ class Solution:
         }
         return self._with_phi(values)
 
-    def _running_main(self) -> Columns:
+    def _running(self, family: str, moments: Array, first: int) -> Columns:
+        """Torques on journals or pins from throw 1 on, with the throws' own between them."""
         raw, e = self.raw, self._index
-        values = {"Mmain2_Nm": raw.running_main[e, 1]}
-        for i in range(1, self.engine.cylinders):
-            values[f"M{i + 1}_Nm"] = raw.torque[e, i]
-            values[f"Mmain{i + 2}_Nm"] = raw.running_main[e, i + 1]
+        values = {f"{family}{first}_Nm": moments[0]}
+        for throw in range(1, self._journals - 1):
+            values[throw_torque_key(self.engine, throw)] = raw.throw_torque[e, throw]
+            values[f"{family}{throw + first}_Nm"] = moments[throw]
         return self._with_phi(values)
 
+    def _running_main(self) -> Columns:
+        return self._running("Mmain", self.raw.running_main[self._index, 1:], 2)
+
     def _running_pin(self) -> Columns:
-        raw, e = self.raw, self._index
-        values = {"Mpin1_Nm": raw.running_pin[e, 0]}
-        for i in range(1, self.engine.cylinders):
-            values[f"M{i + 1}_Nm"] = raw.torque[e, i]
-            values[f"Mpin{i + 1}_Nm"] = raw.running_pin[e, i]
-        return self._with_phi(values)
+        return self._running("Mpin", self.raw.running_pin[self._index], 1)
 
     def _running_pin_statics(self) -> Columns:
         rows = self.raw.running_pin_statics[self._index]
@@ -262,16 +285,6 @@ class Solution:
 
     def _wear(self, loads: Array) -> Columns:
         return self._with_phi({ray_key(i + 1): loads[:, i] for i in range(loads.shape[1])})
-
-
-def direction(side: Array, along: Array) -> Array:
-    """Angle of a vector from its ``along`` axis [rad] in (−π, π], steady where side ≈ 0.
-
-    Components below 1e-9 MPa are rounding noise of zero and count as zero, else
-    the angle would jump between −180° and 180°.
-    """
-    clean = np.where(np.abs(side) < 1e-3, 0.0, side)
-    return np.arctan2(clean, along)
 
 
 def reference_tables(step_deg: int = 10) -> dict[str, dict[str, Array | list[str]]]:

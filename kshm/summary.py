@@ -9,7 +9,14 @@ from numpy.typing import NDArray
 
 from kshm import inertia, kinematics
 from kshm.cycle_summary import summarise_cycle
-from kshm.engine import Engine, PolytropicGas
+from kshm.engine import Engine
+from kshm.layout_columns import shown_pins
+from kshm.layout_summary import (
+    articulated_scalars,
+    displaced,
+    gas_scalars,
+    offset_scalars,
+)
 from kshm.wear import ray_angles
 
 if TYPE_CHECKING:
@@ -33,10 +40,12 @@ def summarise(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float
     """All scalar results in SI units."""
     return {
         **_geometry(engine),
+        **offset_scalars(engine),
+        **articulated_scalars(engine, raw, index),
         **_masses(engine),
-        **_gas(engine, raw),
+        **gas_scalars(engine),
         **_torque(engine, raw, index),
-        **_pin(engine, raw, index),
+        **_pins(engine, raw, index),
         **_journals(engine, raw, index),
         **_running(raw, index),
         **_throws(raw, index),
@@ -47,23 +56,30 @@ def summarise(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float
 def _geometry(engine: Engine) -> dict[str, float]:
     geometry, omega = engine.geometry, engine.omega
     r, lam = geometry.crank_radius, geometry.lam
-    arrays = np.array(r), np.array(lam), np.array(omega)
-    swept = geometry.piston_area * 2 * r
-    fastest = float(kinematics.max_velocity(*arrays))
-    mean = float(kinematics.mean_velocity(arrays[0], arrays[2]))
-    unit = r * omega**2
-    return {
+    swept = geometry.piston_area * geometry.stroke
+    mean = float(kinematics.mean_velocity(np.array(geometry.stroke), np.array(omega)))
+    values = {
         "r_crank": r,
         "L_rod": geometry.rod_length,
         "lam": lam,
-        "S_stroke": 2 * r,
+        "S_stroke": geometry.stroke,
         "F_piston": geometry.piston_area,
         "V_h": swept,
         "V_c": swept / (geometry.compression_ratio - 1),
-        "V_engine": swept * engine.cylinders,
+        "V_engine": displaced(engine),
         "omega": omega,
         "c_m": mean,
-        "phi_vmax_deg": float(kinematics.max_velocity_angle(arrays[1])),
+    }
+    return values | (_central(engine, mean) if geometry.is_central else {})
+
+
+def _central(engine: Engine, mean: float) -> dict[str, float]:
+    """Extremes of the central mechanism's two-term motion, in closed form."""
+    r, lam, omega = engine.geometry.crank_radius, engine.geometry.lam, engine.omega
+    fastest = float(kinematics.max_velocity(np.array(r), np.array(lam), np.array(omega)))
+    unit = r * omega**2
+    return {
+        "phi_vmax_deg": float(kinematics.max_velocity_angle(np.array(lam))),
         "v_max": fastest,
         "v_ratio": fastest / mean,
         "j_tdc": unit * (1 + lam),
@@ -75,43 +91,19 @@ def _geometry(engine: Engine) -> dict[str, float]:
 def _masses(engine: Engine) -> dict[str, float]:
     m_j, m_2 = inertia.point_masses(engine.masses, engine.geometry.rod_length)
     m_k = inertia.throw_mass(engine.crankshaft.throws[0])
+    m_r = inertia.rotating_mass(engine)
     unit = engine.geometry.crank_radius * engine.omega**2
     area = engine.geometry.piston_area
     return {
         "m_2": m_2,
         "m_j": m_j,
         "m_k": m_k,
-        "m_r": m_k + m_2,
+        "m_r": m_r,
         "P_unit": m_j * unit / area,
-        "K_r": (m_k + m_2) * unit,
-        "K_r_spec": (m_k + m_2) * unit / area,
+        "K_r": m_r * unit,
+        "K_r_spec": m_r * unit / area,
         "K_r_rod": m_2 * unit / area,
         "K_r_throw": m_k * unit / area,
-    }
-
-
-def _gas(engine: Engine, raw: BatchSolution) -> dict[str, float]:
-    gas = engine.gas
-    if not isinstance(gas, PolytropicGas):
-        return {}
-    geometry = engine.geometry
-    r, lam = np.array(geometry.crank_radius), np.array(geometry.lam)
-
-    def ratio(angle: float) -> float:
-        share = kinematics.displacement_exact(np.array(angle), r, lam) / (2 * r)
-        return float(1 + (geometry.compression_ratio - 1) * share)
-
-    at_start, at_open = ratio(gas.combustion_start), ratio(gas.exhaust_open)
-    eps = geometry.compression_ratio
-    return {
-        "phi_c_deg": gas.combustion_start,
-        "phi_open_deg": gas.exhaust_open,
-        "phi_close_deg": gas.exhaust_close,
-        "x_start": at_start,
-        "p_start": gas.p_intake * (eps / at_start) ** gas.n_compression,
-        "p_c_end": gas.p_intake * eps**gas.n_compression,
-        "x_open": at_open,
-        "p_open": gas.p_max * min(1.0, (gas.rho / at_open) ** gas.n_expansion),
     }
 
 
@@ -122,7 +114,6 @@ def _torque(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float]:
     smallest, at_smallest = first_extreme(total, raw.phi, largest=False)
     geometry = engine.geometry
     lever = geometry.piston_area * geometry.crank_radius
-    displaced = geometry.piston_area * 2 * geometry.crank_radius * engine.cylinders
     values = {
         "M_mean": mean,
         "M_max": largest,
@@ -131,7 +122,7 @@ def _torque(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float]:
         "phi_M_min_deg": at_smallest,
         "M_e": mean * engine.mechanical_efficiency,
         "N_i_calc": mean * engine.omega,
-        "p_i_calc": mean * engine.period / displaced,
+        "p_i_calc": mean * engine.period / displaced(engine),
         "T_mean": mean / lever,
     }
     if engine.indicated_power is not None:
@@ -141,26 +132,36 @@ def _torque(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float]:
     return values
 
 
-def _pin(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float]:
-    load = raw.pin_load[index]
+def _pins(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float]:
+    values: dict[str, float] = {}
+    count = len(shown_pins(engine))
+    for pin in range(count):
+        values |= _pin(engine, raw, index, pin)
+    if count > 1:
+        values["worst_pin_load"] = _first_number(raw.pin_load[index, :count].max(axis=-1))
+    return values
+
+
+def _pin(engine: Engine, raw: BatchSolution, index: int, pin: int) -> dict[str, float]:
+    load, n = raw.pin_load[index, pin], "" if pin == 0 else str(pin + 1)
     mean = float(load[:-1].mean())
     largest, at_largest = first_extreme(load, raw.phi)
     smallest, at_smallest = first_extreme(load, raw.phi, largest=False)
     area = engine.geometry.piston_area
     projected = engine.crankshaft.pin_diameter * engine.crankshaft.pin_length
-    ray, angle = least_loaded(raw.pin_wear[index])
+    ray, angle = least_loaded(raw.pin_wear[index, pin])
     return {
-        "Rpin_mean": mean,
-        "Rpin_max": largest,
-        "phi_Rpin_max_deg": at_largest,
-        "Rpin_min": smallest,
-        "phi_Rpin_min_deg": at_smallest,
-        "Rpin_max_kN": largest * area,
-        "Rpin_min_kN": smallest * area,
-        "q_pin_mean": mean * area / projected,
-        "q_pin_max": largest * area / projected,
-        "hole_pin_ray": ray,
-        "hole_pin_deg": angle,
+        f"Rpin{n}_mean": mean,
+        f"Rpin{n}_max": largest,
+        f"phi_Rpin{n}_max_deg": at_largest,
+        f"Rpin{n}_min": smallest,
+        f"phi_Rpin{n}_min_deg": at_smallest,
+        f"Rpin{n}_max_kN": largest * area,
+        f"Rpin{n}_min_kN": smallest * area,
+        f"q_pin{n}_mean": mean * area / projected,
+        f"q_pin{n}_max": largest * area / projected,
+        f"hole_pin{n}_ray": ray,
+        f"hole_pin{n}_deg": angle,
     }
 
 

@@ -103,10 +103,12 @@ def _articulated(section: ArticulatedSection | None) -> ArticulatedRod | None:
 
 def _geometry(model: InputFile, run: CycleRun | None) -> Geometry:
     given = model.geometry
-    crank_offset = pin_offset = 0.0
+    crank_offset = pin_offset = None
     if isinstance(given, GeometrySection):
-        crank_offset = MM.to_si(given.crank_offset_mm or 0.0)
-        pin_offset = MM.to_si(given.pin_offset_mm or 0.0)
+        crank_offset, pin_offset = (
+            None if value is None else MM.to_si(value)
+            for value in (given.crank_offset_mm, given.pin_offset_mm)
+        )
         bore = MM.to_si(given.bore_mm)
         radius, rod = MM.to_si(crank_radius_mm(given)), MM.to_si(rod_length_mm(given))
     else:

@@ -38,7 +38,7 @@ def arrangement(
         return opposed(cylinders)
     if bank_angle_deg is None:
         return None
-    split = math.radians(split_pin_deg or 0.0)
+    split = None if split_pin_deg is None else math.radians(split_pin_deg)
     return v_shaped(
         cylinders, math.radians(bank_angle_deg), split_pin=split, articulated=articulated
     )

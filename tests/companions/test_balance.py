@@ -11,9 +11,8 @@ from hypothesis import given, settings
 from kshm import balance, dimensionless, firing_orders, solve
 from kshm.engine import Engine
 from kshm.inertia import point_masses
-from kshm.journals import centrifugal_reactions
 from kshm.solver import solve_batch
-from tests.kshm.engines import engines
+from tests.kshm.engines import basic_engines
 from tests.textbook.book import solution
 
 PITCH = 0.1
@@ -100,7 +99,7 @@ def test_five_cylinders_and_v6_have_moments_alone() -> None:
 
 
 @settings(max_examples=30)
-@given(engines(method="exact"))
+@given(basic_engines(method="exact"))
 def test_orders_add_up_to_the_inertia_of_all_pistons(engine: Engine) -> None:
     """Phasors against the exact accelerations of every piston, force and moment."""
     geometry = engine.geometry
@@ -123,14 +122,11 @@ def test_orders_add_up_to_the_inertia_of_all_pistons(engine: Engine) -> None:
 
 
 @settings(max_examples=30)
-@given(engines())
+@given(basic_engines())
 def test_rotating_masses_are_what_the_main_bearings_hold(engine: Engine) -> None:
     """Force and moment of the shaft = minus the constant reactions of all supports."""
     raw = solve_batch([engine])
-    r = np.array([[engine.geometry.crank_radius]])
-    left, right = centrifugal_reactions(
-        raw.batch.throws, r, np.array([[engine.omega]]), raw.batch.m_2[:, :, 0]
-    )
+    left, right = raw.constants
     starts = balance.throw_starts(engine)
     turn = np.exp(1j * np.array([throw.angle for throw in engine.crankshaft.throws]))
     reactions = [

@@ -16,7 +16,7 @@ from hypothesis import given, settings
 
 from kshm import balance, harmonics, solve, torque_harmonics
 from kshm.engine import Engine
-from tests.kshm.engines import engines
+from tests.kshm.engines import basic_engines
 from tests.textbook.book import solution
 
 PHI = np.arange(0, 721) * np.pi / 180
@@ -91,7 +91,7 @@ def test_exact_second_order_is_half_and_a_thirty_second_of_lambda_to_the_fourth(
 
 
 @settings(max_examples=20)
-@given(engines())
+@given(basic_engines())
 def test_harmonics_of_the_engine_are_the_cylinders_times_the_vector_sum(engine: Engine) -> None:
     """Amplitudes against a transform of the summed torque itself."""
     solved = solve(engine)

@@ -19,7 +19,7 @@ from hypothesis import given, settings
 from kshm import dimensionless, reduced_inertia, rod_model, solve, speed_fluctuation
 from kshm.engine import Engine
 from kshm.reduced_inertia import Parts
-from tests.kshm.engines import engines
+from tests.kshm.engines import basic_engines
 from tests.textbook.book import solution
 
 PHI = np.radians(np.arange(0.0, 360.0))
@@ -45,7 +45,7 @@ def kinetic_energy(parts: Parts, phi: np.ndarray, omega: float) -> np.ndarray:
 
 
 @settings(max_examples=30)
-@given(engines())
+@given(basic_engines())
 def test_reduced_inertia_is_twice_the_kinetic_energy_over_omega_squared(engine: Engine) -> None:
     parts = reduced_inertia.parts_of(engine)
     rod, piston = reduced_inertia.exact(PHI, parts)

@@ -26,37 +26,41 @@ SHOWN_ORDERS = (1, 2, 4, 6)
 def companion_columns(engine: Engine, raw: BatchSolution, index: int) -> dict[str, Columns]:
     """Table id → column key → values in the units of the tables.
 
-    Made for four-stroke in-line engines with a central mechanism; others get none.
+    Most are made for four-stroke in-line engines with a central mechanism only.
     """
+    free = {**reference.columns(engine), **diagram.diagram_columns(engine)}
+    always = {table: in_units(values) for table, values in free.items()}
     if not engine.is_basic:
-        return {}
+        return always
     others = {
         **balance_results.columns(engine),
         **inertia_results.columns(engine, raw, index),
         **torque_results.columns(engine, raw, index),
-        **reference.columns(engine),
-        **diagram.diagram_columns(engine),
     }
     return {
         **_segal(engine),
         **_neiman(engine),
         **{table: in_units(columns) for table, columns in others.items()},
+        **always,
     }
 
 
 def companion_scalars(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float]:
-    """All scalars of the companion sources in SI units; of basic engines only."""
+    """All scalars of the companion sources in SI units; most of basic engines only."""
+    always = {
+        **mass_scalars(engine),
+        **reference.scalars(engine),
+        **diagram.diagram_scalars(engine, _gas_work(engine, raw, index)),
+    }
     if not engine.is_basic:
-        return {}
+        return always
     return {
         **_segal_scalars(engine),
         **_neiman_scalars(engine),
         **balance_results.scalars(engine),
         **inertia_results.scalars(engine, raw, index),
         **torque_results.scalars(engine, raw, index),
-        **mass_scalars(engine),
-        **reference.scalars(engine),
-        **diagram.diagram_scalars(engine, _gas_work(engine, raw, index)),
+        **always,
     }
 
 

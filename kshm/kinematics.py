@@ -130,9 +130,9 @@ def max_velocity(r: Array, lam: Array, omega: Array) -> Array:
     return first + second
 
 
-def mean_velocity(piston_stroke: Array, omega: Array) -> Array:
-    """Mean piston speed c_m = Sω/π [m/s], Gots 1.2."""
-    return piston_stroke * omega / np.pi
+def mean_velocity(r: Array, omega: Array) -> Array:
+    """Mean piston speed c_m = 2rω/π [m/s], Gots 1.2; with an offset r is half the stroke."""
+    return 2 * r * omega / np.pi
 
 
 def reference_functions(phi: Array, lam: Array) -> dict[str, Array]:

@@ -57,7 +57,7 @@ def _geometry(engine: Engine) -> dict[str, float]:
     geometry, omega = engine.geometry, engine.omega
     r, lam = geometry.crank_radius, geometry.lam
     swept = geometry.piston_area * geometry.stroke
-    mean = float(kinematics.mean_velocity(np.array(geometry.stroke), np.array(omega)))
+    mean = float(kinematics.mean_velocity(np.array(geometry.stroke / 2), np.array(omega)))
     values = {
         "r_crank": r,
         "L_rod": geometry.rod_length,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from reports.errors import InputError, Problem
+from reports.inputs.convert import to_engine
 from reports.inputs.fields import iter_fields
 from reports.inputs.model import InputFile
 from reports.tables import mechanism
@@ -27,6 +29,9 @@ def angle_rows(step_deg: int, last: int) -> tuple[float, ...]:
 
 def build_model(model: InputFile) -> Model:
     """Specifications of every table, scalar and chart for the input's structure."""
+    if not to_engine(model).is_basic:
+        what = "книга и отчет пока строятся только для рядного четырехтактного центрального"
+        raise InputError(Problem(model.engine.name, what, "числа дает команда kshm solve"))
     cylinders = model.engine.cylinders
     throws = len(model.crankshaft.throw_angles_deg)
     rays = model.calculation.wear_rays

@@ -1,8 +1,6 @@
 """Rendering is shut off from the world, deterministic, and sets in STIX alone."""
 
-import http.server
 import re
-import threading
 
 import pytest
 from pdftools import fonts_of, pages_of, poppler
@@ -67,26 +65,6 @@ def test_attachments_are_inside(tmp_path):
 def test_a_warning_is_an_error():
     with pytest.raises(RenderError, match="с замечаниями"):
         render_pdf(page('<p style="colour:red">x</p>'))
-
-
-@pytest.fixture
-def listener():
-    hits = []
-
-    class Handler(http.server.BaseHTTPRequestHandler):
-        def do_GET(self):
-            hits.append(self.path)
-            self.send_response(200)
-            self.end_headers()
-
-        def log_message(self, *_):
-            pass
-
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    yield f"http://127.0.0.1:{server.server_port}", hits
-    server.shutdown()
-    server.server_close()
 
 
 def test_hostile_markup_reads_nothing_and_asks_nobody(listener, tmp_path):

@@ -1,5 +1,6 @@
 """Title, assignment, abstract, the ЕСКД frame, the short report, own templates."""
 
+import json
 import re
 import zlib
 from pathlib import Path
@@ -9,7 +10,7 @@ from pdftools import pages_of, poppler
 from report_samples import ONE, rendered, terms, terms_of
 
 from reports.document.render import render
-from reports.document.report import report_html, report_page
+from reports.document.report import report_html, report_page, report_pdf
 from reports.errors import InputError
 
 DATA = """[report]
@@ -147,8 +148,6 @@ def test_a_missing_folder_and_an_unknown_name_are_refused(tmp_path):
 
 
 def test_wrong_css_names_the_folder(tmp_path):
-    from reports.document.report import report_pdf
-
     source = own(tmp_path, "frame.css.j2", "")
     own(tmp_path, "report.css.j2", "p { colour: red }")
     t = terms_of(source)
@@ -187,3 +186,28 @@ def test_every_figure_and_formula_is_told_in_words(framed):
     assert data.count(b"/Alt ") == data.count(b"/S /Figure") > 100
     (torque,) = [text for text in said if text.startswith("Индикаторный крутящий момент")]
     assert "наибольшее" in torque and "при φ = " in torque and "Н·м" in torque
+
+
+def test_hostile_report_data_reads_nothing_and_asks_nobody(listener, tmp_path):
+    base, hits = listener
+    marker = tmp_path / "marker.txt"
+    marker.write_text("SECRET-MARKER", encoding="utf-8")
+    words = (
+        f'"><img src="{base}/i"><link rel=attachment href="{marker.as_uri()}">'
+        f"<style>@import '{base}/c'</style>{{{{ 7*7 }}}}$\\frac{{1}}{{2}}$ 🚗" + "Щ" * 60
+    )
+    fields = ("student", "group", "supervisor", "institution", "department", "discipline",
+              "designation", "controller", "approver", "issued", "due", "variant", "head",
+              "city")  # fmt: skip
+    lines = [f"{name} = {json.dumps(words, ensure_ascii=False)}" for name in fields]
+    data = "\n".join(["[report]", 'frame = "eskd"', *lines]) + "\n"
+    source = tmp_path / "in.toml"
+    source.write_text(ONE.replace("[report]\n", data), encoding="utf-8")
+    t = terms_of(source.read_text(encoding="utf-8"))
+    pdf = report_pdf(t.model, t.values, source=source, workbook=b"PK")
+    assert hits == []
+    assert b"SECRET-MARKER" not in unpacked(pdf)
+    pages = pages_of(pdf, tmp_path)
+    assert "{{ 7*7 }}" in pages[0] and "<img" in pages[0]
+    html = report_html(t.model, t.values, source=source)
+    assert "<img" not in html and "<link" not in html

@@ -1,0 +1,29 @@
+"""The HTML report in headless Chromium, on a phone and on a screen."""
+
+import pytest
+from report_samples import html_page
+
+from tests.browser import measure, photograph
+
+
+@pytest.mark.parametrize("width", [390, 1280])
+def test_the_page_does_not_scroll_sideways(width, tmp_path):
+    found = measure(html_page("one"), width, tmp_path / "w", boxes=".tbox, .eq")
+    assert found["width"] == width
+    assert found["scroll"] <= width and found["wide"] == []
+    assert found["scripts"] == 0
+    assert "STIXGeneral" in found["fonts"]
+    assert len(found["images"]) > 100 and min(found["images"]) > 0
+    scrolled = [box for box in found["boxes"] if box[1] > box[0]]
+    assert bool(scrolled) == (width == 390)  # wide tables scroll in their own box
+
+
+def test_a_page_that_is_too_wide_is_noticed(tmp_path):
+    page = html_page("one").replace("<main>", '<main><div style="width:900px">x</div>', 1)
+    found = measure(page, 390, tmp_path / "w")
+    assert found["scroll"] > 390 and found["wide"]
+
+
+def test_the_page_can_be_photographed(tmp_path):
+    picture = photograph(html_page("one"), 390, 2000, tmp_path / "p.png", tmp_path / "w")
+    assert picture.stat().st_size > 20_000

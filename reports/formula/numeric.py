@@ -66,7 +66,12 @@ def evaluate(text: str, resolve: Resolver) -> Value:
             ``table.column``; columns are arrays, scalars floats or texts.
     """
     with np.errstate(all="ignore"):  # branches not taken may divide by zero
-        return _value(parse(text), resolve)
+        return evaluate_tree(parse(text), resolve)
+
+
+def evaluate_tree(tree: ast.expr, resolve: Resolver) -> Value:
+    """Value of a parsed expression, see ``evaluate``."""
+    return _value(tree, resolve)
 
 
 def _value(node: ast.expr, resolve: Resolver) -> Value:

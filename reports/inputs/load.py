@@ -42,6 +42,7 @@ from reports.inputs.model_gas import RoundedGasSection
 from reports.inputs.model_masses import MassesSection
 from reports.inputs.model_reference import ReferenceSection
 from reports.inputs.model_report import Report
+from reports.inputs.ranges import read_ranges, split_ranges
 from reports.inputs.source import read_text, refuse_bomb, refused
 
 MAX_PROBLEMS = 200
@@ -103,6 +104,12 @@ def load_text(text: str, *, source: str, folder: FilePath | None = None) -> Load
         raise refused(source, what, hint) from None
     if not raw:
         raise refused(source, "файл пуст", "заготовку даст команда «kshm new»")
+    raw, section = split_ranges(raw)
+    if section is not None:
+        # Ranges of variants serve "kshm issue"; one engine is calculated without them.
+        problems = read_ranges(section, raw, source)[1]
+        if problems:
+            raise InputError(problems)
     return load_mapping(with_points(raw, folder or FilePath(), source), source=source)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,10 +23,16 @@ class Values:
     columns: dict[str, dict[str, Array]]
 
 
-class _Evaluation:
-    """Evaluates every node once, whatever the order in which the tables stand."""
+class Evaluation:
+    """Evaluates every node once, whatever the order in which the tables stand.
 
-    def __init__(self, model: Model) -> None:
+    Args:
+        model: the specifications.
+        known: values that take the place of the formulas of their nodes, by the key of a
+            scalar or input or by ``table.column``.
+    """
+
+    def __init__(self, model: Model, known: Mapping[str, Any] | None = None) -> None:
         self.model = model
         self.done: dict[str, Any] = {}
         self.running: set[str] = set()
@@ -51,8 +58,19 @@ class _Evaluation:
                 if f.name.startswith("gas_point_") and f.name.endswith(name)
             ]
             self.done[f"gas_points_{name}"] = np.array(points, dtype=float)
+        self.inputs = dict(self.done)
+        self.done.update(known or {})
+
+    def fork(self, known: Mapping[str, Any]) -> Evaluation:
+        """The same model with other known values, nothing else evaluated yet."""
+        other = Evaluation.__new__(Evaluation)
+        other.model, other.nodes, other.running = self.model, self.nodes, set()
+        other.inputs = self.inputs
+        other.done = {**self.inputs, **known}
+        return other
 
     def value(self, key: str) -> Any:  # noqa: ANN401
+        """Value of a node or input: a number, a text, or an array of one value per row."""
         if key in self.done:
             return self.done[key]
         if key in self.runs:
@@ -83,7 +101,7 @@ class _Evaluation:
 
 def evaluate_model(model: Model) -> Values:
     """Evaluate all expressions of a model in numpy."""
-    run = _Evaluation(model)
+    run = Evaluation(model)
     scalars = {key: run.value(key) for key in model.scalars}
     columns = {
         table.id: {column.key: run.value(f"{table.id}.{column.key}") for column in table.columns}

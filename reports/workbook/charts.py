@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from openpyxl.chart import ScatterChart
 from openpyxl.chart.data_source import AxDataSource, NumData, NumDataSource, NumRef, NumVal
 from openpyxl.chart.layout import Layout as PlotLayout
@@ -129,6 +131,7 @@ def _reference(key: str, layout: Layout, values: Values) -> NumRef:
     cache = NumData(
         formatCode="General",
         ptCount=len(numbers),
-        pt=[NumVal(idx=i, v=repr(number)) for i, number in enumerate(numbers)],
+        # Cells still to be filled in have no value.
+        pt=[NumVal(idx=i, v=repr(n)) for i, n in enumerate(numbers) if math.isfinite(n)],
     )
     return NumRef(f=layout.range_of(key), numCache=cache)

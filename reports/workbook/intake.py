@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import re
 import zipfile
+import zlib
 from pathlib import Path
 from typing import NoReturn
 
@@ -17,6 +18,15 @@ MAX_RATIO = 400
 _OLE2 = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
 _ZIP = b"PK\x03\x04"
 _HEAD = 4096
+_DAMAGED = (
+    zipfile.BadZipFile,
+    zlib.error,
+    EOFError,
+    NotImplementedError,
+    RuntimeError,
+    ValueError,
+    OSError,
+)
 
 
 def check_package(path: Path) -> bytes:
@@ -28,35 +38,46 @@ def check_package(path: Path) -> bytes:
     """
     try:
         if path.stat().st_size > MAX_FILE:
-            _refuse(path, f"файл больше {MAX_FILE // 2**20} МБ", "это не книга kshm")
+            _refuse(path.name, f"файл больше {MAX_FILE // 2**20} МБ", "это не книга kshm")
         data = path.read_bytes()
     except OSError as error:
-        _refuse(path, f"файл не читается ({error.strerror})", "проверьте имя и права")
-    if data.startswith(_OLE2):
-        _refuse(
-            path, "книга зашифрована или в старом формате .xls", "сохраните её как .xlsx без пароля"
-        )
-    if not data.startswith(_ZIP):
-        _refuse(path, "это не книга .xlsx", "сохраните её как .xlsx")
-    try:
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            _check_parts(path, archive)
-    except (zipfile.BadZipFile, EOFError, NotImplementedError, RuntimeError, ValueError, OSError):
-        _refuse(path, "файл .xlsx повреждён", "сохраните его заново")
+        _refuse(path.name, f"файл не читается ({error.strerror})", "проверьте имя и права")
+    check_data(data, path.name)
     return data
 
 
-def _check_parts(path: Path, archive: zipfile.ZipFile) -> None:
+def check_data(data: bytes, name: str) -> None:
+    """Refuse what ``check_package`` refuses; ``name`` stands in the message.
+
+    Raises:
+        InputError: as ``check_package``.
+    """
+    if len(data) > MAX_FILE:
+        _refuse(name, f"файл больше {MAX_FILE // 2**20} МБ", "это не книга kshm")
+    if data.startswith(_OLE2):
+        _refuse(
+            name, "книга зашифрована или в старом формате .xls", "сохраните её как .xlsx без пароля"
+        )
+    if not data.startswith(_ZIP):
+        _refuse(name, "это не книга .xlsx", "сохраните её как .xlsx")
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            _check_parts(name, archive)
+    except _DAMAGED:
+        _refuse(name, "файл .xlsx повреждён", "сохраните его заново")
+
+
+def _check_parts(name: str, archive: zipfile.ZipFile) -> None:
     infos = archive.infolist()
     names = [info.filename for info in infos]
     if len(infos) > MAX_PARTS or len(set(names)) != len(names):
-        _refuse(path, "в книге слишком много частей", "это не книга kshm")
+        _refuse(name, "в книге слишком много частей", "это не книга kshm")
     if "xl/workbook.xml" not in names:
-        _refuse(path, "это не книга .xlsx", "сохраните её как .xlsx")
+        _refuse(name, "это не книга .xlsx", "сохраните её как .xlsx")
     if any(name.lower().endswith(("vbaproject.bin", ".exe", ".dll")) for name in names):
-        _refuse(path, "в книге есть макросы", "сохраните её как .xlsx без макросов")
+        _refuse(name, "в книге есть макросы", "сохраните её как .xlsx без макросов")
     if any("externallinks/" in name.lower() for name in names):
-        _refuse(path, "книга ссылается на другие файлы", "разорвите связи и сохраните")
+        _refuse(name, "книга ссылается на другие файлы", "разорвите связи и сохраните")
     total = 0
     for info in infos:
         size = 0
@@ -67,13 +88,13 @@ def _check_parts(path: Path, archive: zipfile.ZipFile) -> None:
             while chunk := stream.read(2**20):
                 size += len(chunk)
                 if total + size > MAX_UNPACKED:
-                    _refuse(path, "книга распаковывается сверх меры", "это не книга kshm")
+                    _refuse(name, "книга распаковывается сверх меры", "это не книга kshm")
         total += size
         if size > 2**20 and size > MAX_RATIO * max(1, info.compress_size):
-            _refuse(path, "книга распаковывается сверх меры", "это не книга kshm")
+            _refuse(name, "книга распаковывается сверх меры", "это не книга kshm")
         if info.filename.endswith((".xml", ".rels")) and re.search(rb"<!(DOCTYPE|ENTITY)", head):
-            _refuse(path, "в книге есть объявление DOCTYPE", "это не книга Excel")
+            _refuse(name, "в книге есть объявление DOCTYPE", "это не книга Excel")
 
 
-def _refuse(path: Path, what: str, hint: str) -> NoReturn:
-    raise InputError(Problem(path.name, what, hint))
+def _refuse(name: str, what: str, hint: str) -> NoReturn:
+    raise InputError(Problem(name, what, hint))

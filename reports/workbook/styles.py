@@ -11,7 +11,7 @@ INPUT, STRUCTURE, FORMULA, HELPER = "kshm_input", "kshm_structure", "kshm_formul
 HEADER, NUMBER, TITLE, NOTE, TEXT, LINK = (
     "kshm_header", "kshm_number", "kshm_title", "kshm_note", "kshm_text", "kshm_link",
 )  # fmt: skip
-SUBTITLE, CHECK = "kshm_subtitle", "kshm_check"
+SUBTITLE, CHECK, ANSWER = "kshm_subtitle", "kshm_check", "kshm_answer"
 
 LEGEND = (
     (INPUT, "исходные данные: эти ячейки можно менять, всё остальное пересчитается"),
@@ -22,7 +22,13 @@ LEGEND = (
     (HEADER, "заголовок; в примечании — смысл величины и номер формулы"),
 )  # fmt: skip
 
-_COLOURS = {INPUT: "FFF2CC", STRUCTURE: "F8CBAD", HELPER: "EDEDED", HEADER: "D9E2F3"}
+_COLOURS = {
+    INPUT: "FFF2CC",
+    STRUCTURE: "F8CBAD",
+    HELPER: "EDEDED",
+    HEADER: "D9E2F3",
+    ANSWER: "E2EFDA",
+}
 
 
 def as_text(cell: Cell) -> Cell:
@@ -51,6 +57,7 @@ def add_styles(book: Workbook) -> None:
     unlocked = Protection(locked=False)
     style(INPUT, border=frame, protection=unlocked)
     style(STRUCTURE, border=frame, protection=unlocked)
+    style(ANSWER, border=frame, protection=unlocked)
     style(FORMULA, border=frame)
     style(HELPER, border=frame, font=Font(name=FONT, size=11, color="7F7F7F"))
     style(HEADER, border=frame, alignment=centre, font=Font(name=FONT, size=11, bold=True))

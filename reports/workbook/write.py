@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil
 
@@ -37,7 +38,7 @@ from reports.workbook import styles
 from reports.workbook.caches import finish
 from reports.workbook.charts import make_chart, size
 from reports.workbook.inputs import write_inputs
-from reports.workbook.sheets import Writer
+from reports.workbook.sheets import CacheValues, Writer
 
 _ROW_CM = 0.53
 _COLUMN_CM = 1.95
@@ -54,6 +55,14 @@ def workbook_bytes(model: Model, values: Values | None = None) -> bytes:
     layout = Layout.of(model)
     check_names(layout)
     writer = Writer(layout, values or evaluate_model(model))
+    return saved(assemble(model, writer), writer.caches)
+
+
+def assemble(
+    model: Model, writer: Writer, legend: Sequence[tuple[str, str]] = styles.LEGEND
+) -> Workbook:
+    """All sheets of a model's blocks, where the writer's layout puts them."""
+    layout = writer.layout
     book = Workbook()
     book.remove(book.active)
     styles.add_styles(book)
@@ -63,19 +72,25 @@ def workbook_bytes(model: Model, values: Values | None = None) -> bytes:
     write_inputs(inputs, model, layout)
     for title in model.sheets:
         _blocks(book.create_sheet(title), model, writer)
-    _contents(contents, model)
+    _contents(contents, model, legend)
     for sheet in book.worksheets:
         _page(sheet, model, layout)
     for title in model.sheets:
         _charts(book[title], model, layout, writer.values)
     for name, address in layout.defined_names().items():
-        book.defined_names[name] = DefinedName(name, attr_text=address)
+        if name in model.fields or name in model.scalars:
+            book.defined_names[name] = DefinedName(name, attr_text=address)
     book.properties.creator = "kshm"
     book.properties.title = f"{model.input.engine.name}: кинематика и динамика КШМ"
     book.calculation.fullCalcOnLoad = True
+    return book
+
+
+def saved(book: Workbook, caches: CacheValues) -> bytes:
+    """The bytes of a workbook with the values of its formulas."""
     stream = io.BytesIO()
     book.save(stream)
-    return finish(stream.getvalue(), writer.caches)
+    return finish(stream.getvalue(), caches)
 
 
 def _heading(sheet: Worksheet, title: str) -> None:
@@ -120,7 +135,7 @@ def _colour_checks(sheet: Worksheet, good: str, bad: str) -> None:
     )
 
 
-def _contents(sheet: Worksheet, model: Model) -> None:
+def _contents(sheet: Worksheet, model: Model, legend: Sequence[tuple[str, str]]) -> None:
     report = model.input.report
     _heading(sheet, report.title or "Кинематика и динамика КШМ")
     people = [
@@ -149,7 +164,7 @@ def _contents(sheet: Worksheet, model: Model) -> None:
         sheet.cell(row, 2, text).style = styles.TEXT
     row += 2
     sheet.cell(row, 1, "Цвета ячеек").style = styles.SUBTITLE
-    for style, text in styles.LEGEND:
+    for style, text in legend:
         row += 1
         sheet.cell(row, 1, "образец").style = style
         sheet.cell(row, 2, text).style = styles.TEXT

@@ -1,0 +1,1 @@
+"""Variants for a class and the grading of the workbooks that come back."""

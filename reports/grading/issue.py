@@ -1,0 +1,148 @@
+"""What ``kshm issue`` does: variants, input files, work-books and the register."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import tomlkit
+
+from reports.errors import InputError, Problem
+from reports.files import atomic_dir
+from reports.grading.handout import handout_bytes
+from reports.grading.items import Assignment, assignment_of
+from reports.grading.register import FILE, Issued, Register, ticket_of
+from reports.grading.roster import Student, read_roster
+from reports.grading.rubric import Rubric, load_rubric
+from reports.grading.ticket import make_secret, read_secret, secret_path
+from reports.inputs.load import load_mapping
+from reports.inputs.model import InputFile
+from reports.progress import Progress
+from reports.tables.registry import build_model
+from reports.variants import Base, Variant, draw_variants, load_base
+
+_LATIN = dict(
+    zip(
+        "абвгдеёжзийклмнопрстуфхцчшщъыьэюя",
+        ("a", "b", "v", "g", "d", "e", "e", "zh", "z", "i", "y", "k", "l", "m", "n", "o", "p", "r",
+         "s", "t", "u", "f", "kh", "ts", "ch", "sh", "shch", "", "y", "", "e", "yu", "ya"),
+        strict=True,
+    )
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """What was written; ``new_secret`` where one had to be made."""
+
+    register: Register
+    folder: Path
+    new_secret: Path | None
+
+
+def issue(
+    base_file: Path,
+    roster_file: Path,
+    folder: Path,
+    *,
+    seed: int,
+    rubric_file: Path | None = None,
+    ranges_file: Path | None = None,
+    secret_file: Path | None = None,
+) -> Result:
+    """Issue a variant to each student.
+
+    Raises:
+        InputError: everything that is wrong with the files.
+        OutputError: the folder cannot be written.
+    """
+    base = load_base(base_file, ranges_file)
+    students = read_roster(roster_file)
+    rubric = load_rubric(rubric_file)
+    source = rubric_file.name if rubric_file is not None else "рубрика по умолчанию"
+    assignment_of(build_model(base.loaded.model), rubric, source)
+    _refuse_foreign(folder)
+    variants = draw_variants(base, [student.id for student in students], seed)
+    place = secret_path(secret_file)
+    _refuse_inside(place, folder)
+    fresh = not place.exists()
+    secret = make_secret(place) if fresh else read_secret(place)
+    batch = _batch(base, seed)
+    with Progress("Выдача вариантов") as progress, atomic_dir(folder) as temporary:
+        books = []
+        for number, (student, variant) in enumerate(zip(students, variants, strict=True), 1):
+            progress.step(f"Выдача вариантов: {number} из {len(students)}")
+            books.append(_write(temporary, number, student, variant, rubric, secret, batch))
+        register = Register(batch, seed, base.source, rubric, tuple(books))
+        (temporary / FILE).write_text(register.json_text(), encoding="utf-8")
+        (temporary / "register.csv").write_text(register.csv_text(), encoding="utf-8")
+    return Result(register, folder, place if fresh else None)
+
+
+def student_model(raw: dict[str, Any], student: Student, number: int) -> InputFile:
+    """The checked input of a student's variant, with the title page filled in."""
+    return load_mapping(_with_title(raw, student, number), source=student.full).model
+
+
+def assignment_for(book: Issued, rubric: Rubric) -> Assignment:
+    """The tables of an issued work-book."""
+    return assignment_of(build_model(student_model(book.raw, book.student, book.number)), rubric)
+
+
+def _with_title(raw: dict[str, Any], student: Student, number: int) -> dict[str, Any]:
+    report = dict(raw.get("report", {}))
+    report |= {"student": student.full, "group": student.group, "variant": str(number)}
+    return {**raw, "report": report}
+
+
+def _write(
+    folder: Path,
+    number: int,
+    student: Student,
+    variant: Variant,
+    rubric: Rubric,
+    secret: bytes,
+    batch: str,
+) -> Issued:
+    stem = f"{number:02d}-{_slug(student.full)}"
+    file = f"{stem}.xlsx"
+    made = ticket_of(secret, batch, student, file, variant.raw)
+    book = Issued(number, student, stem, file, made, variant.drawn, variant.raw)
+    own = folder / stem
+    own.mkdir()
+    (own / file).write_bytes(handout_bytes(assignment_for(book, rubric), made))
+    text = tomlkit.dumps(_with_title(variant.raw, student, number))
+    (own / f"{stem}.toml").write_text(text, encoding="utf-8")
+    return book
+
+
+def _slug(name: str) -> str:
+    """A file name that no system minds."""
+    return re.sub(r"[^a-z0-9]+", "-", latin(name)).strip("-")[:60] or "student"
+
+
+def latin(text: str) -> str:
+    """Small letters, Russian ones spelt in Latin."""
+    return "".join(_LATIN.get(char, char) for char in text.casefold())
+
+
+def _batch(base: Base, seed: int) -> str:
+    """What tells one issue from another."""
+    text = tomlkit.dumps(base.raw) + repr([(r.key, r.values) for r in base.ranges]) + str(seed)
+    return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+
+def _refuse_foreign(folder: Path) -> None:
+    if folder.is_dir() and any(folder.iterdir()) and not (folder / FILE).exists():
+        what = "в папке есть чужие файлы"
+        raise InputError(Problem(str(folder), what, "укажите пустую папку ключом -o"))
+
+
+def _refuse_inside(secret: Path, folder: Path) -> None:
+    """The secret must not go out with the work-books."""
+    if folder.resolve() in secret.resolve().parents:
+        what = "секрет не должен лежать в папке выдачи"
+        raise InputError(Problem(str(secret), what, "укажите другое место ключом --secret"))

@@ -1,0 +1,86 @@
+"""Verdicts on single defects: each is found, and nothing else is."""
+
+from __future__ import annotations
+
+import pytest
+
+from reports.layout import Layout
+from tests.grading import classroom
+from tests.grading.fill import filled_book, solved_formulas
+
+
+def formulas() -> dict[str, list[str]]:
+    assignment = classroom.assignment()
+    return solved_formulas(assignment, Layout.of(assignment.model))  # type: ignore[return-value]
+
+
+def graded(changes=None, edit=None):
+    data = filled_book(classroom.handout(), classroom.assignment(), changes, edit)
+    result = classroom.marks(data)
+    assert result["status"] == "graded", result
+    return result
+
+
+def line(result, item):
+    return next(line for line in result["items"] if line["id"] == item)
+
+
+def test_a_right_book_is_right_throughout():
+    result = graded()
+    assert classroom.verdicts(result) == {}
+    assert result["points"] == 100
+    assert result["manual"] == result["notes"] == result["changed"] == result["altered"] == []
+
+
+def test_an_empty_book_is_empty_throughout():
+    result = classroom.marks(classroom.handout())
+    assert set(classroom.verdicts(result).values()) == {"empty"}
+    assert result["points"] == 0
+
+
+def test_one_wrong_omega_costs_one_item_and_all_after_it_is_carried():
+    result = graded({"omega": ["=regime_speed_rpm*PI()/60"]})
+    found = classroom.verdicts(result)
+    assert found.pop("geometry.omega") == "wrong"
+    assert set(found.values()) == {"carried"}
+    # Speeds, accelerations, inertia forces and everything made of them.
+    for item in ("P3_1.v1_m_s", "P3_1.j_m_s2", "P4_1.M_Nm", "P4_3_2.R_MPa"):
+        assert found[item] == "carried"
+    assert "P3_1.s_mm" not in found
+    cost = line(result, "geometry.omega")["of"]
+    assert result["points"] == pytest.approx(100 - cost, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("item", "change", "cause"),
+    [
+        ("P3_1.v1_m_s", lambda f: f.replace("RADIANS", ""), "градусы вместо радиан"),
+        ("P3_1.s1_mm", lambda f: f"=-({f[1:]})", "обратный знак"),
+        ("P3_1.s1_mm", lambda f: f"=({f[1:]})/1000", "меньше правильных в 1000 раз"),
+        ("P3_1.j1_m_s2", lambda f: f"=10*({f[1:]})", "больше правильных в 10 раз"),
+        ("P3_1.v1_m_s", lambda f: f.replace("r_crank", "S_stroke"), "ход поршня S вместо"),
+        ("P3_1.v_m_s", lambda f: f.replace("+", "-"), "знак слагаемого"),
+        ("P3_2.beta_rad", lambda f: f"=DEGREES({f[1:]})", "в градусах вместо радиан"),
+    ],
+)
+def test_a_usual_mistake_is_named(item, change, cause):
+    result = graded({item: [change(f) for f in formulas()[item]]})
+    found = line(result, item)
+    assert found["verdict"] == "wrong"
+    assert cause in found["cause"]
+    others = {key: word for key, word in classroom.verdicts(result).items() if key != item}
+    assert set(others.values()) <= {"carried"}
+
+
+def test_typed_numbers_are_told_from_formulas():
+    values = classroom.marker().assignment(classroom.book())[0]
+    from reports.tables.values import evaluate_model
+
+    right = evaluate_model(values.model).columns["P3_1"]["v1_m_s"]
+    result = graded({"P3_1.v1_m_s": [round(float(v), 2) for v in right]})
+    assert classroom.verdicts(result) == {"P3_1.v1_m_s": "typed"}
+    found = line(result, "P3_1.v1_m_s")
+    assert found["points"] == pytest.approx(found["of"] / 2)
+    # A formula of numbers is a number.
+    result = graded({"P3_1.v1_m_s": [f"={float(v)!r}+0" for v in right]})
+    assert classroom.verdicts(result) == {"P3_1.v1_m_s": "typed"}

@@ -65,7 +65,7 @@ class Evaluation:
         """The same model with other known values, nothing else evaluated yet."""
         other = Evaluation.__new__(Evaluation)
         other.model, other.nodes, other.running = self.model, self.nodes, set()
-        other.inputs = self.inputs
+        other.inputs, other.runs = self.inputs, self.runs
         other.done = {**self.inputs, **known}
         return other
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Literal
 
 from markupsafe import Markup
 
-from reports.document import overrides, store
+from reports.document import overrides, store, texts
 from reports.document.blocks import DocumentInfo
 from reports.document.drawing import Drawing
 from reports.document.render import AttachedFile, RenderError, environment, render_pdf
@@ -124,7 +124,7 @@ def _page(model: Model, values: Values, env: Environment) -> str:
         body = _write(Chapter(terms, writer, env))
     writer.n.check()
     store.store().save()
-    return _whole(env, Chapter(terms, writer, env), body)
+    return texts.keep_together(_whole(env, Chapter(terms, writer, env), body))
 
 
 def _whole(env: Environment, chapter: Chapter, body: Markup) -> str:

@@ -44,6 +44,18 @@ def titled(svg: str, title: object) -> Markup:
     )
 
 
+_GLUED = re.compile(r"([^\s<>]+\u00a0)(<(a|i|span)\b[^<>]*>(?:(?!</?\3\b).)*</\3>)")
+
+
+def keep_together(page: str) -> str:
+    """Wrap «рисунке&nbsp;<a>12</a>» into a span that does not break.
+
+    Where a text ends with a no-break space and the element behind it does not fit, Pango 1.50
+    breaks the line after the text's first word; within such a span there is nothing to break.
+    """
+    return _GLUED.sub(r'<span class="nb">\1\2</span>', page)
+
+
 def raised(text: str) -> str:
     """The same for labels of figures: raised signs become mathtext (``мин$^{-1}$``)."""
     return _RUN.sub(

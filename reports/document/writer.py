@@ -20,6 +20,8 @@ from reports.document.numbering import Heading, Kind, Label, Numbering
 if TYPE_CHECKING:
     from jinja2 import Environment
 
+_KEPT_ROWS = 10  # a longer table that must not break would leave half a page empty
+
 
 @dataclass(frozen=True, slots=True)
 class Figure:
@@ -145,13 +147,14 @@ class Writer:
         label = self._place("table", key, plan.number)
         if self.draft:
             return Markup("")
+        block = plan.build()
         return Markup(
             self._macros.table(
-                plan.build(),
+                block,
                 label,
                 plan.caption,
                 size=plan.size,
-                keep=plan.keep,
+                keep=plan.keep and len(block.rows) <= _KEPT_ROWS,
                 lined=plan.lined,
                 column_numbers=plan.column_numbers,
             )

@@ -60,7 +60,7 @@ def test_every_table_and_figure_stands_in_order(texts, name):
     assert figures == list(range(1, len(figures) + 1))
     throws = len(terms(name).model.input.crankshaft.throw_angles_deg)
     # 15 before the journals, the scheme, three for each journal, running-on torques
-    panels = 2 * -(-throws // 4)
+    panels = 2 * -(-throws // 2)
     assert len(figures) >= 15 + 1 + 3 * (throws + 1) + panels
     captions = " ".join(text.split())
     for k in range(1, throws + 2):

@@ -14,7 +14,7 @@ from reports.document.terms import Terms
 from reports.document.writer import Figure
 
 PHI = r"$\varphi$, °"
-_MOST_PANELS = 4
+_MOST_PANELS = 2
 
 
 def phi(terms: Terms, table: str) -> tuple[float, ...]:

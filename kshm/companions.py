@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kshm import balance_results, diagram, harmonics, inertia_results, reference, torque_results
+from kshm import balance_results, harmonics, inertia_results, reference, torque_results
 from kshm import dimensionless as segal
 from kshm.engine import Engine
 from kshm.masses import mass_scalars
@@ -28,8 +28,7 @@ def companion_columns(engine: Engine, raw: BatchSolution, index: int) -> dict[st
 
     Most are made for four-stroke in-line engines with a central mechanism only.
     """
-    free = {**reference.columns(engine), **diagram.diagram_columns(engine)}
-    always = {table: in_units(values) for table, values in free.items()}
+    always = {table: in_units(values) for table, values in reference.columns(engine).items()}
     if not engine.is_basic:
         return always
     others = {
@@ -47,11 +46,7 @@ def companion_columns(engine: Engine, raw: BatchSolution, index: int) -> dict[st
 
 def companion_scalars(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float]:
     """All scalars of the companion sources in SI units; most of basic engines only."""
-    always = {
-        **mass_scalars(engine),
-        **reference.scalars(engine),
-        **diagram.diagram_scalars(engine, _gas_work(engine, raw, index)),
-    }
+    always = {**mass_scalars(engine), **reference.scalars(engine)}
     if not engine.is_basic:
         return always
     return {
@@ -62,12 +57,6 @@ def companion_scalars(engine: Engine, raw: BatchSolution, index: int) -> dict[st
         **torque_results.scalars(engine, raw, index),
         **always,
     }
-
-
-def _gas_work(engine: Engine, raw: BatchSolution, index: int) -> float:
-    """∮p dV of cylinder 1 by trapezoids [J]."""
-    volume = engine.geometry.piston_area * raw.displacement[index, 0]
-    return float(np.trapezoid(raw.p[index, 0], volume))
 
 
 def in_units(columns: Columns) -> Columns:

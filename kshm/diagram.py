@@ -21,6 +21,7 @@ from kshm.kinematics import displacement_exact
 
 if TYPE_CHECKING:
     from kshm.engine import Engine, Geometry
+    from kshm.solver import BatchSolution
 
 Array = NDArray[np.float64]
 Columns = dict[str, Array]
@@ -217,6 +218,12 @@ def diagram_columns(engine: Engine) -> dict[str, Columns]:
             "point_three": padded(three) * DEGREE**3,
         }
     }
+
+
+def gas_work(engine: Engine, raw: BatchSolution, index: int) -> float:
+    """∮p dV of cylinder 1 by trapezoids [J]."""
+    volume = engine.geometry.piston_area * raw.displacement[index, 0]
+    return float(np.trapezoid(raw.p[index, 0], volume))
 
 
 def diagram_scalars(engine: Engine, work: float) -> dict[str, float]:

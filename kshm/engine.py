@@ -230,6 +230,18 @@ class Balancing:
 
 
 @dataclass(frozen=True, slots=True)
+class Regime:
+    """A further regime: what differs from the main one; SI units."""
+
+    name: str
+    omega: float
+    gas: Gas
+    mechanical_efficiency: float = 1.0
+    indicated_power: float | None = None
+    fullness: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
 class Engine:
     """A piston engine, SI units.
 
@@ -257,6 +269,7 @@ class Engine:
     balancing: Balancing = field(default_factory=Balancing)
     name: str = field(default="engine")
     cycle: CycleRun | None = None  # the cycle calculation that the gas comes from
+    regimes: tuple[Regime, ...] = ()  # further speeds and loads
     reference_lambdas: tuple[float, ...] = ()  # λ of the reference tables, none if not asked for
     reference_angle: float = 0.0  # crank angle of the drawn mechanism [rad]
     arrangement: Arrangement = ()

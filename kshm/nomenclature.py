@@ -306,6 +306,10 @@ def quantity(key: str) -> Quantity:
     """
     if key in _ALL:
         return _ALL[key]
+    further = re.fullmatch(r"(\w+)_R(\d+)", key)
+    if further is not None:  # the same quantity of a further regime
+        found = quantity(further[1])
+        return replace(found, key=key, title=f"{found.title}, режим {further[2]}")
     if key.startswith("throw") and "_" in key:
         return replace(_ALL[key.split("_", 1)[1]], key=key)
     if re.match(r"ray_[IVX]+_MPa", key):

@@ -90,7 +90,15 @@ _DIAGRAM: tuple[Row, ...] = (
     ("point", "№", "n", "", "номер точки", "0"),
 )  # fmt: skip
 
-CHAPTER_ROWS: tuple[Row, ...] = (*_MASSES, *_REFERENCE, *_DIAGRAM)
+_REGIMES: tuple[Row, ...] = (
+    *((f"{name}_{way}", f"{symbol} {way}", tex.replace("}", rf"\,\{way}}}"), "MPa", f"{word} {what}", "0.000")
+      for name, symbol, tex, what in (("Pg", "p′г", "p'_{г}", "удельная сила давления газов"), ("Pj", "p′j", "p'_{j}", "удельная сила инерции"),
+                                      ("Ps", "p′s", "p'_{s}", "удельная суммарная сила"))
+      for way, word in (("max", "наибольшая"), ("min", "наименьшая"))),
+    ("governs", "режим", "", "", "определяющий режим", "@"),
+)  # fmt: skip
+
+CHAPTER_ROWS: tuple[Row, ...] = (*_MASSES, *_REFERENCE, *_DIAGRAM, *_REGIMES)
 CHAPTER_UNITS: tuple[tuple[str, str, float], ...] = (
     ("kg_m2", "кг/м²", 1.0),
     ("s", "с", 1.0),

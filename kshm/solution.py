@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kshm import kinematics
+from kshm import kinematics, regimes
 from kshm.arrangement import pins
 from kshm.companions import companion_columns, companion_scalars
 from kshm.cycle_summary import cycle_columns
+from kshm.diagram import diagram_columns, diagram_scalars, gas_work
 from kshm.engine import Engine
 from kshm.layout_columns import (
     articulated_columns,
@@ -57,6 +58,17 @@ class Solution:
     @cached_property
     def columns(self) -> dict[str, Columns]:
         """Table id → column key → values in the units of the tables."""
+        companions = companion_columns(self.engine, self.raw, self._index)
+        return self.chain_columns | companions | regimes.regime_columns(self.regimes)
+
+    @cached_property
+    def regimes(self) -> tuple[Solution, ...]:
+        """Solutions of the engine's further regimes."""
+        return regimes.solve_regimes(self.engine)
+
+    @cached_property
+    def chain_columns(self) -> dict[str, Columns]:
+        """Tables of chapters 1 and 2 alone, those that a regime changes among them."""
         tables = {
             "P3_1": self._piston(),
             "P3_2": self._rod(),
@@ -82,17 +94,26 @@ class Solution:
         if self.engine.cycle is not None:
             made = cycle_columns(self.engine.cycle)
             tables |= {name: self._units(columns) for name, columns in made.items()}
-        worst = int(self.scalars["worst_main_load"])
+        smooth = diagram_columns(self.engine)
+        tables |= {name: self._units(columns) for name, columns in smooth.items()}
+        worst = int(self.chain_scalars["worst_main_load"])
         chosen = tables[f"P4_3_{worst}"]
         tables["P4_3"] = {key: chosen[key] for key in ("phi_deg", "Rx_MPa", "Ry_MPa")}
-        return tables | companion_columns(self.engine, self.raw, self._index)
+        return tables
 
     @cached_property
     def scalars(self) -> dict[str, float]:
         """Scalar key → value in the unit of its quantity."""
-        found = summarise(self.engine, self.raw, self._index)
-        found |= companion_scalars(self.engine, self.raw, self._index)
+        found = self.chain_scalars | companion_scalars(self.engine, self.raw, self._index)
+        found |= regimes.regime_scalars(self.regimes)
         return {key: value / quantity(key).si for key, value in found.items()}
+
+    @cached_property
+    def chain_scalars(self) -> dict[str, float]:
+        """Scalars of chapters 1 and 2 alone in SI units."""
+        found = summarise(self.engine, self.raw, self._index)
+        work = gas_work(self.engine, self.raw, self._index)
+        return found | diagram_scalars(self.engine, work)
 
     @cached_property
     def tables(self) -> dict[str, pd.DataFrame]:

@@ -100,7 +100,7 @@ class Layout:
     def _inputs(self) -> None:
         row, section, entry = FIRST_ROW, "", None
         for item in self.model.inputs:
-            listed = len(item.path) == 4
+            listed = item.listed
             if item.section != section:
                 row += 2 if section else 0
                 section, entry = item.section, None
@@ -108,10 +108,10 @@ class Layout:
                 row += 2 if listed else 1
             if listed:
                 # Lists of records stand as small tables: a row an entry, a column a key.
-                if entry is not None and item.path[2] != entry:
+                if entry is not None and item.path[-2] != entry:
                     row += 1
                 column = self._entry_column(item)
-                entry = item.path[2]
+                entry = item.path[-2]
                 self.cells[item.name] = Cell(INPUT_SHEET, row, column)
             else:
                 self.cells[item.name] = Cell(INPUT_SHEET, row, VALUE_COLUMN)
@@ -120,7 +120,7 @@ class Layout:
         self.next_row[INPUT_SHEET] = row + 2
 
     def _entry_column(self, item: Field) -> int:
-        same = [f for f in self.model.inputs if f.path[:3] == item.path[:3]]
+        same = [f for f in self.model.inputs if f.path[:-1] == item.path[:-1]]
         return 2 + [f.name for f in same].index(item.name)
 
     def _table(self, table: TableSpec) -> None:
@@ -206,13 +206,7 @@ class Layout:
 
     def _run_of(self, key: str) -> list[Cell]:
         if key.startswith("gas_points_"):
-            suffix = key.removeprefix("gas_points_")
-            names = [
-                item.name
-                for item in self.model.inputs
-                if item.name.startswith("gas_point_") and item.name.endswith(suffix)
-            ]
-            return [self.cells[name] for name in names]
+            return [self.cells[name] for name in self.model.input_runs[key]]
         grid_id, quantity = key.split(".")
         for block in self.model.blocks:
             if isinstance(block, Grid) and block.id == grid_id:

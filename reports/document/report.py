@@ -27,6 +27,7 @@ from reports.document.sections import (
     journals,
     kinematics,
     opening,
+    regimes,
 )
 from reports.document.sections import torque as torques
 from reports.document.sections.chapter import Chapter
@@ -51,6 +52,7 @@ CHAPTERS: tuple[Callable[[Chapter], Markup], ...] = (
     crankpin.crankpin,
     journals.journals,
     torques.running,
+    regimes.regimes,
     companions.companions,
     closing.checks,
     closing.conclusion,

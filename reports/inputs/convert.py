@@ -13,6 +13,7 @@ from kshm.engine import (
     Gas,
     Geometry,
     PolytropicGas,
+    Regime,
     TabulatedGas,
     Throw,
     Web,
@@ -27,6 +28,7 @@ from reports.inputs.model import (
     GeometrySection,
     InputFile,
     PolytropicGasSection,
+    RegimeSection,
     TableGasSection,
 )
 from reports.inputs.model_articulated import ArticulatedSection
@@ -68,8 +70,21 @@ def to_engine(model: InputFile) -> Engine:
         balancing=_balancing(model.balance),
         name=model.engine.name,
         cycle=run,
+        regimes=tuple(_regime(regime, model.engine.strokes) for regime in model.regimes),
         reference_lambdas=() if reference is None else reference.lambdas,
         reference_angle=0.0 if reference is None else DEG.to_si(reference.angle_deg),
+    )
+
+
+def _regime(section: RegimeSection, strokes: int) -> Regime:
+    power = section.indicated_power_kw
+    return Regime(
+        name=section.name,
+        omega=RPM.to_si(section.speed_rpm),
+        gas=_gas(section.gas, None, strokes=strokes),
+        mechanical_efficiency=float(section.mechanical_efficiency),
+        indicated_power=None if power is None else KW.to_si(power),
+        fullness=float(section.fullness),
     )
 
 

@@ -51,11 +51,20 @@ def with_points(raw: dict[str, Any], folder: Path, source: str) -> dict[str, Any
     Raises:
         InputError: the file is missing or is no table of angles and pressures.
     """
-    gas = raw.get("gas")
-    if not isinstance(gas, dict) or gas.get("source") != "file":
-        return raw
     period = 360.0 if _strokes(raw) == 2 else 720.0
-    return {**raw, "gas": _table(gas, folder, source, period)}
+
+    def filled(owner: dict[str, Any]) -> dict[str, Any]:
+        gas = owner.get("gas")
+        if not isinstance(gas, dict) or gas.get("source") != "file":
+            return owner
+        return {**owner, "gas": _table(gas, folder, source, period)}
+
+    result = filled(raw)
+    regimes = result.get("regimes")
+    if isinstance(regimes, list):
+        entries = [filled(entry) if isinstance(entry, dict) else entry for entry in regimes]
+        result = {**result, "regimes": entries}
+    return result
 
 
 def _strokes(raw: dict[str, Any]) -> object:

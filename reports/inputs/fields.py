@@ -26,13 +26,13 @@ an R1C1 token) and is unique without regard to case.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from pydantic import BaseModel
 
 from reports.inputs.meta import Meta, find_meta, hints, submodel
-from reports.inputs.model import InputFile
+from reports.inputs.model import InputFile, RegimeSection, RegimeValues
 
 Path = tuple[str | int, ...]
 Value = str | int | float
@@ -106,6 +106,11 @@ class Field:
     structural: bool
     optional: bool
 
+    @property
+    def listed(self) -> bool:
+        """Whether the value is one of a list of records, shown as a table."""
+        return len(self.path) >= 4 and isinstance(self.path[-2], int)
+
 
 def cell_name(path: Path) -> str:
     """Return the defined name that belongs to a path (see the module's table)."""
@@ -132,6 +137,8 @@ def iter_fields(model: InputFile) -> Iterator[Field]:
         if part is None:
             continue
         yield from _fields_of(part, (section,), title, number=None)
+    for index, regime in enumerate(model.regimes):
+        yield from _regime_fields(regime, index)
 
 
 def structure(model: InputFile) -> tuple[tuple[str, Value | None], ...]:
@@ -174,6 +181,29 @@ def _fields_of(part: BaseModel, path: Path, section: str, number: int | None) ->
         if number is not None:
             meta = meta.numbered(number)
         yield _field(here, section, meta, value, optional)
+
+
+def _regime_fields(regime: RegimeSection, index: int) -> Iterator[Field]:
+    """Fields of a further regime: those of the main one under names of their own."""
+    values = RegimeValues(**{key: value for key, value in regime if key != "gas"})
+    parts = (
+        (values, "regime", ("regimes", index), 1, "Режим"),
+        (regime.gas, "gas", ("regimes", index), 0, "Газы режима"),
+    )
+    for part, section, place, dropped, title in parts:
+        for field in _fields_of(part, (section,), f"{title} {index + 2}", number=None):
+            listed = f": {field.section.lower()}" if field.listed else ""
+            yield replace(
+                field,
+                path=(*place, *field.path[dropped:]),
+                name=field.name + regime_suffix(index + 2),
+                section=f"{title} {index + 2}{listed}",
+            )
+
+
+def regime_suffix(number: int) -> str:
+    """Ending of the names of a further regime, counted from 2; the main one has none."""
+    return f"_R{number}"
 
 
 def _entries(

@@ -16,7 +16,7 @@ from typing import Any, cast
 from pydantic import ValidationError
 
 from reports.errors import InputError, Problem, one_line
-from reports.inputs import cells, checks, messages
+from reports.inputs import cells, checks, load_regimes, messages
 from reports.inputs.diagram_file import with_points
 from reports.inputs.fields import SECTIONS, Path, key_text
 from reports.inputs.findings import Finding, Values
@@ -32,6 +32,8 @@ from reports.inputs.model import (
     InputFile,
     PolytropicGasSection,
     Regime,
+    RegimeSection,
+    RegimeValues,
     TableGasSection,
 )
 from reports.inputs.model_articulated import ArticulatedSection
@@ -134,12 +136,16 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
     reader.take(findings)
     if findings:  # what would have followed from the order is not also missing
         reader.empty |= {("crankshaft", key) for key in FOLLOWING}
+    regimes = data.pop("regimes", ())
+    if locate is not None:
+        data = reader.from_cells(data)
     models = reader.sections(data)
+    further = reader.regimes(regimes)
     reader.take(checks.check(reader.values))
     if reader.problems:
         raise InputError(_capped(source, reader.problems, reader.uncounted))
     parts = cast(dict[str, Any], models)
-    model = InputFile(**parts)
+    model = InputFile(**parts, regimes=further)
     if model.cycle is not None:
         # Only a file with a cycle pays for the numeric part.
         from reports.inputs.cycle import cycle_findings
@@ -153,9 +159,10 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
 class _Reader:
     """Collects the problems of one file, section by section."""
 
-    def __init__(self, source: str, locate: Locate | None) -> None:
+    def __init__(self, source: str, locate: Locate | None, regime: int | None = None) -> None:
         self.source = one_line(source, 120)
         self.locate = locate
+        self.regime = regime
         self.problems: list[Problem] = []
         self.warnings: list[Problem] = []
         self.values = Values()
@@ -163,6 +170,8 @@ class _Reader:
         self.uncounted = 0
 
     def problem(self, path: Path, what: str, hint: str = "") -> Problem:
+        if self.regime is not None:
+            path = load_regimes.inside(self.regime, path)
         key = one_line(key_text(path), 100)
         cell = self.locate(path) if self.locate is not None and path else ""
         place = f"{cell} ({key})" if cell else key
@@ -177,6 +186,8 @@ class _Reader:
         source = str(data["gas"].get("source")) if isinstance(data.get("gas"), dict) else ""
         source = next((key for key, label in SOURCES.items() if source == label), source)
         known = {**SECTION_MODELS, "gas": _GASES.get(source, PolytropicGasSection)}
+        if self.regime is not None:
+            known["regime"] = RegimeValues
         result, empty = cells.from_cells(data, known)
         self.problems += [self.problem(path, "ячейка пуста", "впишите значение") for path in empty]
         self.empty = set(empty)
@@ -211,6 +222,36 @@ class _Reader:
                 if section is not None:
                     models[name] = section
         return models
+
+    def regimes(self, raw: object) -> tuple[RegimeSection, ...]:
+        """The further regimes; each is read like a file with the same engine."""
+        made = []
+        for item in load_regimes.regime_data(raw):
+            if isinstance(item, Finding):
+                self.take([item])
+                continue
+            index, entry = item
+            inner = _Reader(self.source, self.locate, index)
+            found = inner.one_regime(entry, self.values)
+            self.problems += inner.problems
+            self.warnings += inner.warnings
+            if found is not None:
+                made.append(found)
+        return tuple(made)
+
+    def one_regime(self, entry: dict[str, Any], engine: Values) -> RegimeSection | None:
+        """One regime of the engine whose values are given."""
+        data = {"regime": {k: v for k, v in entry.items() if k != "gas"}, "gas": entry["gas"]}
+        if self.locate is not None:
+            data = self.from_cells(data)
+        gas = self._model_of("gas", data["gas"])
+        parts = [self._section("regime", RegimeValues, data["regime"])]
+        if gas is not None:
+            parts.append(self._section("gas", gas, data["gas"]))
+            self.take(load_regimes.checked(engine, self.values))
+        if self.problems or len(parts) < 2 or parts[0] is None or parts[1] is None:
+            return None
+        return load_regimes.joined(parts[0], parts[1])
 
     def _model_of(self, name: str, raw: object) -> type[Strictly] | None:
         if not isinstance(raw, dict):

@@ -127,6 +127,7 @@ class DesignGeometrySection(Strictly):
 class Regime(Strictly):
     """[regime]."""
 
+    name: Annotated[str, text("Название режима")] | None = None
     speed_rpm: Annotated[float, number("Частота вращения", "n", RPM, 10, 30000)]
     mechanical_efficiency: Annotated[float, number("Механический КПД", "η_м", NONE, 0.1, 1)] = 1.0
     indicated_power_kw: (
@@ -236,6 +237,20 @@ class CycleGasSection(Strictly):
 GasSection = PolytropicGasSection | TableGasSection | CycleGasSection | RoundedGasSection
 
 
+class RegimeValues(Regime):
+    """[[regimes]] without its gas: a further speed and load of the same engine, Gots 2.4."""
+
+    name: Annotated[str, text("Название режима")]
+    # None at all is left at idle speed.
+    mechanical_efficiency: Annotated[float, number("Механический КПД", "η_м", NONE, 0, 1)] = 1.0
+
+
+class RegimeSection(RegimeValues):
+    """[[regimes]]: a further regime with gas data of its own in [regimes.gas]."""
+
+    gas: Annotated[GasSection, Field(discriminator="source")]
+
+
 class InputFile(Strictly):
     """The whole input file in user units."""
 
@@ -251,3 +266,4 @@ class InputFile(Strictly):
     crankshaft: CrankshaftSection
     balance: BalanceSection = Field(default_factory=BalanceSection)
     reference: ReferenceSection | None = None
+    regimes: tuple[RegimeSection, ...] = ()

@@ -9,14 +9,16 @@ from reports.inputs.model import InputFile
 from reports.tables import mechanism
 from reports.tables.charts import charts
 from reports.tables.companions import companion_blocks, companion_charts
+from reports.tables.comparison import comparison_blocks, comparison_charts
 from reports.tables.cycle import process_blocks
 from reports.tables.cycle_results import result_blocks
 from reports.tables.cycle_speed import cycle_charts, speed_blocks
 from reports.tables.cylinder import cylinder_blocks
 from reports.tables.journals import journal_blocks
+from reports.tables.regimes import regime_models
 from reports.tables.rename import substituted
 from reports.tables.rod_masses import mass_blocks, stand_ins
-from reports.tables.spec import Model
+from reports.tables.spec import Block, ChartSpec, Model
 from reports.tables.summary import summary_blocks
 from reports.tables.torques import torque_tables
 from reports.tables.wear import wear_blocks
@@ -32,6 +34,34 @@ def build_model(model: InputFile) -> Model:
     if not to_engine(model).is_basic:
         what = "книга и отчет пока строятся только для рядного четырехтактного центрального"
         raise InputError(Problem(model.engine.name, what, "числа дает команда kshm solve"))
+    cycle = angle_rows(model.calculation.step_deg, 720)
+    blocks, shown = chain(model)
+    further = regime_models(model, chain)
+    blocks = (
+        *process_blocks(model),
+        *result_blocks(model),
+        *speed_blocks(model),
+        *blocks,
+        *comparison_blocks(model, further),
+        *(block for regime in further for block in regime.renamed_blocks()),
+        *substituted(companion_blocks(model, cycle), stand_ins(model)),
+    )
+    return Model(
+        model,
+        tuple(iter_fields(model)),
+        blocks,
+        (
+            *cycle_charts(model),
+            *shown,
+            *comparison_charts(model),
+            *(chart for regime in further for chart in regime.renamed_charts()),
+            *companion_charts(model),
+        ),
+    )
+
+
+def chain(model: InputFile) -> tuple[tuple[Block, ...], tuple[ChartSpec, ...]]:
+    """Blocks and charts of chapters 1 and 2: all that speed and gas decide, and more."""
     cylinders = model.engine.cylinders
     throws = len(model.crankshaft.throw_angles_deg)
     rays = model.calculation.wear_rays
@@ -39,9 +69,6 @@ def build_model(model: InputFile) -> Model:
     turn = angle_rows(model.calculation.step_deg, 360)
     forced = model.crankshaft.force_offsets_deg is not None
     blocks = (
-        *process_blocks(model),
-        *result_blocks(model),
-        *speed_blocks(model),
         mechanism.geometry(model),
         mechanism.masses(model),
         *mass_blocks(model),
@@ -50,12 +77,6 @@ def build_model(model: InputFile) -> Model:
         *torque_tables(cylinders, cycle),
         *journal_blocks(throws, cycle, forced=forced),
         *wear_blocks(throws + 1, rays, cycle),
-        *companion_blocks(model, cycle),
         *summary_blocks(model, throws),
     )
-    return Model(
-        model,
-        tuple(iter_fields(model)),
-        substituted(blocks, stand_ins(model)),
-        (*cycle_charts(model), *charts(throws, rays), *companion_charts(model)),
-    )
+    return substituted(blocks, stand_ins(model)), charts(throws, rays)

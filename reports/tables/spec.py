@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,6 +11,8 @@ from typing import Literal
 from kshm.nomenclature import Quantity, quantity
 from reports.inputs.fields import Field
 from reports.inputs.model import InputFile
+
+_POINT = re.compile(r"gas_point_\d+_(?P<unit>deg|mpa)(?P<regime>_R\d+)?")
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,6 +155,17 @@ class Model:
     def fields(self) -> Mapping[str, Field]:
         """Input fields by the name of their cell."""
         return {field.name: field for field in self.inputs}
+
+    @cached_property
+    def input_runs(self) -> Mapping[str, tuple[str, ...]]:
+        """Names of the cells of a diagram given by points, ``gas_points_deg`` and the like."""
+        runs: dict[str, list[str]] = {}
+        for item in self.inputs:
+            match = _POINT.fullmatch(item.name)
+            if match is not None:
+                key = f"gas_points_{match['unit']}{match['regime'] or ''}"
+                runs.setdefault(key, []).append(item.name)
+        return {key: tuple(names) for key, names in runs.items()}
 
     @cached_property
     def sheets(self) -> tuple[str, ...]:

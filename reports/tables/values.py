@@ -51,13 +51,9 @@ class Evaluation:
             if field.choices is not None and isinstance(value, str):
                 value = field.choices[value]
             self.done[field.name] = value
-        for name in ("deg", "mpa"):
-            points = [
-                f.value
-                for f in model.inputs
-                if f.name.startswith("gas_point_") and f.name.endswith(name)
-            ]
-            self.done[f"gas_points_{name}"] = np.array(points, dtype=float)
+        for key, names in model.input_runs.items():
+            points = [model.fields[name].value for name in names]
+            self.done[key] = np.array(points, dtype=float)
         self.inputs = dict(self.done)
         self.done.update(known or {})
 

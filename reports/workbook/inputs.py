@@ -24,7 +24,7 @@ def write_inputs(sheet: Worksheet, model: Model, layout: Layout) -> None:
     headed: set[str] = set()
     for item in model.inputs:
         place = layout.places[f"input:{item.section}"]
-        listed = len(item.path) == 4
+        listed = item.listed
         if item.section not in headed:
             headed.add(item.section)
             sheet.cell(place.row, 1, item.section).style = styles.SUBTITLE
@@ -76,7 +76,7 @@ def _labels(sheet: Worksheet, item: Field, row: int) -> None:
 
 def _entry(sheet: Worksheet, item: Field, row: int, column: int, header_row: int) -> None:
     """A value of a list of records: headers above, the number of the entry on the left."""
-    number = int(item.path[2]) + 1
+    number = int(item.path[-2]) + 1
     sheet.cell(header_row, 1, "№").style = styles.HEADER
     sheet.cell(row, 1, number).style = styles.HEADER
     if number == 1:

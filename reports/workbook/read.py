@@ -63,6 +63,9 @@ def load_workbook_input(path: Path) -> Loaded:
         _put(raw, target, value)
     for section in ("gas", "crankshaft", "reference"):
         _close_lists(raw.get(section, {}))
+    for regime in raw.get("regimes", {}).values():
+        _close_lists(regime.get("gas", {}))
+    _close_lists(raw)
 
     def locate(target: tuple[str | int, ...]) -> str:
         for length in range(len(target), 0, -1):
@@ -112,6 +115,12 @@ def _input_cells(data: bytes, source: str) -> tuple[dict[str, Any], dict[str, st
 
 def _path_of(name: str) -> tuple[str | int, ...] | None:
     """Path of an input field from the name of its cell, see ``reports.inputs.fields``."""
+    further = re.fullmatch(r"(\w+)_R([0-9]+)", name)
+    if further is not None:
+        path = _path_of(further[1])
+        if path is None or path[0] not in ("regime", "gas") or int(further[2]) < 2:
+            return None
+        return ("regimes", int(further[2]) - 2, *path[path[0] == "regime" :])
     for prefix, (section, key) in _LISTS.items():
         match = re.fullmatch(rf"{prefix}_([0-9]+)_(\w+)", name)
         if match is None:

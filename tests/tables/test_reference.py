@@ -67,7 +67,7 @@ def test_workbook_is_live_and_reads_back(tmp_path) -> None:
 
 
 def test_without_the_section_only_figure_20_stands() -> None:
-    model = build_model(sample("gots-p3"))
+    model = build_model(sample("gots-diesel"))
     assert [t for t in model.tables if t.startswith("ref_")] == []
     assert "vectors" in model.tables
 

@@ -130,15 +130,13 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
     """
     reader = _Reader(source, locate)
     data = dict(raw)
+    regimes = data.pop("regimes", ())
     if locate is not None:
         data = reader.from_cells(data)
     data, findings = expand(data)
     reader.take(findings)
     if findings:  # what would have followed from the order is not also missing
         reader.empty |= {("crankshaft", key) for key in FOLLOWING}
-    regimes = data.pop("regimes", ())
-    if locate is not None:
-        data = reader.from_cells(data)
     models = reader.sections(data)
     further = reader.regimes(regimes)
     reader.take(checks.check(reader.values))

@@ -25,6 +25,7 @@ def test_samples():
         "gots-diesel",
         "gots-p3",
         "gots-p43",
+        "gots-regimes",
     )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from reports.tables.offset import offset_charts
+from reports.tables.shape import Shape
 from reports.tables.spec import ChartSpec, Series
 
 PHI = "φ, ° ПКВ"
@@ -19,8 +21,9 @@ def _columns(table: str, *keys: str) -> tuple[str, ...]:
     return tuple(f"{table}.{key}" for key in keys)
 
 
-def charts(throws: int, rays: int) -> tuple[ChartSpec, ...]:
-    """All charts for a shaft with ``throws`` throws."""
+def charts(shape: Shape) -> tuple[ChartSpec, ...]:
+    """All charts of the book's figures for an engine of this shape."""
+    throws = shape.throws
     journals = range(1, throws + 2)
     pv = Series("gas.volume_dm3", "gas.p_MPa", "p")
     return (
@@ -36,17 +39,56 @@ def charts(throws: int, rays: int) -> tuple[ChartSpec, ...]:
         _over_phi("fig47", "47", "П4.1", "Удельные силы N и S", "МПа", *_columns("P4_1", "N_MPa", "S_MPa")),
         _over_phi("fig48", "48", "П4.1", "Удельные силы K и T", "МПа", *_columns("P4_1", "K_MPa", "T_MPa")),
         _over_phi("fig49", "49", "П4.2", "Индикаторный крутящий момент двигателя", "M, Н·м", "P4_2.Msum_Nm"),
-        _polar("fig50", "50", "Шатунная шейка", "Полярная диаграмма нагрузки на шатунную шейку",
-               Series("crankpin.T_MPa", "crankpin.Krod_MPa", "R′ш.ш"), "T, МПа", "K − Kr ш, МПа (вниз — к оси вала)"),
-        _over_phi("fig51", "51", "Шатунная шейка", "Нагрузка на шатунную шейку", "R, МПа", "crankpin.Rpin_MPa"),
-        _wear("fig52", "52", "Износ ш.ш", "Условная диаграмма износа шатунной шейки", "table_14_sums"),
+        *_pins(len(shape.pins)),
         *(_polar(f"fig53_{k}", "53", f"П4.3 ({k})", f"Полярная диаграмма нагрузки на коренную шейку {k}",
                  Series(f"P4_3_{k}.Rx_MPa", f"P4_3_{k}.Ry_MPa", f"R′к.ш{k}"), "R′x, МПа (влево)", "R′y, МПа") for k in journals),
         *(_wear(f"fig54_{k}", "54", f"Износ к.ш ({k})", f"Условная диаграмма износа коренной шейки {k}", f"table_14_main_{k}_sums") for k in journals),
         *(_over_phi(f"fig55_{k}", "55", f"П4.3 ({k})", f"Нагрузка на коренную шейку {k}", "R, МПа", f"P4_3_{k}.R_MPa") for k in journals),
         *(_over_phi(f"fig56_{k}", "56", "П4.4", f"Набегающий момент на коренную шейку {k}", "M, Н·м", f"P4_4.Mmain{k}_Nm") for k in range(2, throws + 2)),
         *(_over_phi(f"fig57_{i}", "57", "П4.5", f"Набегающий момент на шатунную шейку {i}", "M, Н·м", f"P4_5.Mpin{i}_Nm") for i in range(1, throws + 1)),
+        *(offset_charts() if shape.offset else ()),
     )  # fmt: skip
+
+
+def _pins(count: int) -> tuple[ChartSpec, ...]:
+    """Figures 50-52 of every crankpin that has loads of its own."""
+    found = []
+    for n in range(1, count + 1):
+        end, words = ("", f" {n}") if n == 1 else (f"_{n}", f" {n}")
+        name, table = words if count > 1 else "", f"crankpin{end}"
+        sheet = "Шатунная шейка" if n == 1 else f"Шатунная шейка {n}"
+        wear = (
+            ("Износ ш.ш", "table_14_sums")
+            if n == 1
+            else (f"Износ ш.ш ({n})", f"table_14_pin_{n}_sums")
+        )
+        found += [
+            _polar(
+                f"fig50{end}",
+                "50",
+                sheet,
+                f"Полярная диаграмма нагрузки на шатунную шейку{name}",
+                Series(f"{table}.T_MPa", f"{table}.Krod_MPa", "R′ш.ш"),
+                "T, МПа",
+                "K − Kr ш, МПа (вниз — к оси вала)",
+            ),
+            _over_phi(
+                f"fig51{end}",
+                "51",
+                sheet,
+                f"Нагрузка на шатунную шейку{name}",
+                "R, МПа",
+                f"{table}.Rpin_MPa",
+            ),
+            _wear(
+                f"fig52{end}",
+                "52",
+                wear[0],
+                f"Условная диаграмма износа шатунной шейки{name}",
+                wear[1],
+            ),
+        ]
+    return tuple(found)  # fmt: skip
 
 
 def _polar(

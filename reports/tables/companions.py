@@ -8,14 +8,17 @@ from reports.tables.inertia import inertia_blocks, inertia_charts
 from reports.tables.neiman import neiman_blocks, neiman_charts
 from reports.tables.reference import reference_blocks, reference_charts
 from reports.tables.segal import segal_blocks, segal_charts
+from reports.tables.shape import Shape
 from reports.tables.spec import Block, ChartSpec
 from reports.tables.torque_orders import torque_order_blocks, torque_order_charts
 
 
 def companion_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block, ...]:
-    """All blocks of the companion sources."""
+    """Blocks of the companion sources: most are about basic engines only."""
     cylinders, throws = model.engine.cylinders, len(model.crankshaft.throw_angles_deg)
     turn = tuple(angle for angle in cycle if angle <= 360)
+    if not Shape.of(model).basic:
+        return reference_blocks(model, turn)
     return (
         *balance_blocks(cylinders, throws, turn),
         *inertia_blocks(model, cycle),
@@ -27,7 +30,9 @@ def companion_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block,
 
 
 def companion_charts(model: InputFile) -> tuple[ChartSpec, ...]:
-    """All charts of the companion sources."""
+    """Charts of the companion sources."""
+    if not Shape.of(model).basic:
+        return reference_charts(model)
     return (
         *balance_charts(),
         *inertia_charts(),

@@ -4,127 +4,68 @@ from __future__ import annotations
 
 from reports.inputs.model import InputFile, TableGasSection
 from reports.inputs.model_gas import RoundedGasSection
-from reports.tables.cycle_names import from_cycle
-from reports.tables.diagram import diagram_blocks, is_smooth, rounded_pressure, smooth_pressure
+from reports.tables.articulated import hung_blocks, hung_corners, hung_table
+from reports.tables.diagram import diagram_blocks
 from reports.tables.mechanism import acceleration
-from reports.tables.spec import Block, Column, Scalar, ScalarTable, TableSpec
-
-EDGE = "0.0000001"  # degrees: the angles come from whole degrees and sums of them
+from reports.tables.pressure import WORK, Corners, corner_points, pressure
+from reports.tables.shape import TIMING, Shape
+from reports.tables.spec import Block, Column, ScalarTable, TableSpec
 
 
 def gas_scalars(model: InputFile) -> tuple[ScalarTable, ...]:
     """Corner points of the polytropic diagram; none for a table of points."""
     if isinstance(model.gas, TableGasSection | RoundedGasSection):
         return ()
-    start = (
-        "gas_combustion_start_deg"
-        if model.gas.combustion_start_deg is not None
-        else "360 - gas_injection_advance_deg + gas_ignition_delay_deg"
-    )
-    return (
-        ScalarTable(
-            "gas_points",
-            "Характерные точки индикаторной диаграммы",
-            "Газы",
-            (
-                Scalar("phi_c_deg", start, "Dinn: 360° − УОВ + УЗВ"),
-                Scalar("phi_open_deg", "540 - gas_exhaust_start_before_bdc_deg", "Dinn"),
-                Scalar("phi_close_deg", "540 + gas_exhaust_end_after_bdc_deg", "Dinn"),
-                Scalar("x_start", volume_ratio("phi_c_deg"), "Гоц (1)"),
-                Scalar(
-                    "p_start",
-                    from_cycle(
-                        model,
-                        "gas_intake_pressure_mpa"
-                        "*(geometry_compression_ratio/x_start)**gas_compression_exponent",
-                    ),
-                    "политропа сжатия",
-                ),
-                Scalar(
-                    "p_c_end",
-                    from_cycle(
-                        model,
-                        "gas_intake_pressure_mpa"
-                        "*geometry_compression_ratio**gas_compression_exponent",
-                    ),
-                    "политропа сжатия",
-                ),
-                Scalar("x_open", volume_ratio("phi_open_deg"), "Гоц (1)"),
-                Scalar(
-                    "p_open",
-                    from_cycle(
-                        model,
-                        "gas_max_pressure_mpa"
-                        "*min(1, (gas_preexpansion_ratio/x_open)**gas_expansion_exponent)",
-                    ),
-                    "политропа расширения",
-                ),
-            ),
-        ),
-    )
-
-
-def volume_ratio(phi: str) -> str:
-    """V/V_c from the exact displacement, Gots (1)."""
-    return (
-        f"1 + (geometry_compression_ratio - 1)/2*((1 - cos(rad({phi})))"
-        f" + (1 - sqrt(1 - lam**2*sin(rad({phi}))**2))/lam)"
-    )
-
-
-def pressure(model: InputFile, phi: str, ratio: str) -> str:
-    """Absolute gas pressure [MPa] at the angle and volume ratio of the named columns."""
-    if isinstance(model.gas, RoundedGasSection):
-        return rounded_pressure(phi, ratio)
-    if is_smooth(model):
-        return smooth_pressure(phi)
-    if isinstance(model.gas, TableGasSection):
-        return f"interpolate({phi}, gas_points_deg, gas_points_mpa)"
-    eps, rho = "geometry_compression_ratio", "gas_preexpansion_ratio"
-    p_z, p_r = "gas_max_pressure_mpa", "gas_residual_pressure_mpa"
-    compression = f"gas_intake_pressure_mpa*({eps}/{ratio})**gas_compression_exponent"
-    rise = f"min({p_z}, p_start + ({p_z} - p_start)*({phi} - phi_c_deg)/gas_injection_advance_deg)"
-    expansion = f"{p_z}*min(1, ({rho}/{ratio})**gas_expansion_exponent)"
-    release = f"p_open + ({p_r} - p_open)*({phi} - phi_open_deg)/(phi_close_deg - phi_open_deg)"
-    steps = [
-        ("0", p_r),
-        ("180", "gas_intake_pressure_mpa"),
-        ("phi_c_deg", compression),
-        ("360", rise),
-        ("phi_open_deg", expansion),
-        ("phi_close_deg", release),
-    ]
-    text = p_r
-    for limit, value in reversed(steps):
-        text = f"({value}) if {phi} <= {limit} + {EDGE} else ({text})"
-    return from_cycle(model, text)
+    shape = Shape.of(model)
+    own = Corners(shape, shape.volume_ratio, shape.tdc, shape.bdc)
+    tables = [corner_points(model, own)]
+    if shape.articulated:
+        tables.append(corner_points(model, hung_corners(shape)))
+    return tuple(tables)
 
 
 def gas_table(model: InputFile, rows: tuple[float, ...]) -> TableSpec:
     """The indicator diagram of cylinder 1 over φ and over the volume."""
-    displacement = (
-        "to_mm(r_crank*((1 - cos(rad(phi_deg))) + (1 - sqrt(1 - lam**2*sin(rad(phi_deg))**2))/lam))"
-    )
-    work = "(p_MPa + following(p_MPa))/2*(following(volume_dm3) - volume_dm3)*1000"
-    return TableSpec(
-        "gas",
-        "Г",
-        "Индикаторная диаграмма",
-        "Газы",
-        (
-            Column("phi_deg", None),
-            Column("x_exact_mm", displacement, "Гоц (1)"),
-            Column("volume_ratio", volume_ratio("phi_deg"), "Гоц (1)"),
-            Column("volume_dm3", "V_c*volume_ratio", "Гоц, 1.1"),
-            Column("p_MPa", pressure(model, "phi_deg", "volume_ratio"), "Гоц, 2.4"),
-            Column("work_J", work, "∫p dV", helper=True),
-        ),
-        rows,
-    )
+    shape = Shape.of(model)
+    columns = [
+        Column("phi_deg", None),
+        Column("x_exact_mm", f"to_mm(r_crank*{shape.displacement('phi_deg')})", displaced(shape)),
+        Column("volume_ratio", shape.volume_ratio("phi_deg"), displaced(shape)),
+        Column("volume_dm3", "V_c*volume_ratio", "Гоц, 1.1"),
+        Column("p_MPa", _own_pressure(model, shape, "phi_deg"), "Гоц, 2.4"),
+        Column("work_J", WORK, "∫p dV", helper=True),
+        *_timing(model, shape, "phi_deg"),
+    ]
+    return TableSpec("gas", "Г", "Индикаторная диаграмма", "Газы", tuple(columns), rows)
+
+
+def displaced(shape: Shape) -> str:
+    """Source of the exact displacement."""
+    return "Гоц (12)" if shape.offset else "Гоц (1)"
+
+
+def _timing(model: InputFile, shape: Shape, phi: str) -> tuple[Column, ...]:
+    """With an offset the angle from the piston's own TDC decides what the gas does."""
+    if not _is_timed(model, shape):
+        return ()
+    angle = f"mod({phi} - phi_tdc_deg, {shape.period}) + phi_tdc_deg"
+    return (Column(TIMING, angle, "угол от действительной ВМТ", helper=True, of="phase_deg"),)
+
+
+def _is_timed(model: InputFile, shape: Shape) -> bool:
+    return shape.offset and not isinstance(model.gas, TableGasSection)
+
+
+def _own_pressure(model: InputFile, shape: Shape, phi: str) -> str:
+    corners = Corners(shape, shape.volume_ratio, shape.tdc, shape.bdc)
+    return pressure(model, TIMING if _is_timed(model, shape) else phi, "volume_ratio", corners)
 
 
 def forces_table(model: InputFile, rows: tuple[float, ...]) -> TableSpec:
     """Table П4.1: specific forces and torque of cylinder 1."""
+    shape = Shape.of(model)
+    # With an offset the block also feels the inertia force on that arm (readings, 11).
+    overturning = "e_offset*of_MPa(Pj_MPa)*F_piston - M_Nm" if shape.offset else "-M_Nm"
     return TableSpec(
         "P4_1",
         "П4.1",
@@ -134,14 +75,14 @@ def forces_table(model: InputFile, rows: tuple[float, ...]) -> TableSpec:
             Column("phi_deg", None),
             Column("Pg_MPa", "gas.p_MPa - gas_ambient_pressure_mpa", "Гоц (33)"),
             *_chain("phi_deg"),
-            Column("beta_rad", "asin(lam*sin(rad(phi_deg)))", "Гоц (7)", helper=True),
+            Column("beta_rad", shape.beta("phi_deg"), "Гоц (7), (17)", helper=True),
             Column(
                 "j_m_s2",
                 acceleration(model, "phi_deg", "beta_rad"),
                 "Гоц (6) или точно",
                 helper=True,
             ),
-            Column("Mopr_Nm", "-M_Nm", "Гоц (39)", helper=True),
+            Column("Mopr_Nm", overturning, "Гоц (39)", helper=True),
         ),
         rows,
     )
@@ -154,6 +95,9 @@ def shifted_table(
 
     ``forced`` takes the phases that reproduce the printed П4.3.
     """
+    shape = Shape.of(model)
+    if shape.is_hung(number):
+        return hung_table(model, rows, number)
     offset = f"force_offset_{number}_deg" if forced else f"firing_offset_{number}_deg"
     return TableSpec(
         f"forced_{number}" if forced else f"cylinder_{number}",
@@ -164,21 +108,22 @@ def shifted_table(
             Column("phi_deg", None),
             Column(
                 "phase_deg",
-                f"mod(phi_deg - {offset}, 720)",
+                f"mod(phi_deg - {offset}, {shape.period})",
                 "угол в цикле",
                 of=f"phase{number}_deg",
             ),
-            Column("volume_ratio", volume_ratio("phase_deg"), "Гоц (1)"),
-            Column("p_MPa", pressure(model, "phase_deg", "volume_ratio"), "Гоц, 2.4"),
+            Column("volume_ratio", shape.volume_ratio("phase_deg"), displaced(shape)),
+            Column("p_MPa", _own_pressure(model, shape, "phase_deg"), "Гоц, 2.4"),
             Column("Pg_MPa", "p_MPa - gas_ambient_pressure_mpa", "Гоц (33)"),
             *_chain("phase_deg"),
-            Column("beta_rad", "asin(lam*sin(rad(phase_deg)))", "Гоц (7)", helper=True),
+            Column("beta_rad", shape.beta("phase_deg"), "Гоц (7), (17)", helper=True),
             Column(
                 "j_m_s2",
                 acceleration(model, "phase_deg", "beta_rad"),
                 "Гоц (6) или точно",
                 helper=True,
             ),
+            *_timing(model, shape, "phase_deg"),
         ),
         rows,
         helper=forced,
@@ -206,6 +151,7 @@ def cylinder_blocks(model: InputFile, rows: tuple[float, ...]) -> tuple[Block, .
     """Gas, П4.1 and the forces of all other cylinders."""
     count = model.engine.cylinders
     blocks: list[Block] = [
+        *(hung_blocks(model, rows) if Shape.of(model).articulated else ()),
         *gas_scalars(model),
         *diagram_blocks(model),
         gas_table(model, rows),

@@ -21,6 +21,14 @@ _EPS = "geometry_compression_ratio"
 NODES = ("r", "a′", "a", "c′", "c″", "zд", "j", "b′", "b″", "r′", "r")
 
 
+def volume_ratio(phi: str) -> str:
+    """V/V_c of the central mechanism, Gots (1); the rounded diagram has no other."""
+    return (
+        f"1 + (geometry_compression_ratio - 1)/2*((1 - cos(rad({phi})))"
+        f" + (1 - sqrt(1 - lam**2*sin(rad({phi}))**2))/lam)"
+    )
+
+
 def diagram_blocks(model: InputFile) -> tuple[Block, ...]:
     """Mean indicated pressure; points and slopes where the diagram is made of cubics."""
     mean = Scalar("p_i_area", "to_MPa(W_cycle/of_dm3(V_h))", "∮p dV/Vh")
@@ -70,8 +78,6 @@ def _expansion(ratio: str) -> str:
 
 
 def _scalars(gas: RoundedGasSection) -> ScalarTable:
-    from reports.tables.cylinder import volume_ratio
-
     share, peak, join = places(gas)
     names = [
         f"gas_{name}" if value is not None else f"{usual:g}"
@@ -116,8 +122,6 @@ def _scalars(gas: RoundedGasSection) -> ScalarTable:
 
 
 def _nodes() -> Grid:
-    from reports.tables.cylinder import volume_ratio
-
     def squeezed(angle: str) -> str:
         return _compression(volume_ratio(angle))
 

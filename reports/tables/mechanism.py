@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from reports.inputs.model import DesignGeometrySection, InputFile
+from reports.inputs.model import DesignGeometrySection, GeometrySection, InputFile
+from reports.tables.shape import Shape
 from reports.tables.spec import Block, Column, Scalar, ScalarTable, TableSpec
 
 EXACT_LABEL_FIELD = "calculation_method"
 
 TWO_TERM = "r_crank*omega**2*(cos(rad({phi})) + lam*cos(2*rad({phi})))"
+OFFSET_TWO_TERM = (
+    "r_crank*omega**2*(cos(rad({phi})) + lam*cos(2*rad({phi})) + lam*k_offset*sin(rad({phi})))"
+)
 EXACT = (
     "r_crank*omega**2*(cos(rad({phi}) + {beta})/cos({beta})"
     " + lam*cos(rad({phi}))**2/cos({beta})**3)"
@@ -16,10 +20,10 @@ EXACT = (
 
 def geometry(model: InputFile) -> ScalarTable:
     """Derived geometry and kinematic scalars."""
-    given = model.geometry
+    given, shape = model.geometry, Shape.of(model)
     bore = "of_mm(geometry_bore_mm)"
     if isinstance(given, DesignGeometrySection):
-        return _geometry("of_mm(cyc_S)/2", "r_crank/geometry_lambda", "of_mm(cyc_D)")
+        return _geometry(shape, "of_mm(cyc_S)/2", "r_crank/geometry_lambda", "of_mm(cyc_D)")
     if given.crank_radius_mm is not None:
         radius = "of_mm(geometry_crank_radius_mm)"
     elif given.stroke_mm is not None:
@@ -30,10 +34,17 @@ def geometry(model: InputFile) -> ScalarTable:
         length = "of_mm(geometry_rod_length_mm)"
     else:
         length = "r_crank/geometry_lambda"
-    return _geometry(radius, length, bore)
+    return _geometry(shape, radius, length, bore, _offset_sum(given))
 
 
-def _geometry(radius: str, length: str, bore: str) -> ScalarTable:
+def _offset_sum(given: GeometrySection) -> str:
+    keys = ("crank_offset_mm", "pin_offset_mm")
+    return " + ".join(f"of_mm(geometry_{key})" for key in keys if getattr(given, key) is not None)
+
+
+def _geometry(shape: Shape, radius: str, length: str, bore: str, offset: str = "") -> ScalarTable:
+    mean = "S_stroke*omega/pi" if shape.offset else "2*r_crank*omega/pi"
+    engine = "(V_h + V_h_art)*engine_cylinders/2" if shape.articulated else "V_h*engine_cylinders"
     return ScalarTable(
         "geometry",
         "Размеры и кинематика механизма",
@@ -42,28 +53,78 @@ def _geometry(radius: str, length: str, bore: str) -> ScalarTable:
             Scalar("r_crank", radius, "Гоц, 1.1"),
             Scalar("L_rod", length, "Гоц, 1.1"),
             Scalar("lam", "r_crank/L_rod", "Гоц, 1.1"),
-            Scalar("S_stroke", "2*r_crank", "Гоц, 1.1"),
+            *(_dead_centres(offset) if shape.offset else ()),
+            Scalar("S_stroke", *_stroke(offset=shape.offset)),
             Scalar("F_piston", f"pi*({bore})**2/4", "Гоц, введение"),
             Scalar("V_h", "to_dm3(F_piston*S_stroke)", "Гоц, введение"),
             Scalar("V_c", "V_h/(geometry_compression_ratio - 1)", "Гоц, введение"),
-            Scalar("V_engine", "V_h*engine_cylinders", "Гоц, введение"),
+            Scalar("V_engine", engine, "Гоц, введение"),
             Scalar("omega", "pi*regime_speed_rpm/30", "Гоц, 1.1"),
-            Scalar("c_m", "2*r_crank*omega/pi", "Гоц, 1.2"),
-            Scalar(
-                "phi_vmax_deg",
-                "deg(acos(sqrt((1/(4*lam))**2 + 1/2) - 1/(4*lam)))",
-                "Гоц (5)",
-            ),
-            Scalar(
-                "v_max",
-                "r_crank*omega*(sin(rad(phi_vmax_deg)) + lam/2*sin(2*rad(phi_vmax_deg)))",
-                "Гоц (4), (5)",
-            ),
-            Scalar("v_ratio", "v_max/c_m", "Гоц, рис. 6"),
-            Scalar("j_tdc", "r_crank*omega**2*(1 + lam)", "Гоц (6), φ = 0"),
-            Scalar("j_bdc", "-(r_crank*omega**2*(1 - lam))", "Гоц (6), φ = 180°"),
-            Scalar("beta_max_deg", "deg(asin(lam))", "Гоц (7)"),
+            Scalar("c_m", mean, "Гоц, 1.2"),
+            *(_offset_extremes() if shape.offset else _central_extremes()),
         ),
+        note=(
+            "Рабочий объем и объем камеры сгорания найдены по ходу дезаксиального механизма (11), "
+            "а не по 2r. Положительное смещение — в сторону, куда идет кривошип от ВМТ."
+            if shape.offset
+            else ""
+        ),
+    )
+
+
+def _stroke(*, offset: bool) -> tuple[str, str]:
+    if not offset:
+        return "2*r_crank", "Гоц, 1.1"
+    upper, lower = (f"sqrt((1/lam {sign} 1)**2 - k_offset**2)" for sign in "+-")
+    return f"r_crank*({upper} - {lower})", "Гоц (11)"
+
+
+def _dead_centres(offset: str) -> tuple[Scalar, ...]:
+    return (
+        Scalar("e_offset", offset, "Гоц, 1.4"),
+        Scalar("k_offset", "e_offset/r_crank", "Гоц, 1.4"),
+        Scalar("phi_tdc_deg", "deg(asin(lam*k_offset/(1 + lam)))", "Гоц (9)"),
+        Scalar("phi_bdc_deg", "180 + deg(asin(lam*k_offset/(1 - lam)))", "Гоц (10)"),
+        Scalar("phi_down_deg", "phi_bdc_deg - phi_tdc_deg", "Гоц, 1.4"),
+        Scalar("phi_up_deg", "360 - phi_down_deg", "Гоц, 1.4"),
+    )
+
+
+def _offset_extremes() -> tuple[Scalar, ...]:
+    def acceleration(phi: str) -> str:
+        return (
+            f"r_crank*omega**2*(cos(rad({phi})) + lam*cos(2*rad({phi}))"
+            f" + lam*k_offset*sin(rad({phi})))"
+        )
+
+    return (
+        Scalar("S_ratio", "S_stroke/r_crank", "Гоц, 1.4"),
+        Scalar("c_down", "S_stroke*omega/rad(phi_down_deg)", "Гоц, 1.4"),
+        Scalar("c_up", "S_stroke*omega/rad(phi_up_deg)", "Гоц, 1.4"),
+        Scalar("j_tdc", acceleration("phi_tdc_deg"), "Гоц (16) в ВМТ"),
+        Scalar("j_bdc", acceleration("phi_bdc_deg"), "Гоц (16) в НМТ"),
+        Scalar("beta_90_deg", "deg(asin(lam - k_offset*lam))", "Гоц (17), φ = 90°"),
+        Scalar("beta_270_deg", "deg(asin(-lam - k_offset*lam))", "Гоц (17), φ = 270°"),
+        Scalar("beta_max_deg", "max(abs(beta_90_deg), abs(beta_270_deg))", "Гоц (17)"),
+    )
+
+
+def _central_extremes() -> tuple[Scalar, ...]:
+    return (
+        Scalar(
+            "phi_vmax_deg",
+            "deg(acos(sqrt((1/(4*lam))**2 + 1/2) - 1/(4*lam)))",
+            "Гоц (5)",
+        ),
+        Scalar(
+            "v_max",
+            "r_crank*omega*(sin(rad(phi_vmax_deg)) + lam/2*sin(2*rad(phi_vmax_deg)))",
+            "Гоц (4), (5)",
+        ),
+        Scalar("v_ratio", "v_max/c_m", "Гоц, рис. 6"),
+        Scalar("j_tdc", "r_crank*omega**2*(1 + lam)", "Гоц (6), φ = 0"),
+        Scalar("j_bdc", "-(r_crank*omega**2*(1 - lam))", "Гоц (6), φ = 180°"),
+        Scalar("beta_max_deg", "deg(asin(lam))", "Гоц (7)"),
     )
 
 
@@ -85,7 +146,7 @@ def masses(model: InputFile) -> ScalarTable:
         Scalar("m_2", m_2, "Гоц (20), (22)"),
         Scalar("m_j", m_j, "Гоц, 2.2"),
         Scalar("m_k", "crankshaft_pin_mass_kg + web_1_mass_kg + web_2_mass_kg", "Гоц (28)"),
-        Scalar("m_r", "m_k + m_2", "Гоц (29)"),
+        Scalar("m_r", _rotating(Shape.of(model)), "Гоц (29)"),
         Scalar("P_unit", f"to_MPa(m_j*{unit}/F_piston)", "Гоц (31)"),
         Scalar("K_r", f"to_kN(m_r*{unit})", "Гоц (32)"),
         Scalar("K_r_spec", f"to_MPa(m_r*{unit}/F_piston)", "Гоц, 2.9"),
@@ -93,6 +154,11 @@ def masses(model: InputFile) -> ScalarTable:
         Scalar("K_r_throw", f"to_MPa(m_k*{unit}/F_piston)", "Гоц (42)"),
     ]
     return ScalarTable("masses", "Приведённые массы", "Массы", tuple(scalars))
+
+
+def _rotating(shape: Shape) -> str:
+    rods = sum(not shape.is_hung(cylinder) for cylinder in shape.groups[0])
+    return "m_k + m_2" if rods == 1 else f"m_k + {rods}*m_2"
 
 
 def kinematic_tables(rows: tuple[float, ...]) -> tuple[Block, ...]:
@@ -150,4 +216,6 @@ def acceleration(model: InputFile, phi: str, beta: str) -> str:
     from reports.inputs.model import METHODS
 
     two_term, exact = TWO_TERM.format(phi=phi), EXACT.format(phi=phi, beta=beta)
+    if Shape.of(model).offset:
+        two_term = OFFSET_TWO_TERM.format(phi=phi)
     return f'({exact}) if calculation_method == "{METHODS["exact"]}" else ({two_term})'

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from reports.errors import InputError, Problem
-from reports.inputs.convert import to_engine
 from reports.inputs.fields import iter_fields
 from reports.inputs.model import InputFile
 from reports.tables import mechanism
@@ -15,9 +13,11 @@ from reports.tables.cycle_results import result_blocks
 from reports.tables.cycle_speed import cycle_charts, speed_blocks
 from reports.tables.cylinder import cylinder_blocks
 from reports.tables.journals import journal_blocks
+from reports.tables.offset import offset_tables
 from reports.tables.regimes import regime_models
 from reports.tables.rename import substituted
 from reports.tables.rod_masses import mass_blocks, stand_ins
+from reports.tables.shape import Shape
 from reports.tables.spec import Block, ChartSpec, Model
 from reports.tables.summary import summary_blocks
 from reports.tables.torques import torque_tables
@@ -31,10 +31,7 @@ def angle_rows(step_deg: int, last: int) -> tuple[float, ...]:
 
 def build_model(model: InputFile) -> Model:
     """Specifications of every table, scalar and chart for the input's structure."""
-    if not to_engine(model).is_basic:
-        what = "книга и отчет пока строятся только для рядного четырехтактного центрального"
-        raise InputError(Problem(model.engine.name, what, "числа дает команда kshm solve"))
-    cycle = angle_rows(model.calculation.step_deg, 720)
+    cycle = angle_rows(model.calculation.step_deg, Shape.of(model).period)
     blocks, shown = chain(model)
     further = regime_models(model, chain)
     blocks = (
@@ -62,21 +59,20 @@ def build_model(model: InputFile) -> Model:
 
 def chain(model: InputFile) -> tuple[tuple[Block, ...], tuple[ChartSpec, ...]]:
     """Blocks and charts of chapters 1 and 2: all that speed and gas decide, and more."""
-    cylinders = model.engine.cylinders
-    throws = len(model.crankshaft.throw_angles_deg)
+    shape = Shape.of(model)
     rays = model.calculation.wear_rays
-    cycle = angle_rows(model.calculation.step_deg, 720)
+    cycle = angle_rows(model.calculation.step_deg, shape.period)
     turn = angle_rows(model.calculation.step_deg, 360)
     forced = model.crankshaft.force_offsets_deg is not None
     blocks = (
         mechanism.geometry(model),
         mechanism.masses(model),
         *mass_blocks(model),
-        *mechanism.kinematic_tables(turn),
+        *(offset_tables(turn) if shape.offset else mechanism.kinematic_tables(turn)),
         *cylinder_blocks(model, cycle),
-        *torque_tables(cylinders, cycle),
-        *journal_blocks(throws, cycle, forced=forced),
-        *wear_blocks(throws + 1, rays, cycle),
-        *summary_blocks(model, throws),
+        *torque_tables(shape, cycle),
+        *journal_blocks(shape, cycle, forced=forced),
+        *wear_blocks(shape.throws + 1, rays, cycle, len(shape.pins)),
+        *summary_blocks(model, shape),
     )
-    return substituted(blocks, stand_ins(model)), charts(throws, rays)
+    return substituted(blocks, stand_ins(model)), charts(shape)

@@ -125,7 +125,7 @@ class ChartSpec:
     id: str
     sheet: str
     title: str
-    kind: Literal["line", "polar", "path"]
+    kind: Literal["line", "polar", "path", "scheme"]
     series: tuple[Series, ...]
     x_title: str
     y_title: str

@@ -9,13 +9,19 @@ from reports.tables.spec import Block, Column, Grid, GridRow, Scalar, TableSpec
 HALF = f"(0.5 - {TIE})"  # cos 60°; the window includes its edges
 
 
-def wear_blocks(journals: int, rays: int, rows: tuple[float, ...]) -> tuple[Block, ...]:
+def wear_blocks(
+    journals: int, rays: int, rows: tuple[float, ...], pins: int = 1
+) -> tuple[Block, ...]:
     """Tables of forces by rays and the sums that draw the diagrams."""
-    pin = _surface(
-        "table_14", "pin", "14", "шатунную шейку", "Износ ш.ш", rows, rays,
-        size="crankpin.Rpin_MPa", up="-crankpin.Krod_MPa", against="-crankpin.T_MPa",
-    )  # fmt: skip
-    blocks: list[Block] = [*pin]
+    blocks: list[Block] = []
+    for n in range(1, pins + 1):
+        table, name = ("crankpin", "pin") if n == 1 else (f"crankpin_{n}", f"pin{n}")
+        blocks += _surface(
+            "table_14" if n == 1 else f"table_14_pin_{n}", name,
+            "14" if n == 1 else f"14.Ш{n}", "шатунную шейку" + (f" {n}" if pins > 1 else ""),
+            "Износ ш.ш" if n == 1 else f"Износ ш.ш ({n})", rows, rays,
+            size=f"{table}.Rpin_MPa", up=f"-{table}.Krod_MPa", against=f"-{table}.T_MPa",
+        )  # fmt: skip
     for k in range(1, journals + 1):
         table = f"P4_3_{k}"
         blocks += _surface(

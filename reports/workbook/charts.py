@@ -94,7 +94,7 @@ def _axes(chart: ScatterChart, spec: ChartSpec, values: Values) -> None:
             layoutTarget="inner", xMode="edge", yMode="edge", x=0.16, y=0.17, w=0.74, h=0.74
         )
     )
-    if spec.kind == "path":
+    if spec.kind in ("path", "scheme"):
         for axis in (chart.x_axis, chart.y_axis):
             axis.scaling.min, axis.scaling.max = -1, 1
             axis.majorUnit = 0.5

@@ -8,55 +8,7 @@ import pytest
 
 from reports.inputs.convert import to_engine
 from reports.inputs.load import load_mapping
-
-
-def v_six(raw: dict) -> dict:
-    """A V6 of 90° with common pins at 120°: it fires at 90 and 150 degrees in turn."""
-    shaft = raw["crankshaft"]
-    raw["engine"] |= {"cylinders": 6, "layout": "v"}
-    shaft |= {
-        "bank_angle_deg": 90.0,
-        "firing_offsets_deg": [0.0, 240.0, 480.0, 90.0, 330.0, 570.0],
-        "throw_angles_deg": [0.0, 120.0, 240.0],
-    }
-    return raw
-
-
-def in_line_four(raw: dict, **shaft: object) -> dict:
-    raw["engine"]["cylinders"] = 4
-    old = raw["crankshaft"]
-    for key in ("firing_offsets_deg", "throw_angles_deg"):
-        del old[key]
-    old |= {
-        "main_lengths_mm": [30.0] * 5,
-        "webs": [dict(old["webs"][0]) for _ in range(8)],
-        "arms": [dict(old["arms"][0]) for _ in range(4)],
-        **shaft,
-    }
-    return raw
-
-
-def two_stroke(raw: dict) -> dict:
-    raw["engine"] |= {"strokes": 2}
-    shaft = raw["crankshaft"]
-    shaft |= {"firing_offsets_deg": [0.0, 120.0, 240.0], "throw_angles_deg": [0.0, 240.0, 120.0]}
-    raw["gas"] |= {
-        "exhaust_start_before_bdc_deg": 80.0,
-        "exhaust_end_after_bdc_deg": 80.0,
-        "scavenge_start_before_bdc_deg": 60.0,
-    }
-    return raw
-
-
-def articulated(raw: dict) -> dict:
-    v_six(raw)["articulated"] = {
-        "rod_length_mm": 110.0,
-        "radius_mm": 38.0,
-        "angle_deg": 90.0,
-        "reciprocating_kg": 1.9,
-        "big_end_kg": 0.6,
-    }
-    return raw
+from tests.layouts import MAKERS, in_line_four, v_six
 
 
 def loaded(raw: dict):
@@ -111,14 +63,6 @@ def test_opposed_engine_alternates_its_throws(raw):
     assert angles == pytest.approx([0, 180, 180, 0])
 
 
-MAKERS = {
-    "basic": lambda raw: raw,
-    "v": v_six,
-    "four": lambda raw: in_line_four(raw, firing_order="1-3-4-2"),
-    "two-stroke": two_stroke,
-    "articulated": articulated,
-}
-
 REFUSED = {
     "unreadable order": (
         "four", "crankshaft.firing_order", "один, три",
@@ -135,17 +79,17 @@ REFUSED = {
         "по которым порядок 1-2-3; оставьте один из двух ключей",
     ),
     "odd v": (
-        "v", "engine.cylinders", 5,
+        "v_six", "engine.cylinders", 5,
         "engine.cylinders: число цилиндров 5 нечетное, а рядов два; "
         "задайте четное число или layout = \"inline\"",
     ),
     "bank angle against offsets": (
-        "v", "crankshaft.bank_angle_deg", 60.0,
+        "v_six", "crankshaft.bank_angle_deg", 60.0,
         "crankshaft.throw_angles_deg[1]: угол колена 0° не соответствует началу рабочего хода "
         "90° (firing_offsets_deg[4]); по γ = 60° − θ (mod 360) нужно 330°",
     ),
     "split pin against offsets": (
-        "v", "crankshaft.split_pin_deg", 30.0,
+        "v_six", "crankshaft.split_pin_deg", 30.0,
         "crankshaft.throw_angles_deg[1]: угол колена 0° не соответствует началу рабочего хода "
         "90° (firing_offsets_deg[4]); по γ = 90° − θ − δ, δ = 30°, (mod 360) нужно 330°",
     ),
@@ -155,11 +99,11 @@ REFUSED = {
         "удалите ключ или задайте layout = \"v\"",
     ),
     "no bank angle": (
-        "v", "crankshaft.bank_angle_deg", None,
+        "v_six", "crankshaft.bank_angle_deg", None,
         "crankshaft.bank_angle_deg: угол развала не задан; V-образному двигателю он нужен",
     ),
     "too few webs": (
-        "v", "crankshaft.webs", [],
+        "v_six", "crankshaft.webs", [],
         "crankshaft.webs: записей 0, а нужно 6; по две щеки на колено, цилиндров 6, колен 3",
     ),
     "offset that locks": (
@@ -175,7 +119,7 @@ REFUSED = {
     "short articulated rod": (
         "articulated", "articulated.rod_length_mm", 40.0,
         "articulated.rod_length_mm: прицепной шатун 40 мм не достает до оси своего цилиндра: "
-        "его палец отходит от нее на 48.52 мм; "
+        "его палец отходит от нее на 49.84 мм; "
         "удлините шатун или поставьте палец ближе к углу развала",
     ),
     "articulated pin beyond the master rod": (
@@ -196,17 +140,17 @@ REFUSED = {
         "удалите ключ или задайте strokes = 2",
     ),
     "no scavenging": (
-        "two-stroke", "gas.scavenge_start_before_bdc_deg", None,
+        "two_stroke", "gas.scavenge_start_before_bdc_deg", None,
         "gas.scavenge_start_before_bdc_deg: начало продувки не задано; "
         "двухтактному двигателю оно нужно",
     ),
     "scavenging before the exhaust": (
-        "two-stroke", "gas.scavenge_start_before_bdc_deg", 85.0,
+        "two_stroke", "gas.scavenge_start_before_bdc_deg", 85.0,
         "gas.scavenge_start_before_bdc_deg: продувка начинается за 85° до НМТ, не позже выпуска "
         "(80°); выпуск должен открываться раньше продувки",
     ),
     "offset beyond the cycle": (
-        "two-stroke", "crankshaft.firing_offsets_deg", [0.0, 120.0, 600.0],
+        "two_stroke", "crankshaft.firing_offsets_deg", [0.0, 120.0, 600.0],
         "crankshaft.firing_offsets_deg[3]: начало рабочего хода 600° вне цикла двухтактного "
         "двигателя; допустимо до 360°",
     ),

@@ -14,6 +14,7 @@ from reports.tables.registry import build_model
 from reports.tables.spec import TableSpec
 from reports.tables.values import evaluate_model
 from tests.conftest import sample, sample_names
+from tests.layouts import MAKERS, made
 
 
 def variant(name: str, **changes: object) -> InputFile:
@@ -91,3 +92,18 @@ def test_any_number_of_cylinders(cylinders: int) -> None:
     shaft["webs"] = [dict(shaft["webs"][0]) for _ in range(2 * cylinders)]
     shaft["arms"] = [dict(shaft["arms"][0]) for _ in range(cylinders)]
     assert_agree(load_mapping(raw, source="cylinders").model)
+
+
+@pytest.mark.parametrize("method", ["textbook", "exact"])
+@pytest.mark.parametrize("name", MAKERS)
+def test_every_layout(name: str, method: str) -> None:
+    """All tables of every layout, and none without its counterpart."""
+    step, rays = (5, 12) if method == "exact" else (10, 18)
+    data = made(name, method=method, step_deg=step, wear_rays=rays)
+    assert_agree(data)
+    model, solution = build_model(data), solve(to_engine(data))
+    assert set(solution.columns) - {"P4_3"} == set(model.tables)
+    for table, spec in model.tables.items():
+        shown = [column.key for column in spec.columns if not column.helper]
+        assert shown == list(solution.columns[table]), table
+    assert set(solution.scalars) <= set(model.scalars)

@@ -15,6 +15,9 @@ STATIC = frozenset(
     {
         "r_crank", "L_rod", "lam", "S_stroke", "F_piston", "V_h", "V_c", "V_engine",
         "phi_vmax_deg", "v_ratio", "beta_max_deg", "m_1", "m_2", "m_j", "m_k", "m_r",
+        "e_offset", "k_offset", "phi_tdc_deg", "phi_bdc_deg", "phi_down_deg", "phi_up_deg",
+        "S_ratio", "beta_90_deg", "beta_270_deg",
+        "S_art", "V_h_art", "V_c_art", "phi_tdc_art_deg", "phi_bdc_art_deg",
     }
 )  # fmt: skip
 
@@ -26,7 +29,7 @@ def regime_key(key: str, number: int) -> str:
 
 def main_only(table: str) -> bool:
     """Whether a table stands for the main regime only: the motions of appendix 3."""
-    return table == "P4_3" or table.startswith("P3")
+    return table in ("P4_3", "offset", "articulated") or table.startswith("P3")
 
 
 def of_regime(engine: Engine, regime: Regime) -> Engine:

@@ -133,6 +133,14 @@ def two_stroke_articulated(raw: dict) -> dict:
     return raw
 
 
+def with_regimes(raw: dict) -> dict:
+    """Every peculiarity that a further regime shares or has of its own."""
+    offset_articulated(raw)
+    gas = dict(raw["gas"], max_pressure_mpa=9.0, injection_advance_deg=14)
+    raw["regimes"] = [{"name": "второй", "speed_rpm": 2400.0, "gas": gas}]
+    return raw
+
+
 def zero_offset(raw: dict) -> dict:
     raw["geometry"]["crank_offset_mm"] = 0.0
     return raw
@@ -143,7 +151,7 @@ MAKERS = {
     for maker in (
         basic, four, offset, zero_offset, v_six, v_apart, split, opposed_four, articulated,
         two_stroke, two_stroke_v, offset_two_stroke, offset_articulated, offset_split,
-        two_stroke_articulated,
+        two_stroke_articulated, with_regimes,
     )
 }  # fmt: skip
 

@@ -15,6 +15,7 @@ PRESSURE_TOLERANCE_MPA = 1e-6
 
 def check_gas(values: Values) -> Iterator[Finding]:
     """Yield what is wrong or odd about timing, pressures or the table of points."""
+    yield from _two_stroke(values)
     source = values.get("gas", "source")
     if source == "cycle":
         yield from _timing(values)
@@ -23,6 +24,7 @@ def check_gas(values: Values) -> Iterator[Finding]:
         yield from _pressures(values)
         yield from _odd_pressures(values)
     elif source == "rounded":
+        yield from _central_only(values)
         yield from check_rounded(values)
     else:
         yield from _table(values)
@@ -75,8 +77,12 @@ def _pressures(values: Values) -> Iterator[Finding]:
     start = found[1]
     if pair[0] >= pair[1] or not 180 <= start <= FIRING_TDC_DEG:
         return
-    end = intake * (ratio / _volume(start, pair[0] / pair[1], ratio)) ** exponent
-    pure = intake * ratio**exponent
+    begin, lam = ratio, pair[0] / pair[1]
+    if values.get("engine", "strokes") == 2:  # compression begins where the exhaust closes
+        closes = values.get("gas", "exhaust_end_after_bdc_deg") or 0.0
+        begin = _volume(180 + closes, lam, ratio)
+    end = intake * (begin / _volume(start, lam, ratio)) ** exponent
+    pure = intake * begin**exponent
     path = ("gas", "max_pressure_mpa")
     if highest < end:
         what = (
@@ -137,3 +143,41 @@ def _table(values: Values) -> Iterator[Finding]:
     elif abs(first[1] - last[1]) > PRESSURE_TOLERANCE_MPA:
         what = f"давление при {cycle}° {MPA.text(last[1])} не равно давлению при 0° "
         yield Finding((*path, len(points) - 1), what + MPA.text(first[1]), "цикл должен замыкаться")
+
+
+def _central_only(values: Values) -> Iterator[Finding]:
+    keys = ("crank_offset_mm", "pin_offset_mm")
+    others = [key for key in keys if values.get("geometry", key) is not None]
+    if others or "articulated" in values.sections:
+        what = "скругленная диаграмма построена только для центрального механизма"
+        yield Finding(("gas", "source"), what, "задайте точки или политропы")
+
+
+def _two_stroke(values: Values) -> Iterator[Finding]:
+    strokes = values.get("engine", "strokes")
+    if strokes == 2 and values.get("gas", "source") == "cycle":
+        what = "рабочий цикл рассчитывается только для четырехтактного двигателя"
+        yield Finding(("gas", "source"), what, 'задайте source = "polytropic" или "table"')
+    if values.get("gas", "source") != "polytropic" or strokes is None:
+        return
+    path = ("gas", "scavenge_start_before_bdc_deg")
+    scavenge = values.get(*path)
+    if strokes == 4:
+        if scavenge is not None:
+            what = "продувка есть только у двухтактного двигателя"
+            yield Finding(path, what, "удалите ключ или задайте strokes = 2")
+        return
+    opens = values.get("gas", "exhaust_start_before_bdc_deg")
+    closes = values.get("gas", "exhaust_end_after_bdc_deg")
+    if scavenge is None:
+        if values.sure("gas", path[1]):
+            yield Finding(path, "начало продувки не задано", "двухтактному двигателю оно нужно")
+    elif opens is not None and scavenge >= opens:
+        what = (
+            f"продувка начинается за {number_text(scavenge)}° до НМТ, не позже выпуска "
+            f"({number_text(opens)}°)"
+        )
+        yield Finding(path, what, "выпуск должен открываться раньше продувки")
+    if closes is not None and closes + (scavenge or 0.0) <= 0:
+        what = "продувка и выпуск кончаются там же, где начинаются"
+        yield Finding(("gas", "exhaust_end_after_bdc_deg"), what, "увеличьте угол")

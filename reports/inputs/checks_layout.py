@@ -1,4 +1,4 @@
-"""Checks of the layout: banks, throws, phases, offset, articulated rods, two strokes."""
+"""Checks of the layout: banks, throws, phases, offset, articulated rods."""
 
 from __future__ import annotations
 
@@ -21,7 +21,6 @@ def check_layout(values: Values) -> Iterator[Finding]:
     yield from _phases(values)
     yield from _offset(values)
     yield from _articulated(values)
-    yield from _two_stroke(values)
 
 
 def _arrangement(values: Values) -> Arrangement | None:
@@ -221,33 +220,3 @@ def _side_reach(
         across = r * math.sin(phi - bank) + radius * math.sin(angle - beta - bank)
         widest = max(widest, abs(across - offset))
     return widest
-
-
-def _two_stroke(values: Values) -> Iterator[Finding]:
-    strokes = values.get("engine", "strokes")
-    if strokes == 2 and values.get("gas", "source") == "cycle":
-        what = "рабочий цикл рассчитывается только для четырехтактного двигателя"
-        yield Finding(("gas", "source"), what, 'задайте source = "polytropic" или "table"')
-    if values.get("gas", "source") != "polytropic" or strokes is None:
-        return
-    path = ("gas", "scavenge_start_before_bdc_deg")
-    scavenge = values.get(*path)
-    if strokes == 4:
-        if scavenge is not None:
-            what = "продувка есть только у двухтактного двигателя"
-            yield Finding(path, what, "удалите ключ или задайте strokes = 2")
-        return
-    opens = values.get("gas", "exhaust_start_before_bdc_deg")
-    closes = values.get("gas", "exhaust_end_after_bdc_deg")
-    if scavenge is None:
-        if values.sure("gas", path[1]):
-            yield Finding(path, "начало продувки не задано", "двухтактному двигателю оно нужно")
-    elif opens is not None and scavenge >= opens:
-        what = (
-            f"продувка начинается за {number_text(scavenge)}° до НМТ, не позже выпуска "
-            f"({number_text(opens)}°)"
-        )
-        yield Finding(path, what, "выпуск должен открываться раньше продувки")
-    if closes is not None and closes + (scavenge or 0.0) <= 0:
-        what = "продувка и выпуск кончаются там же, где начинаются"
-        yield Finding(("gas", "exhaust_end_after_bdc_deg"), what, "увеличьте угол")

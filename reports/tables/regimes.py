@@ -26,7 +26,9 @@ from reports.tables.spec import (
 )
 
 _LEFT_OUT = frozenset({"checks"})
-_WHOLE = frozenset({"gas_points"})  # a diagram's points stand together, even usual ones
+_WHOLE = frozenset(
+    {"gas_points", "gas_points_art"}
+)  # a diagram's points stand together, even usual ones
 
 
 @dataclass(frozen=True)

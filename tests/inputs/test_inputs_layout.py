@@ -183,6 +183,23 @@ def test_forced_phases_only_in_line(raw, refused):
     assert "особые фазы сил возможны только у рядного двигателя" in line
 
 
+@pytest.mark.parametrize("maker", ["offset", "articulated"])
+def test_rounded_diagram_only_of_the_central_mechanism(maker, raw, refused):
+    raw = MAKERS[maker](raw)
+    gas = raw["gas"]
+    gas |= {"source": "rounded", "kind": "diesel"}
+    what = "скругленная диаграмма построена только для центрального механизма"
+    assert any(what in line for line in refused(raw))
+
+
+def test_two_stroke_regime_needs_its_scavenging(raw, refused):
+    raw = MAKERS["two_stroke"](raw)
+    gas = {k: v for k, v in raw["gas"].items() if k != "scavenge_start_before_bdc_deg"}
+    raw["regimes"] = [{"name": "второй", "speed_rpm": 2400.0, "gas": gas}]
+    (line,) = refused(raw)
+    assert line.startswith("f.toml: regimes[1].gas.scavenge_start_before_bdc_deg: начало продувки")
+
+
 def test_unusual_offset_is_a_warning(raw):
     raw["geometry"]["crank_offset_mm"] = 20.0
     (warning,) = load_mapping(raw, source="f.toml").warnings

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from kshm.arrangement import Cylinder
 from kshm.engine import Engine, Throw
 from kshm.harmonics import acceleration_amplitude
 from kshm.inertia import point_masses
@@ -65,12 +66,34 @@ def rod_place(throw: Throw) -> float:
     return throw.arms[0] + throw.left_web_thickness + throw.arms[1]
 
 
+def is_balanced_by_orders(engine: Engine) -> bool:
+    """Whether the orders of Neiman's series describe all pistons: central, no articulated rods."""
+    hung = any(place.master is not None for place in engine.arrangement)
+    return engine.geometry.is_central and not hung
+
+
+def places(engine: Engine) -> Array:
+    """Place of every cylinder's rod along the shaft from its middle [m], Gots figure 36."""
+    starts, throws = throw_starts(engine), engine.crankshaft.throws
+
+    def place(cylinder: Cylinder) -> float:
+        throw = throws[cylinder.throw]
+        further = throw.arms[2] + throw.arms[3] if cylinder.rod_place else 0.0
+        return float(starts[cylinder.throw]) + rod_place(throw) + further
+
+    return np.array([place(cylinder) for cylinder in engine.arrangement])
+
+
+def pin_angles(engine: Engine) -> Array:
+    """Angle of every cylinder's crankpin, clockwise from crank 1 [rad]."""
+    throws = engine.crankshaft.throws
+    return np.array([throws[c.throw].angle + c.pin_angle for c in engine.arrangement])
+
+
 def cylinders_of(engine: Engine) -> Cylinders:
-    """Cylinders of an in-line engine: all axes upright."""
-    starts = throw_starts(engine)
-    rods = [rod_place(throw) for throw in engine.crankshaft.throws]
-    phase = np.array(engine.firing_offsets)
-    return Cylinders(phase, starts[:-1] + np.array(rods), np.zeros_like(phase))
+    """Cylinders of an engine; "up" is the axis of cylinder 1."""
+    axes = np.array([cylinder.axis for cylinder in engine.arrangement])
+    return Cylinders(np.array(engine.firing_offsets), places(engine), axes)
 
 
 def order_phasors(cylinders: Cylinders, order: float, weights: Array | None = None) -> Phasors:
@@ -125,9 +148,7 @@ def ellipse(vector: Phasors, noise: float = 0.0) -> Ellipse:
         vector: the vector.
         noise: a length below which a part counts as zero.
     """
-    # Two vectors of constant length turning with and against rotation.
-    along = (vector.up + 1j * vector.right) / 2
-    against = (np.conj(vector.up) + 1j * np.conj(vector.right)) / 2
+    along, against = turning_parts(vector)
     first, second = abs(along), abs(against)
     direction = 0.0
     if min(first, second) > noise:
@@ -156,6 +177,9 @@ def _masses(
     """Mass at the crank radius [kg], angle clockwise from crank 1 [rad], place [m]."""
     found = []
     shaft, starts = engine.crankshaft, throw_starts(engine)
+    spots = zip(pin_angles(engine), places(engine), strict=True)
+    found += [(m_2, float(angle), float(place)) for angle, place in spots]
+    turned = _pin_turn(engine)
     for throw, start in zip(shaft.throws, starts[:-1], strict=True):
         rod = rod_place(throw)
         right = rod + sum(throw.arms[2:5]) + throw.right_web_thickness / 2
@@ -163,8 +187,9 @@ def _masses(
             (throw.left_web, throw.arms[0] + throw.left_web_thickness / 2),
             (throw.right_web, right),
         )
-        found.append((m_2, throw.angle, start + rod))
-        found.append((throw.pin_mass, throw.angle, start + rod + throw.arms[2]))
+        pin = start + rod + throw.arms[2]
+        found += [(throw.pin_mass / 2, throw.angle, pin)]
+        found += [(throw.pin_mass / 2, throw.angle + turned, pin)]
         for web, place in webs:
             # A web's angle runs against rotation, a counterweight's with it from "opposite".
             found.append((web.mass, throw.angle - web.angle, start + place))
@@ -178,28 +203,42 @@ def _masses(
     return found
 
 
-def ideal_counterweights(engine: Engine) -> tuple[complex, complex]:
-    """Force [N] and moment [N·m] of masses m_j opposite every crank, up + i·right at φ = 0.
+def _pin_turn(engine: Engine) -> float:
+    """How far the second half of the pins is turned [rad]: zero for pins in one piece."""
+    return max((c.pin_angle for c in engine.arrangement), key=abs)
 
-    A share of them balances that share of the first-order forces of its own throw.
+
+def ideal_counterweights(engine: Engine) -> tuple[complex, complex]:
+    """Force [N] and moment [N·m] of masses m_j opposite every crankpin, up + i·right at φ = 0.
+
+    One for each rod; a share of them balances that share of its first-order force.
     """
     m_j, _ = point_masses(engine.masses, engine.geometry.rod_length)
     unit = m_j * engine.geometry.crank_radius * engine.omega**2
-    angles = np.array([throw.angle for throw in engine.crankshaft.throws])
-    vectors = -unit * np.exp(1j * angles)
-    places = cylinders_of(engine).place
-    return complex(vectors.sum()), complex((vectors * places).sum())
+    vectors = -unit * np.exp(1j * pin_angles(engine))
+    return complex(vectors.sum()), complex((vectors * places(engine)).sum())
 
 
-def shaft_moments(engine: Engine) -> tuple[float, float]:
-    """Mass times radius of each shaft of a Lanchester pair, orders 1 and 2 [kg·m].
+def turning_parts(vector: Phasors) -> tuple[complex, complex]:
+    """Two vectors of constant length that turn with and against rotation and make the vector."""
+    with_ = (vector.up + 1j * vector.right) / 2
+    against = (np.conj(vector.up) + 1j * np.conj(vector.right)) / 2
+    return complex(with_), complex(against)
 
-    Two shafts turning against each other at n·ω give 2·m·e·(n·ω)² along the cylinders.
+
+def shaft_moments(engine: Engine) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Mass times radius of the two shafts of a pair, orders 1 and 2 [kg·m].
+
+    The first shaft of each pair turns with the crankshaft at n·ω, the second against it;
+    each takes the chosen share of the vector that turns as it does.  Of cylinders in line
+    both are equal (Lanchester).
     """
     cylinders = cylinders_of(engine)
     shares = engine.balancing.first_shafts_share, engine.balancing.second_shafts_share
     found = []
     for order, share in zip((1, 2), shares, strict=True):
         force, _ = reciprocating(engine, cylinders, order)
-        found.append(share * abs(force.up) / (2 * (order * engine.omega) ** 2))
+        along, against = (abs(part) for part in turning_parts(force))
+        unit = (order * engine.omega) ** 2
+        found.append((share * along / unit, share * against / unit))
     return found[0], found[1]

@@ -119,7 +119,7 @@ def scalars(engine: Engine) -> dict[str, float]:
     bare = balance.rotating(engine, counterweights=False)
     shaft = balance.rotating(engine, counterweights=True)
     more = balance.ideal_counterweights(engine)
-    first, second = balance.shaft_moments(engine)
+    (first, _), (second, _) = balance.shaft_moments(engine)
     needed = m_r + choice.counterweight_share * m_j
     values = {
         "Pj_unit_kN": m_j * engine.geometry.crank_radius * engine.omega**2,

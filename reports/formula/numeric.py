@@ -75,7 +75,10 @@ def evaluate_tree(tree: ast.expr, resolve: Resolver) -> Value:
 
 
 def _value(node: ast.expr, resolve: Resolver) -> Value:
-    match node:
+    match node:  # the most frequent first
+        case ast.BinOp(left=left, op=op, right=right):
+            first, second = _value(left, resolve), _value(right, resolve)
+            return _OPERATORS[type(op)](first, second)
         case ast.Constant(value=literal):
             return float(literal) if isinstance(literal, (int, float)) else literal
         case ast.Name(id="pi"):
@@ -84,9 +87,6 @@ def _value(node: ast.expr, resolve: Resolver) -> Value:
             return resolve(name)
         case ast.Attribute(value=ast.Name(id=table), attr=column):
             return resolve(f"{table}.{column}")
-        case ast.BinOp(left=left, op=op, right=right):
-            first, second = _value(left, resolve), _value(right, resolve)
-            return _OPERATORS[type(op)](first, second)
         case ast.UnaryOp(op=ast.USub(), operand=operand):
             return -_value(operand, resolve)
         case ast.UnaryOp(op=ast.Not(), operand=operand):

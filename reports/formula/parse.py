@@ -98,6 +98,7 @@ def _refuse(node: ast.AST, text: str) -> None:
     raise FormulaError(msg)
 
 
+@lru_cache(maxsize=4096)
 def names(text: str) -> frozenset[str]:
     """All names an expression refers to; columns of other tables as ``table.column``."""
     found: set[str] = set()

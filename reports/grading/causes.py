@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from reports.formula.numeric import evaluate_tree
 from reports.formula.parse import names, parse
-from reports.grading.items import Item, expression, node_of
+from reports.grading.graph import node_of
+from reports.grading.items import Item
 from reports.grading.student import Student, known_values
 from reports.grading.verdicts import Judgement, close, tolerance
 from reports.inputs.model import METHODS
@@ -120,17 +121,17 @@ class Causes:
             yield words, self._rewritten(item, run, _Flipped(number).visit)
 
     def _names(self, node: str) -> frozenset[str]:
-        text = expression(node, self.student.assignment.model)
+        text = self.student.assignment.graph.expression(node)
         return names(text) if text is not None else frozenset()
 
     def _rewritten(
         self, item: Item, run: Evaluation, change: Callable[[ast.expr], Any]
     ) -> Array | None:
-        model = self.student.assignment.model
+        graph = self.student.assignment.graph
         parts = []
         changed = False
         for node in item.nodes:
-            text = expression(node, model)
+            text = graph.expression(node)
             assert text is not None
             tree = parse(text)
             other = change(ast.parse(ast.unparse(tree), mode="eval").body)

@@ -11,7 +11,7 @@ from reports.errors import InputError, Problem
 from reports.formula.excel import compile_formula
 from reports.grading.causes import Causes
 from reports.grading.grade import checked_register
-from reports.grading.items import Item, expression
+from reports.grading.items import Item
 from reports.grading.marking import Marker
 from reports.grading.matching import find_owner
 from reports.grading.pages import number, rows
@@ -160,7 +160,7 @@ def _value(value: object) -> str:
 
 
 def _textbook(student: Student, node: str) -> str:
-    text = expression(node, student.assignment.model)
+    text = student.assignment.graph.expression(node)
     if text is None:
         return "—"
     layout: Layout = student.layout

@@ -9,9 +9,9 @@ from functools import cached_property
 
 from kshm.nomenclature import Quantity
 from reports.errors import InputError, Problem
-from reports.formula.parse import names
+from reports.grading.graph import Graph, graph_of, nodes_of
 from reports.grading.rubric import Rubric
-from reports.tables.spec import Block, Column, Grid, Model, Scalar, TableSpec, scalars_of
+from reports.tables.spec import Block, Column, Grid, Model, Scalar, TableSpec
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +46,15 @@ class Assignment:
     rubric: Rubric
     fill: tuple[Block, ...]
     given: tuple[Block, ...]
+
+    @cached_property
+    def graph(self) -> Graph:
+        """What depends on what."""
+        return graph_of(self.model)
+
+    def ancestors(self, item: Item) -> frozenset[str]:
+        """Every node and input that an item depends on."""
+        return frozenset().union(*(self.graph.ancestors(node) for node in item.nodes))
 
     @cached_property
     def items(self) -> tuple[Item, ...]:
@@ -161,69 +170,11 @@ def _wanted(block: Block, patterns: tuple[str, ...]) -> bool:
     return matches((block.id,), patterns)
 
 
-def nodes_of(block: Block) -> list[str]:
-    """Keys of all computed values of a block."""
-    if isinstance(block, TableSpec):
-        return [f"{block.id}.{column.key}" for column in block.columns if column.expr is not None]
-    return [scalar.key for scalar in scalars_of(block)]
-
-
-def owners(model: Model) -> dict[str, str]:
-    """Node → id of its block."""
-    found = {node: block.id for block in model.blocks for node in nodes_of(block)}
-    for table in model.tables.values():
-        found.update({f"{table.id}.{c.key}": table.id for c in table.columns if c.expr is None})
-    return found
-
-
-def node_of(name: str, table: str, model: Model) -> str:
-    """A bare name in a table's formula is a column of the same table first."""
-    spec = model.tables.get(table)
-    if spec is not None and any(column.key == name for column in spec.columns):
-        return f"{table}.{name}"
-    return name
-
-
-def expression(node: str, model: Model) -> str | None:
-    """Formula of a node; None for an input or an angle."""
-    if "." in node:
-        table, key = node.split(".")
-        spec = model.tables.get(table)
-        if spec is None:
-            return None
-        return next((c.expr for c in spec.columns if c.key == key), None)
-    scalar = model.scalars.get(node)
-    return scalar.expr if scalar is not None else None
-
-
-def references(node: str, model: Model) -> list[str]:
-    """Nodes that a node's formula names."""
-    text = expression(node, model)
-    if text is None:
-        return []
-    table = node.split(".", maxsplit=1)[0] if "." in node else ""
-    return sorted(node_of(name, table, model) for name in names(text))
-
-
-def ancestors(node: str, model: Model) -> frozenset[str]:
-    """Every node and input that a node depends on."""
-    found: set[str] = set()
-    stack = [node]
-    while stack:
-        for name in references(stack.pop(), model):
-            if name not in found:
-                found.add(name)
-                stack.append(name)
-    return frozenset(found)
-
-
 def _needed(model: Model, fill: Iterable[Block]) -> set[str]:
-    owner = owners(model)
-    found: set[str] = set()
-    for block in fill:
-        for node in nodes_of(block):
-            found |= {owner[name] for name in ancestors(node, model) if name in owner}
-    return found
+    """Blocks that the formulas of some blocks depend on."""
+    graph = graph_of(model)
+    nodes = frozenset().union(*(graph.ancestors(n) for block in fill for n in nodes_of(block)))
+    return {graph.owners[name] for name in nodes if name in graph.owners}
 
 
 def _items(block: Block, model: Model) -> Iterable[Item]:

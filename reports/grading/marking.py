@@ -274,22 +274,29 @@ def altered(student: Student, original: Grid | None) -> list[str]:
     grid = original or student.grid
     engine = student.engine if original is None else Engine(original)
     found = []
-    for node in student.answers:
-        place = student.placement.places.get(node)
-        if place is None:
-            continue
+    places = [student.placement.places.get(node) for node in student.answers]
+    columns = {(place.sheet, place.column): place for place in places if place is not None}
+    for place in columns.values():
         column = grid.column(place.sheet, place.column)
         for run in column.runs:
-            cached = [column.cached.get(row) for row in range(run.first, run.last + 1)]
-            claims = np.array([c if isinstance(c, float) else np.nan for c in cached])
+            cached = column.cached
+            claims = np.array(
+                [
+                    claim if isinstance(claim, float) else math.nan
+                    for claim in map(cached.get, range(run.first, run.last + 1))
+                ]
+            )
             if np.isnan(claims).all():
                 continue
             try:
                 values, _ = engine.values(place.sheet, place.column, run.first, run.last)
             except (UnknownFormula, RecursionError):
                 continue
-            scale = max(1.0, float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 1.0)
+            known = np.abs(values[np.isfinite(values)])
+            scale = max(1.0, float(known.max())) if known.size else 1.0
             off = np.abs(claims - values) > 1e-6 * scale
+            if not off.any():
+                continue
             for index in np.flatnonzero(off)[:3]:
                 where = address(run.first + int(index), place.column)
                 now, was = values[index], claims[index]

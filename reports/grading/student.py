@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.grading.items import Assignment, owners
+from reports.grading.items import Assignment
 from reports.grading.placement import Place, Placement, find_places
 from reports.layout import Layout
 from reports.recalculation.by_columns import Engine, Grid, UnknownFormula
@@ -76,11 +76,6 @@ class Student:
         """The formulas, calculated with the issued input data."""
         return Engine(self.grid)
 
-    @cached_property
-    def owner(self) -> dict[str, str]:
-        """Node → block."""
-        return owners(self.assignment.model)
-
     # --- input data -------------------------------------------------------------------
 
     def _restore(self) -> None:
@@ -95,10 +90,19 @@ class Student:
             if place is None:
                 continue
             value = self.expected.value(node)
-            for index, row in enumerate(place.rows):
-                if row is not None:
-                    given = value if isinstance(value, str) else float(np.ravel(value)[index])
-                    self._put(place, index, node, given)
+            if isinstance(value, str):
+                self._put(place, 0, node, value)
+                continue
+            column = self.grid.sheets[place.sheet].get(place.column)
+            values = np.ravel(value).tolist()
+            for index, (row, given) in enumerate(zip(place.rows, values, strict=True)):
+                if row is None:
+                    continue
+                if column is not None and not column.runs and not column.errors:
+                    found = column.constants.get(row)
+                    if isinstance(found, float) and abs(found - given) <= 1e-9 * max(1, abs(given)):
+                        continue
+                self._put(place, index, node, given)
 
     def _put(self, place: Place, index: int, name: str, value: float | str) -> None:
         row = place.rows[index]
@@ -167,10 +171,14 @@ class Student:
     # --- what formulas refer to -------------------------------------------------------
 
     @cached_property
-    def _columns_at(self) -> dict[tuple[str, int], list[tuple[str, Place]]]:
-        found: dict[tuple[str, int], list[tuple[str, Place]]] = {}
+    def _columns_at(self) -> dict[tuple[str, int], list[tuple[str, int, int, Place]]]:
+        """Nodes of each column with their first and last row."""
+        found: dict[tuple[str, int], list[tuple[str, int, int, Place]]] = {}
         for node, place in self.placement.places.items():
-            found.setdefault((place.sheet, place.column), []).append((node, place))
+            rows = [row for row in place.rows if row is not None]
+            if rows:
+                entry = (node, min(rows), max(rows), place)
+                found.setdefault((place.sheet, place.column), []).append(entry)
         return found
 
     def precedents(self, node: str) -> frozenset[str]:
@@ -201,16 +209,14 @@ class Student:
             column = self.grid.sheets.get(area.sheet, {}).get(number)
             if column is None:
                 continue
-            covered: set[int] = set()
-            for node, place in self._columns_at.get((area.sheet, number), []):
-                rows = [r for r in place.rows if r is not None]
-                inside = [r for r in rows if area.first_row <= r <= area.last_row]
-                if inside:
+            taken: list[tuple[int, int, Place]] = []
+            for node, first, last, place in self._columns_at.get((area.sheet, number), []):
+                if first <= area.last_row and last >= area.first_row:
                     nodes.add(node)
-                    covered.update(rows)
+                    taken.append((first, last, place))
             for run in column.runs:
                 low, high = max(run.first, area.first_row), min(run.last, area.last_row)
-                if low <= high and not all(row in covered for row in range(low, high + 1)):
+                if low <= high and not _covered(low, high, taken):
                     helpers.append(run)
         return nodes, helpers
 
@@ -262,6 +268,15 @@ class Student:
                     value = right if isinstance(right, str) else float(np.ravel(right)[i])
                     column.constants[row] = value
         return Engine(grid)
+
+
+def _covered(low: int, high: int, taken: list[tuple[int, int, Place]]) -> bool:
+    """Whether all rows belong to nodes."""
+    for first, last, place in taken:
+        if first <= low and high <= last and last - first + 1 == len(place.rows):
+            return True
+    rows = {row for _, _, place in taken for row in place.rows}
+    return all(row in rows for row in range(low, high + 1))
 
 
 def _fresh(run: Run) -> Run:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.grading.items import Item, ancestors
+from reports.grading.items import Item
 from reports.grading.student import BLANK, ERROR, LOST, NUMBER, TEXT, Answer, Student, known_values
 from reports.recalculation.by_columns import UnknownFormula
 
@@ -148,8 +148,7 @@ def _where(kinds: str, kind: str) -> tuple[int, ...]:
 
 def _linked(item: Item, student: Student, precedents: frozenset[str]) -> bool:
     """Whether the formula refers to cells on which the result depends."""
-    model = student.assignment.model
-    needed = frozenset().union(*(ancestors(node, model) for node in item.nodes))
+    needed = student.assignment.ancestors(item)
     if not needed:
         return True
     if precedents & needed:
@@ -160,9 +159,8 @@ def _linked(item: Item, student: Student, precedents: frozenset[str]) -> bool:
 
 def _has_wrong(student: Student, item: Item, precedents: frozenset[str] | None) -> bool:
     """Whether there is an earlier value of the student's that is not the right one."""
-    model = student.assignment.model
     if precedents is None:
-        precedents = frozenset().union(*(ancestors(node, model) for node in item.nodes))
+        precedents = student.assignment.ancestors(item)
     for name in precedents:
         answer = student.answers.get(name)
         if answer is None:
@@ -209,12 +207,11 @@ def _own(item: Item, student: Student, precedents: frozenset[str] | None) -> Arr
     Cells that the formula does not refer to are calculated from those that it does:
     a student may skip a helper column.
     """
-    model = student.assignment.model
     parts = []
     for node in item.nodes:
         used = precedents
         if used is None:  # typed in: the columns that the textbook's formula names
-            used = frozenset(ancestors(node, model))
+            used = student.assignment.graph.ancestors(node)
         run = student.expected.fork(known_values(student.answers, used - {node}))
         parts.append(np.ravel(np.asarray(run.value(node), dtype=float)))
     return np.concatenate(parts)

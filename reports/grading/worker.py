@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import sys
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -28,6 +29,9 @@ def serve(connection: Connection, register_folder: Path, memory: int) -> None:
     limit_memory(memory)
     forbid_the_world()
     connection.send(("ready", None, None))
+    # A workbook makes tens of thousands of small objects and none of them in circles: collecting
+    # between the files is enough, and half as much work.
+    gc.disable()
     while True:
         try:
             submission = connection.recv()
@@ -45,6 +49,7 @@ def serve(connection: Connection, register_folder: Path, memory: int) -> None:
         except Exception as error:  # a bug must cost one row, never the batch
             answer = ("failed", f"{type(error).__name__}: {error}"[:300], None)
         connection.send(answer)
+        gc.collect()
 
 
 def _warm_up() -> None:

@@ -92,6 +92,15 @@ class Engine:
         a blank, a text and an error is NaN.
         """
         known = self.grid.column(sheet, column)
+        if len(known.runs) == 1 and not known.errors:
+            only = known.runs[0]
+            if only.first <= first and last <= only.last:
+                with np.errstate(all="ignore"):
+                    part = self._part(only, first, last)
+                if not only.texts:
+                    good = np.isfinite(part)
+                    count = last - first + 1
+                    return part, ["n"] * count if good.all() else ["n" if g else "e" for g in good]
         numbers = np.full(last - first + 1, np.nan)
         kinds = ["b"] * len(numbers)
         for row, constant in known.constants.items():

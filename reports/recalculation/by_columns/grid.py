@@ -15,6 +15,7 @@ from lxml import etree
 from numpy.typing import NDArray
 
 from reports.recalculation.by_columns.syntax import (
+    HERE,
     Token,
     UnknownFormula,
     column_number,
@@ -224,6 +225,32 @@ class _Sheet:
         elif found is not None and found != "":
             known.constants[row] = found
 
+    def follow(self, row: int, column: int, text: str, value: str) -> bool:
+        """Take a cell that continues the run above it; False, and nothing taken, otherwise."""
+        current = self.open.get(column)
+        if current is None:
+            return False
+        run, template, _ = current
+        if template is None:
+            return False
+        if run.first + run.count != row or row > MAX_ROW:
+            return False
+        if isinstance(template, str):
+            if template.replace(HERE, str(row)) != text:
+                return False
+        elif filled(template, row) != text:
+            return False
+        try:
+            found = float(value) if value else None
+        except ValueError:
+            return False
+        if found is not None and not math.isfinite(found):
+            return False
+        run.count += 1
+        self.columns[column].cached[row] = found
+        self.grid.cells += 1
+        return True
+
     def _value(self, kind: str, text: str | None) -> Cached:
         if text is None:
             return None
@@ -304,6 +331,7 @@ _PLAIN_CELL = re.compile(
     r"(?:<f([^>/]*)(?:/>|>([^<]*)</f>))?(?:<v>([^<]*)</v>|<v/>)?"
     r'(?:<is><t(?: xml:space="preserve")?>([^<]*)</t></is>)?</c>)'
 )
+_LETTER = re.compile(r"&#([1-9][0-9]{2,4});")  # from 100 up: no sign of the markup
 _ESCAPES = (("&lt;", "<"), ("&gt;", ">"), ("&quot;", '"'), ("&apos;", "'"), ("&amp;", "&"))
 _ATTRIBUTE = re.compile(r'(t|si)="([^"&]*)"')
 
@@ -324,18 +352,33 @@ def _read_plain(sheet: _Sheet, data: bytes) -> bool:
         text = body.decode("utf-8")
     except UnicodeDecodeError:
         return False
+    if "&#" in text:  # letters that a writer of ASCII has spelt out
+        text = _LETTER.sub(lambda match: chr(int(match[1])), text)
     cells = _PLAIN_CELL.findall(text)
     if len(cells) != text.count("<c "):
         return False
-    put, number = sheet.put, column_number
-    for letters, row, kind, about, formula, value, inline in cells:
-        made = None
-        if formula or about:
-            found = dict(_ATTRIBUTE.findall(about)) if about else {}
-            made = (found.get("t", "normal"), _plain_text(formula), found.get("si", ""))
-        if made is not None or value or inline:
-            shown = _plain_text(value) if value else None
-            put(int(row), number(letters), kind or "n", made, shown, _plain_text(inline) or None)
+    put, number, follow = sheet.put, column_number, sheet.follow
+    for letters, digits, kind, about, formula, value, inline in cells:
+        if formula:
+            if "&" in formula:
+                formula = _plain_text(formula)  # noqa: PLW2901
+            row, column = int(digits), number(letters)
+            if "t=" not in about and "si=" not in about:
+                # By far the most cells: a formula filled down, with a number saved.
+                if (not kind or kind == "n") and follow(row, column, formula, value):
+                    continue
+                made = ("normal", formula, "")
+            else:
+                found = dict(_ATTRIBUTE.findall(about))
+                made = (found.get("t", "normal"), formula, found.get("si", ""))
+            put(row, column, kind or "n", made, _plain_text(value) or None, None)
+        elif about:
+            found = dict(_ATTRIBUTE.findall(about))
+            made = (found.get("t", "normal"), "", found.get("si", ""))
+            put(int(digits), number(letters), kind or "n", made, _plain_text(value) or None, None)
+        elif value or inline:
+            own = _plain_text(inline) or None
+            put(int(digits), number(letters), kind or "n", None, _plain_text(value) or None, own)
     return True
 
 

@@ -155,7 +155,7 @@ _SPLIT = re.compile(
 
 
 # A template holds the row number as \0; a formula with other rows in it holds distances.
-_HERE = "\0"
+HERE = "\0"
 
 
 def row_template(text: str, row: int) -> str | list[str | int]:
@@ -170,14 +170,14 @@ def row_template(text: str, row: int) -> str | list[str | int]:
         at = match.end()
     pieces.append(text[at:])
     if all(isinstance(piece, str) or piece == 0 for piece in pieces):
-        return "".join(piece if isinstance(piece, str) else _HERE for piece in pieces)
+        return "".join(piece if isinstance(piece, str) else HERE for piece in pieces)
     return pieces
 
 
 def filled(template: str | list[str | int], row: int) -> str:
     """The formula that filling down would put into a row."""
     if isinstance(template, str):
-        return template.replace(_HERE, str(row))
+        return template.replace(HERE, str(row))
     return "".join([piece if isinstance(piece, str) else str(row + piece) for piece in template])
 
 

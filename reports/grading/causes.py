@@ -24,6 +24,8 @@ Array = NDArray[np.float64]
 
 _FACTORS = (10.0, 100.0, 1000.0, 1e4, 1e5, 1e6, 1e9)
 
+_OTHERS = 200  # variants that are tried
+
 # Quantities that are taken for each other.
 _MIXED = (
     ("r_crank", "S_stroke", "ход поршня S вместо радиуса кривошипа r"),
@@ -192,13 +194,9 @@ class Causes:
         yield words, self._values(item, run)
 
     def _variants(self, item: Item) -> Iterator[tuple[str, Array | None]]:
-        """One parameter of another variant, then the whole other variant."""
-        for other in self.others[:200]:
-            run = self.student.expected.fork(dict(other.values))
-            words = f"исходные данные варианта {other.number}, а не вашего"
-            yield words, self._values(item, run)
+        """One parameter of another variant, its λ, then the whole other variant."""
         tried: set[tuple[str, float]] = set()
-        for other in self.others[:200]:
+        for other in self.others[:_OTHERS]:
             for name, value in other.values.items():
                 if (name, value) in tried:
                     continue
@@ -207,12 +205,14 @@ class Causes:
                 title = self.titles.get(name, name)
                 words = f"{title} из варианта {other.number}: {value:g}"
                 yield words, self._values(item, run)
-        ratio = {other.number: other.values for other in self.others[:200]}
-        for number, values in ratio.items():
-            if "lam" in self.student.expected.nodes:
-                theirs = self.student.expected.fork(dict(values)).value("lam")
-                run = self.student.expected.fork({"lam": theirs})
-                yield f"λ из варианта {number}: {theirs:.4g}", self._values(item, run)
+        for other in self.others[:_OTHERS]:
+            theirs = self.student.expected.fork(dict(other.values))
+            if "lam" in theirs.nodes:
+                lam = theirs.value("lam")
+                run = self.student.expected.fork({"lam": lam})
+                yield f"λ из варианта {other.number}: {lam:.4g}", self._values(item, run)
+            words = f"исходные данные варианта {other.number}, а не вашего"
+            yield words, self._values(item, theirs)
 
 
 def _resolver(node: str, run: Evaluation) -> Callable[[str], Any]:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from kshm import balance, firing_orders
 from kshm.engine import Engine
 from kshm.harmonics import acceleration_amplitude
-from kshm.inertia import point_masses, throw_mass
+from kshm.inertia import point_masses, rotating_mass
 
 Array = NDArray[np.float64]
 Columns = dict[str, Array]
@@ -19,7 +19,7 @@ ORDERS = tuple(range(1, 9))
 def columns(engine: Engine) -> dict[str, Columns]:
     """Tables ``balance``, ``balance_orders`` and ``firing_orders`` in SI units."""
     tables = {"balance": _over_a_turn(engine), "balance_orders": _orders(engine)}
-    if engine.cylinders <= firing_orders.MAX_CYLINDERS:
+    if engine.is_basic and engine.cylinders <= firing_orders.MAX_CYLINDERS:
         tables["firing_orders"] = _firing_orders(engine)
     return tables
 
@@ -42,26 +42,33 @@ def _left(engine: Engine, order: int) -> float:
 def _orders(engine: Engine) -> Columns:
     cylinders = balance.cylinders_of(engine)
     lam = engine.geometry.lam
+    m_j, _ = point_masses(engine.masses, engine.geometry.rod_length)
+    m_unit = m_j * engine.geometry.crank_radius * engine.omega**2
     rows: dict[str, list[float]] = {}
     length = float(np.abs(cylinders.place).max()) + 1e-30
     for order in ORDERS:
-        force, moment = balance.reciprocating(engine, cylinders, order)
         sums = balance.order_phasors(cylinders, order)
         arms = balance.order_phasors(cylinders, order, cylinders.place)
-        values = {
-            "order": float(order),
-            "order_amplitude": acceleration_amplitude(lam, order),
-            "order_cos": sums.up.real,
-            "order_sin": -sums.up.imag,
-            "F_order_kN": abs(force.up),
-            "F_order_deg": _phase(sums.up, order, 1.0),
-            "arm_cos_mm": arms.up.real,
-            "arm_sin_mm": -arms.up.imag,
-            "M_order_Nm": abs(moment.up),
-            "M_order_deg": _phase(arms.up, order, length),
-            "F_left_kN": abs(force.up) * _left(engine, order),
-            "M_left_Nm": abs(moment.up) * _left(engine, order),
-        }
+        values = {"order": float(order), "order_amplitude": acceleration_amplitude(lam, order)}
+        size = abs(values["order_amplitude"]) * m_unit
+        kinds = (("F", "kN", "order", "", sums, 1.0), ("M", "Nm", "arm", "_mm", arms, length))
+        for letter, unit, name, end, vector, scale in kinds:
+            values[f"{name}_cos{end}"] = vector.up.real
+            values[f"{name}_sin{end}"] = -vector.up.imag
+            if engine.is_in_line:
+                values[f"{letter}_order_{unit}"] = abs(vector.up) * size
+                values[f"{letter}_order_deg"] = _phase(vector.up, order, scale)
+                continue
+            shape = balance.ellipse(vector, 1e-9 * scale)
+            values |= {
+                f"{name}_right_cos{end}": vector.right.real,
+                f"{name}_right_sin{end}": -vector.right.imag,
+                f"{letter}_order_{unit}": shape.largest * size,
+                f"{letter}_order_min_{unit}": shape.smallest * size,
+                f"{letter}_order_dir_deg": shape.direction,
+            }
+        values["F_left_kN"] = values["F_order_kN"] * _left(engine, order)
+        values["M_left_Nm"] = values["M_order_Nm"] * _left(engine, order)
         for key, value in values.items():
             rows.setdefault(key, []).append(value)
     return {key: np.array(values) for key, values in rows.items()}
@@ -78,19 +85,25 @@ def _over_a_turn(engine: Engine) -> Columns:
     units = {"F": "kN", "L": "Nm"}
     for letter, (turning, weights, which) in parts.items():
         unit = units[letter]
-        upright: dict[int, Array] = {}
+        waves: dict[int, Array] = {}  # up + i·right
         for order in (1, 2, 4):
             phasors = balance.reciprocating(engine, cylinders, order)[which]
-            upright[order] = np.real(phasors.up * np.exp(1j * order * phi))
-            found[f"{letter}{order}_{unit}"] = upright[order]
+            wave = np.exp(1j * order * phi)
+            waves[order] = np.real(phasors.up * wave) + 1j * np.real(phasors.right * wave)
+            found[f"{letter}{order}_{unit}"] = waves[order].real
+            if not engine.is_in_line:
+                found[f"{letter}{order}_right_{unit}"] = waves[order].imag
         shaft = turning * np.exp(1j * phi)
         added = share * weights * np.exp(1j * phi)
         found[f"{letter}rot_up_{unit}"] = shaft.real
         found[f"{letter}rot_right_{unit}"] = shaft.imag
-        found[f"{letter}up_{unit}"] = upright[1] + upright[2] + upright[4] + shaft.real
-        rest = np.sum([_left(engine, order) * part for order, part in upright.items()], axis=0)
-        found[f"{letter}up_after_{unit}"] = rest + shaft.real + added.real
-        found[f"{letter}right_after_{unit}"] = shaft.imag + added.imag
+        before = np.sum(list(waves.values()), axis=0) + shaft
+        after = sum(_left(engine, order) * part for order, part in waves.items()) + shaft + added
+        found[f"{letter}up_{unit}"] = before.real
+        if not engine.is_in_line:
+            found[f"{letter}right_{unit}"] = before.imag
+        found[f"{letter}up_after_{unit}"] = after.real
+        found[f"{letter}right_after_{unit}"] = after.imag
     return found
 
 
@@ -113,14 +126,14 @@ def _firing_orders(engine: Engine) -> Columns:
 
 def scalars(engine: Engine) -> dict[str, float]:
     """Scalars of the balance in SI units."""
-    m_j, m_2 = point_masses(engine.masses, engine.geometry.rod_length)
+    m_j, _ = point_masses(engine.masses, engine.geometry.rod_length)
     choice, cylinders = engine.balancing, balance.cylinders_of(engine)
-    m_r = throw_mass(engine.crankshaft.throws[0]) + m_2
     bare = balance.rotating(engine, counterweights=False)
     shaft = balance.rotating(engine, counterweights=True)
     more = balance.ideal_counterweights(engine)
-    (first, _), (second, _) = balance.shaft_moments(engine)
-    needed = m_r + choice.counterweight_share * m_j
+    (first, first_back), (second, second_back) = balance.shaft_moments(engine)
+    rods = sum(place.throw == 0 for place in engine.arrangement)
+    needed = rotating_mass(engine) + choice.counterweight_share * rods * m_j
     values = {
         "Pj_unit_kN": m_j * engine.geometry.crank_radius * engine.omega**2,
         "counterweight_needed": needed,
@@ -130,6 +143,13 @@ def scalars(engine: Engine) -> dict[str, float]:
         "shaft2_moment": second,
         "shaft2_mass": second / choice.shaft_radius,
     }
+    if not engine.is_in_line:
+        values |= {
+            "shaft1_back_moment": first_back,
+            "shaft1_back_mass": first_back / choice.shaft_radius,
+            "shaft2_back_moment": second_back,
+            "shaft2_back_mass": second_back / choice.shaft_radius,
+        }
     half_length = -float(balance.throw_starts(engine)[0])
     for which, letter in enumerate("FL"):
         noise = 1e-9 * values["Pj_unit_kN"] * (half_length if which else 1)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kshm import balance_results, harmonics, inertia_results, reference, torque_results
+from kshm import balance, balance_results, harmonics, inertia_results, reference, torque_results
 from kshm import dimensionless as segal
 from kshm.engine import Engine
 from kshm.masses import mass_scalars
@@ -29,30 +29,32 @@ def companion_columns(engine: Engine, raw: BatchSolution, index: int) -> dict[st
     Most are made for four-stroke in-line engines with a central mechanism only.
     """
     always = {table: in_units(values) for table, values in reference.columns(engine).items()}
-    if not engine.is_basic:
+    if not balance.is_balanced_by_orders(engine):
         return always
+    general = {table: in_units(values) for table, values in balance_results.columns(engine).items()}
+    general |= {**_segal(engine), **_neiman(engine), **always}
+    if not engine.is_basic:
+        return general
     others = {
-        **balance_results.columns(engine),
         **inertia_results.columns(engine, raw, index),
         **torque_results.columns(engine, raw, index),
     }
-    return {
-        **_segal(engine),
-        **_neiman(engine),
-        **{table: in_units(columns) for table, columns in others.items()},
-        **always,
-    }
+    return general | {table: in_units(columns) for table, columns in others.items()}
 
 
 def companion_scalars(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float]:
     """All scalars of the companion sources in SI units; most of basic engines only."""
     always = {**mass_scalars(engine), **reference.scalars(engine)}
-    if not engine.is_basic:
+    if not balance.is_balanced_by_orders(engine):
         return always
-    return {
+    always |= {
         **_segal_scalars(engine),
         **_neiman_scalars(engine),
         **balance_results.scalars(engine),
+    }
+    if not engine.is_basic:
+        return always
+    return {
         **inertia_results.scalars(engine, raw, index),
         **torque_results.scalars(engine, raw, index),
         **always,

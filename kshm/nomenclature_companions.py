@@ -97,6 +97,14 @@ _BALANCE: tuple[Row, ...] = (
     ("order_amplitude", "ak", "a_k", "", "амплитуда гармоники ускорения, доля ω²R", "0.00000"),
     ("order_cos", "Σcos kθ", r"\Sigma\cos k\theta", "", "сумма косинусов фаз цилиндров", "0.0000"),
     ("order_sin", "Σsin kθ", r"\Sigma\sin k\theta", "", "сумма синусов фаз цилиндров", "0.0000"),
+    ("order_right_cos", "Σcos kθ·sin δ", r"\Sigma\cos k\theta\sin\delta", "", "то же по составляющим вправо, косинусы", "0.0000"),
+    ("order_right_sin", "Σsin kθ·sin δ", r"\Sigma\sin k\theta\sin\delta", "", "то же по составляющим вправо, синусы", "0.0000"),
+    ("F_order_min_kN", "Fk min", r"F_{k\,\min}", "kN", "свободная сила порядка k, наименьшая величина", "0.0000"),
+    ("F_order_dir_deg", "γ(Fk)", r"\gamma_{Fk}", "deg", "направление наибольшей силы от вертикали по вращению", "0.0"),
+    ("arm_right_cos_mm", "Σz cos kθ·sin δ", r"\Sigma z\cos k\theta\sin\delta", "mm", "сумма плеч по составляющим вправо, косинусы", "0.00"),
+    ("arm_right_sin_mm", "Σz sin kθ·sin δ", r"\Sigma z\sin k\theta\sin\delta", "mm", "сумма плеч по составляющим вправо, синусы", "0.00"),
+    ("M_order_min_Nm", "Mk min", r"M_{k\,\min}", "Nm", "свободный момент порядка k, наименьшая величина", "0.00"),
+    ("M_order_dir_deg", "γ(Mk)", r"\gamma_{Mk}", "deg", "направление наибольшего момента от вертикали по вращению", "0.0"),
     ("F_order_kN", "Fk", "F_k", "kN", "свободная сила инерции порядка k, амплитуда", "0.0000"),
     ("F_order_deg", "φ(Fk)", r"\varphi_{Fk}", "deg", "угол вала при наибольшей силе вверх", "0.0"),
     ("arm_cos_mm", "Σz cos kθ", r"\Sigma z\cos k\theta", "mm", "сумма плеч цилиндров с косинусами фаз", "0.00"),
@@ -107,6 +115,8 @@ _BALANCE: tuple[Row, ...] = (
     ("M_left_Nm", "Mk ост", r"M_{k\,\mathrm{ост}}", "Nm", "момент порядка k после балансирных валов", "0.00"),
     *(row for key, unit, what, sign, fmt in _SIDES for row in (
         *((f"{key}{n}_{unit}", f"{sign}{n}", f"{sign}_{n}", unit, f"{n}-й порядок свободной {what}".replace("свободной мом", "свободного мом"), fmt) for n in (1, 2, 4)),
+        *((f"{key}{n}_right_{unit}", f"{sign}{n} вправо", rf"{sign}_{{{n}\,x}}", unit, f"{n}-й порядок {what} вправо", fmt) for n in (1, 2, 4)),
+        (f"{key}right_{unit}", f"Σ{sign} вправо", rf"\Sigma {sign}_x", unit, f"сумма горизонтальных составляющих {what}", fmt),
         (f"{key}rot_up_{unit}", f"{sign}r верх", rf"{sign}_{{r\,y}}", unit, f"вертикальная составляющая {what} вращающихся масс", fmt),
         (f"{key}rot_right_{unit}", f"{sign}r вправо", rf"{sign}_{{r\,x}}", unit, f"горизонтальная составляющая {what} вращающихся масс", fmt),
         (f"{key}up_{unit}", f"Σ{sign} верх", rf"\Sigma {sign}_y", unit, f"сумма вертикальных составляющих {what}", fmt),
@@ -130,6 +140,7 @@ _BALANCE: tuple[Row, ...] = (
     )),
     ("z_left", "zл", r"z_{\mathrm{л}}", "mm", "левая опора колена от середины вала", "0.0"),
     ("z_rod", "zш", r"z_{\mathrm{ш}}", "mm", "ось цилиндра от середины вала", "0.0"),
+    ("z_rod2", "zш2", r"z_{\mathrm{ш}2}", "mm", "ось второго цилиндра колена от середины вала", "0.0"),
     *((f"{key}_{part}{bare}", f"{sign}{symbol}{short}", rf"{sign}_{{{tex}}}", unit, f"{title} вращающихся масс колена {words}{long}", fmt)
       for key, unit, title, sign, fmt in (("F", "N", "сила", "F", "0"), ("L", "Nm", "момент", "M", "0.00"))
       for part, symbol, tex, words in (("up", " вдоль", r"\parallel", "вдоль колена"), ("side", " поперёк", r"\perp", "поперёк колена против вращения"))
@@ -139,6 +150,8 @@ _BALANCE: tuple[Row, ...] = (
     ("counterweight_web", "mпр щ", r"m_{\mathrm{пр.щ}}", "kg", "то же на одну щёку", "0.000"),
     *((f"shaft{n}_moment", f"mбe{n}", rf"m_{{\mathrm{{б}}{n}}}e", "kgm", f"произведение массы на эксцентриситет груза каждого вала пары {n}-го порядка", "0.00000") for n in (1, 2)),
     *((f"shaft{n}_mass", f"mб{n}", rf"m_{{\mathrm{{б}}{n}}}", "kg", f"масса груза каждого вала пары {n}-го порядка", "0.000") for n in (1, 2)),
+    *((f"shaft{n}_back_moment", f"mбe{n}−", rf"m_{{\mathrm{{б}}{n}-}}e", "kgm", f"то же вала {n}-го порядка, вращающегося против вала двигателя", "0.00000") for n in (1, 2)),
+    *((f"shaft{n}_back_mass", f"mб{n}−", rf"m_{{\mathrm{{б}}{n}-}}", "kg", f"масса груза вала {n}-го порядка, вращающегося против вала двигателя", "0.000") for n in (1, 2)),
     ("variant", "№", "n", "", "порядок работы", "0"),
     ("theta#_deg", "θ#", r"\theta_{#}", "deg", "начало рабочего хода цилиндра #", "0"),
     ("order_code", "порядок", "n", "", "порядок работы, номера цилиндров подряд", "0"),

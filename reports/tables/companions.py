@@ -15,12 +15,19 @@ from reports.tables.torque_orders import torque_order_blocks, torque_order_chart
 
 def companion_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block, ...]:
     """Blocks of the companion sources: most are about basic engines only."""
-    cylinders, throws = model.engine.cylinders, len(model.crankshaft.throw_angles_deg)
+    shape = Shape.of(model)
     turn = tuple(angle for angle in cycle if angle <= 360)
-    if not Shape.of(model).basic:
+    if not shape.by_orders:
         return reference_blocks(model, turn)
+    if not shape.basic:
+        return (
+            *balance_blocks(shape, turn),
+            *segal_blocks(),
+            *neiman_blocks(),
+            *reference_blocks(model, turn),
+        )
     return (
-        *balance_blocks(cylinders, throws, turn),
+        *balance_blocks(shape, turn),
         *inertia_blocks(model, cycle),
         *torque_order_blocks(model, cycle),
         *segal_blocks(),
@@ -31,10 +38,18 @@ def companion_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block,
 
 def companion_charts(model: InputFile) -> tuple[ChartSpec, ...]:
     """Charts of the companion sources."""
-    if not Shape.of(model).basic:
+    shape = Shape.of(model)
+    if not shape.by_orders:
         return reference_charts(model)
+    if not shape.basic:
+        return (
+            *balance_charts(shape),
+            *segal_charts(),
+            *neiman_charts(),
+            *reference_charts(model),
+        )
     return (
-        *balance_charts(),
+        *balance_charts(shape),
         *inertia_charts(),
         *torque_order_charts(),
         *segal_charts(),

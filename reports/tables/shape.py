@@ -84,6 +84,11 @@ class Shape:
         in_line = [place.throw for place in self.arrangement] == list(range(self.cylinders))
         return in_line and not self.banks and self.strokes == 4 and not self.offset
 
+    @property
+    def by_orders(self) -> bool:
+        """Whether Neiman's series describes all pistons: central, without articulated rods."""
+        return not self.offset and not self.articulated
+
     def is_hung(self, cylinder: int) -> bool:
         """Whether the cylinder's rod is an articulated one."""
         return self.arrangement[cylinder - 1].master is not None

@@ -26,35 +26,33 @@ SHOWN_ORDERS = (1, 2, 4, 6)
 def companion_columns(engine: Engine, raw: BatchSolution, index: int) -> dict[str, Columns]:
     """Table id → column key → values in the units of the tables.
 
-    Most are made for four-stroke in-line engines with a central mechanism only.
+    Most follow the series of a central mechanism and take no articulated rods.
     """
     always = {table: in_units(values) for table, values in reference.columns(engine).items()}
     if not balance.is_balanced_by_orders(engine):
         return always
-    general = {table: in_units(values) for table, values in balance_results.columns(engine).items()}
-    general |= {**_segal(engine), **_neiman(engine), **always}
-    if not engine.is_basic:
-        return general
     others = {
+        **balance_results.columns(engine),
         **inertia_results.columns(engine, raw, index),
         **torque_results.columns(engine, raw, index),
     }
-    return general | {table: in_units(columns) for table, columns in others.items()}
+    return {
+        **_segal(engine),
+        **_neiman(engine),
+        **{table: in_units(columns) for table, columns in others.items()},
+        **always,
+    }
 
 
 def companion_scalars(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float]:
-    """All scalars of the companion sources in SI units; most of basic engines only."""
+    """All scalars of the companion sources in SI units; see ``companion_columns``."""
     always = {**mass_scalars(engine), **reference.scalars(engine)}
     if not balance.is_balanced_by_orders(engine):
         return always
-    always |= {
+    return {
         **_segal_scalars(engine),
         **_neiman_scalars(engine),
         **balance_results.scalars(engine),
-    }
-    if not engine.is_basic:
-        return always
-    return {
         **inertia_results.scalars(engine, raw, index),
         **torque_results.scalars(engine, raw, index),
         **always,

@@ -148,7 +148,8 @@ def of_engine(phi: Array, engine: Engine) -> Array:
     phases = phi[None, :] - np.array(engine.firing_offsets)[:, None]
     rod, piston = exact(phases, parts)
     total: Array = (rod + piston).sum(axis=0)
-    return total + engine.cylinders * parts.crank_inertia + counterweight_inertia(engine)
+    throws = len(engine.crankshaft.throws)
+    return total + throws * parts.crank_inertia + counterweight_inertia(engine)
 
 
 def variation(values: Array) -> float:

@@ -22,10 +22,11 @@ D50_SUPPRESSIONS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
 LAST_ORDER = 8.0
 
 
-def orders(step_deg: int) -> Array:
-    """Orders 1/2, 1, … 8, or as far as the grid can tell."""
-    last = min(LAST_ORDER, 180 / step_deg - 0.5)
-    found: Array = np.arange(1.0, round(2 * last) + 1) / 2
+def orders(step_deg: int, strokes: int = 4) -> Array:
+    """Orders 1/2, 1, … 8 of a four-stroke engine, 1 … 8 of a two-stroke one, up to the grid's."""
+    step = 2 / strokes
+    last = min(LAST_ORDER, 180 / step_deg - step)
+    found: Array = np.arange(1.0, round(last / step) + 1) * step
     return found
 
 
@@ -34,11 +35,13 @@ def tangential(engine: Engine, raw: BatchSolution, index: int) -> Columns:
     phi, lam = raw.phi, engine.geometry.lam
     beta = np.arcsin(lam * np.sin(phi))
     shape = np.sin(phi) + np.tan(beta) * np.cos(phi)
-    return {
+    curves = {
         "t_gas_MPa": raw.p_gas[index, 0] * shape,
         "t_inertia_MPa": raw.p_inertia[index, 0] * shape,
-        "t_motored_MPa": (motored(engine, raw, index) - engine.gas.p_ambient) * shape,
     }
+    if engine.strokes == 4:
+        curves["t_motored_MPa"] = (motored(engine, raw, index) - engine.gas.p_ambient) * shape
+    return curves
 
 
 def motored(engine: Engine, raw: BatchSolution, index: int) -> Array:
@@ -67,7 +70,7 @@ def _second(curve: Array, period: float) -> tuple[float, float]:
 def columns(engine: Engine, raw: BatchSolution, index: int) -> dict[str, Columns]:
     """Tables ``tangential``, ``torque_orders``, ``suppression`` and ``d50`` in SI units."""
     curves = tangential(engine, raw, index)
-    found = orders(engine.step_deg)
+    found = orders(engine.step_deg, engine.strokes)
     gas, inertia = (
         torque_harmonics.analyse(curves[key], engine.period, found)
         for key in ("t_gas_MPa", "t_inertia_MPa")
@@ -84,12 +87,10 @@ def columns(engine: Engine, raw: BatchSolution, index: int) -> dict[str, Columns
         table[f"{name}_phase_deg"] = part.phase
     table["cylinders_sum"] = together
     table["M_engine_order_Nm"] = total.amplitude * lever * together
-    return {
-        "tangential": {"phi_deg": raw.phi, **curves},
-        "torque_orders": table,
-        "suppression": _suppression(engine, raw, index),
-        "d50": _d50(),
-    }
+    tables = {"tangential": {"phi_deg": raw.phi, **curves}, "torque_orders": table}
+    if engine.strokes == 4:
+        tables |= {"suppression": _suppression(engine, raw, index), "d50": _d50()}
+    return tables
 
 
 def _suppression(engine: Engine, raw: BatchSolution, index: int) -> Columns:
@@ -139,7 +140,12 @@ def _coefficients(engine: Engine, raw: BatchSolution, index: int) -> dict[str, f
 
 
 def scalars(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float]:
-    """Scalars of the torque harmonics in SI units."""
+    """Scalars of the torque harmonics in SI units; none for two-stroke engines.
+
+    Chudakov's zones compare with a cycle of compression alone, which ports do not give.
+    """
+    if engine.strokes != 4:
+        return {}
     values = _coefficients(engine, raw, index)
     geometry, psi = engine.geometry, engine.balancing.suppression
     curves = tangential(engine, raw, index)
@@ -152,7 +158,7 @@ def scalars(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float]:
     lam = geometry.lam
     omega_d50 = 1630 * np.pi / 30
     d50 = float(torque_harmonics.inertia_second(np.array(D50_IMBALANCE), np.array(omega_d50)))
-    return {
+    found = {
         **{f"t_j_order{n}": value * unit
            for n, value in enumerate(torque_harmonics.inertia_coefficients(lam), 1)},
         "d_j": d_j,
@@ -170,7 +176,9 @@ def scalars(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float]:
         "psi_best_nominal": best,
         "h_shafts": torque_harmonics.shaft_offset(psi, geometry.rod_length),
         "h_shafts_best": torque_harmonics.shaft_offset(best, geometry.rod_length),
-        "P_shafts": 0.5 * lam * unit * geometry.piston_area * engine.cylinders,
         "d50_t_j2": d50,
         "d50_t_gas2": 0.6 * d50,
     }  # fmt: skip
+    if engine.is_in_line:
+        found["P_shafts"] = 0.5 * lam * unit * geometry.piston_area * engine.cylinders
+    return found

@@ -19,13 +19,6 @@ def companion_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block,
     turn = tuple(angle for angle in cycle if angle <= 360)
     if not shape.by_orders:
         return reference_blocks(model, turn)
-    if not shape.basic:
-        return (
-            *balance_blocks(shape, turn),
-            *segal_blocks(),
-            *neiman_blocks(),
-            *reference_blocks(model, turn),
-        )
     return (
         *balance_blocks(shape, turn),
         *inertia_blocks(model, cycle),
@@ -41,17 +34,10 @@ def companion_charts(model: InputFile) -> tuple[ChartSpec, ...]:
     shape = Shape.of(model)
     if not shape.by_orders:
         return reference_charts(model)
-    if not shape.basic:
-        return (
-            *balance_charts(shape),
-            *segal_charts(),
-            *neiman_charts(),
-            *reference_charts(model),
-        )
     return (
         *balance_charts(shape),
         *inertia_charts(),
-        *torque_order_charts(),
+        *torque_order_charts(shape.strokes),
         *segal_charts(),
         *neiman_charts(),
         *reference_charts(model),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from reports.inputs.model import InputFile
 from reports.tables.cylinder import cylinder_table_id
+from reports.tables.shape import Shape
 from reports.tables.spec import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
 
 SHEET, RESULTS, MODEL_SHEET = "Момент инерции", "Маховик", "Модель шатуна"
@@ -24,8 +25,8 @@ def _moving(phi: str) -> tuple[str, str]:
     return rod, piston
 
 
-def _table(cylinders: int, rows: tuple[float, ...]) -> TableSpec:
-    phi, numbers = "rad(phi_deg)", range(1, cylinders + 1)
+def _table(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
+    phi, numbers = "rad(phi_deg)", range(1, shape.cylinders + 1)
     rod, piston = _moving(phi)
     share = "((L_rod - rod_x)*cos(rad(phi_deg))**2 - L_rod)"
     near = (
@@ -71,7 +72,7 @@ def _table(cylinders: int, rows: tuple[float, ...]) -> TableSpec:
             Column("I_error", "(I_approx_kgm2/I_exact_kgm2 - 1)*100", "погрешность (19)"),
             Column(
                 "I_engine_kgm2",
-                f"{cylinders}*I_crank + I_counterweights + "
+                f"{shape.throws}*I_crank + I_counterweights + "
                 + " + ".join(f"moving{i}" for i in numbers),
                 "сумма по цилиндрам",
             ),
@@ -281,7 +282,7 @@ def _rod_model() -> ScalarTable:
 
 def inertia_blocks(model: InputFile, rows: tuple[float, ...]) -> tuple[Block, ...]:
     """Sheets of the reduced inertia."""
-    return _table(model.engine.cylinders, rows), _results(), _parts(model), _rod_model()
+    return _table(Shape.of(model), rows), _results(), _parts(model), _rod_model()
 
 
 def inertia_charts() -> tuple[ChartSpec, ...]:

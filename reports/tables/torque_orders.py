@@ -6,6 +6,7 @@ from reports.inputs.model import InputFile, TableGasSection
 from reports.tables.cycle_names import from_cycle, section_of
 from reports.tables.diagram import is_smooth, smooth_pressure
 from reports.tables.segal import rows
+from reports.tables.shape import Shape
 from reports.tables.spec import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
 
 SHEET, SHAFTS, RESULTS = "Гармоники момента", "Гашение 2-го порядка", "Чудаков, итоги"
@@ -29,6 +30,19 @@ def _tangential(model: InputFile, cycle: tuple[float, ...]) -> TableSpec:
             "*(geometry_compression_ratio/gas.volume_ratio)**gas_compression_exponent",
         )
     inside = "phi_deg > 180 + 0.0000001 and phi_deg < 540 - 0.0000001"
+    compressed = (
+        Column(
+            "t_motored_MPa",
+            f"(p_motored - gas_ambient_pressure_mpa)*{shape}",
+            "сжатие, отражённое от ВМТ",
+        ),
+        Column(
+            "p_motored",
+            f"({cold}) if {inside} else gas.p_MPa",
+            "политропа сжатия в обе стороны от ВМТ",
+            helper=True,
+        ),
+    )
     return TableSpec(
         "tangential",
         "М.т",
@@ -38,17 +52,7 @@ def _tangential(model: InputFile, cycle: tuple[float, ...]) -> TableSpec:
             Column("phi_deg", None),
             Column("t_gas_MPa", f"P4_1.Pg_MPa*{shape}", "Чудаков, tг = Mг/(FпR)"),
             Column("t_inertia_MPa", f"P4_1.Pj_MPa*{shape}", "Чудаков (3)"),
-            Column(
-                "t_motored_MPa",
-                f"(p_motored - gas_ambient_pressure_mpa)*{shape}",
-                "сжатие, отражённое от ВМТ",
-            ),
-            Column(
-                "p_motored",
-                f"({cold}) if {inside} else gas.p_MPa",
-                "политропа сжатия в обе стороны от ВМТ",
-                helper=True,
-            ),
+            *(compressed if model.engine.strokes == 4 else ()),
         ),
         cycle,
     )
@@ -91,19 +95,22 @@ def _orders(model: InputFile, cylinders: int) -> TableSpec:
             "сложение векторов",
         ),
     ]
-    last = min(LAST_ORDER, 180 / model.calculation.step_deg - 0.5)
+    step = 2 / model.engine.strokes
+    last = min(LAST_ORDER, 180 / model.calculation.step_deg - step)
+    turns = "цикл — два оборота" if model.engine.strokes == 4 else "цикл — один оборот"
+    start = "перед впуском" if model.engine.strokes == 4 else "сгорания"
     return TableSpec(
         "torque_orders",
         "М.г",
         "Гармоники удельной тангенциальной силы и момента двигателя",
         SHEET,
         tuple(columns),
-        rows(0.5, last, 0.5),
+        rows(step, last, step),
         note=(
-            "Гармоника порядка k есть A·sin(kφ + γ), φ от ВМТ перед впуском. Порядки кратны 0,5: "
-            "цикл — два оборота. Двигатель: амплитуда цилиндра, умноженная на векторную сумму."
+            f"Гармоника порядка k есть A·sin(kφ + γ), φ от ВМТ {start}: {turns}. "
+            "Двигатель: амплитуда цилиндра, умноженная на векторную сумму."
         ),
-        step=0.5,
+        step=step,
     )
 
 
@@ -121,6 +128,15 @@ def _coefficients(model: InputFile) -> ScalarTable:
     def phase(curve: str) -> str:
         return f"deg(atan2({second(curve, 'cos')}, {second(curve, 'sin')}))"
 
+    shafts: tuple[Scalar, ...] = (
+        Scalar(
+            "P_shafts",
+            "to_kN(0.5*engine_cylinders*lam*m_j*r_crank*omega**2)",
+            "Чудаков, под (7): Pц = 0,5λmjRω²",
+        ),
+    )
+    if Shape.of(model).banks:  # the shafts are those of cylinders in a row
+        shafts = ()
     t_gas, t_cold = "t_gas2", "t_motored2"
     speeds = [f"sqrt(2*of_MPa({t})/d_j)*30/pi" for t in ("t_gas2_idle", t_gas)]
     return ScalarTable(
@@ -155,11 +171,7 @@ def _coefficients(model: InputFile) -> ScalarTable:
             Scalar("psi_best_nominal", f"max(0, 1 - {t_gas}/t_j2)", "Чудаков (6), (7)"),
             Scalar("h_shafts", "to_mm(balance_suppression*L_rod)", "Чудаков (8)"),
             Scalar("h_shafts_best", "to_mm(psi_best_nominal*L_rod)", "Чудаков (8)"),
-            Scalar(
-                "P_shafts",
-                "to_kN(0.5*engine_cylinders*lam*m_j*r_crank*omega**2)",
-                "Чудаков, под (7): Pц = 0,5λmjRω²",
-            ),
+            *shafts,
             Scalar("d50_t_j2", "0.5*pi**2/(900*981)*192*1630**2/1000", "Чудаков (5), Д-50"),
             Scalar("d50_t_gas2", "(1 - 2/5)*d50_t_j2", "Чудаков, рис. 5: ψ = 0,4"),
         ),
@@ -220,22 +232,24 @@ def _d50() -> TableSpec:
 
 def torque_order_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block, ...]:
     """Sheets of the torque's harmonics and of the balance shafts."""
+    general = _tangential(model, cycle), _orders(model, model.engine.cylinders)
+    if model.engine.strokes != 4:
+        return general
     return (
-        _tangential(model, cycle),
-        _orders(model, model.engine.cylinders),
+        *general,
         _suppression(),
         _d50(),
         _coefficients(model),
     )
 
 
-def torque_order_charts() -> tuple[ChartSpec, ...]:
+def torque_order_charts(strokes: int) -> tuple[ChartSpec, ...]:
     """Tangential forces, amplitudes by order, suppression over speed, the Д-50."""
-    t, s = "tangential", "suppression"
-    return (
+    t = "tangential"
+    curves = ("gas", "inertia", "motored") if strokes == 4 else ("gas", "inertia")
+    general = (
         ChartSpec("torque_tangential", SHEET, "Удельные тангенциальные силы", "line",
-                  tuple(Series(f"{t}.phi_deg", f"{t}.t_{k}_MPa")
-                        for k in ("gas", "inertia", "motored")),
+                  tuple(Series(f"{t}.phi_deg", f"{t}.t_{k}_MPa") for k in curves),
                   "φ, ° ПКВ", "t, МПа"),
         ChartSpec("torque_amplitudes", SHEET, "Амплитуды гармоник цилиндра по порядкам", "line",
                   tuple(Series("torque_orders.order", f"torque_orders.{k}_amplitude_MPa")
@@ -243,6 +257,13 @@ def torque_order_charts() -> tuple[ChartSpec, ...]:
         ChartSpec("torque_engine", SHEET, "Амплитуды гармоник момента двигателя", "line",
                   (Series("torque_orders.order", "torque_orders.M_engine_order_Nm"),),
                   "порядок k", "M, Н·м"),
+    )  # fmt: skip
+    return (*general, *_shaft_charts()) if strokes == 4 else general
+
+
+def _shaft_charts() -> tuple[ChartSpec, ...]:
+    s = "suppression"
+    return (
         ChartSpec("suppression", SHAFTS, "Остаток момента 2-го порядка", "line",
                   tuple(Series(f"{s}.n_rpm", f"{s}.{k}_MPa")
                         for k in ("t_j2", "residual_bare", "residual_psi")), "n, мин⁻¹", "t, МПа"),

@@ -8,9 +8,9 @@ from functools import partial
 import numpy as np
 from markupsafe import Markup
 
-from kshm.firing_orders import MAX_CYLINDERS, rank_firing_orders
+from kshm.firing_orders import rank_firing_orders
 from reports.document.blocks import Column, TableBlock, symbol_head, table_block
-from reports.document.figures import Level, line_chart
+from reports.document.figures import Level, line_chart, polar_path
 from reports.document.numbers import fixed
 from reports.document.sections.chapter import Chapter
 from reports.document.sections.plots import PHI, phi, series
@@ -22,41 +22,50 @@ from reports.inputs.convert import to_engine
 _MOST_ORDERS = 8
 _NOTHING = 1e-6  # N·m: rounding noise of balanced moments
 
+# Definitions that no single formula of the sheets states.
 _FORMULAS = {
-    "force": r"F_k = m_j r\omega^2\, a_k \sqrt{\left(\Sigma\cos k\theta_i\right)^2"
-    r" + \left(\Sigma\sin k\theta_i\right)^2}",
-    "moment": r"M_k = m_j r\omega^2\, a_k \sqrt{\left(\Sigma z_i\cos k\theta_i\right)^2"
-    r" + \left(\Sigma z_i\sin k\theta_i\right)^2}",
-    "shaft": r"m_{\mathrm{б}} e_{\mathrm{б}} = \dfrac{\psi_k F_k}{2\,(k\omega)^2}",
-    "inertia": r"I_{\mathrm{п}} = I_{\mathrm{к}} + m_{\mathrm{ш}}\dfrac{v_C^2}{\omega^2}"
-    r" + I_{\mathrm{ш}}\dfrac{\omega_{\mathrm{ш}}^2}{\omega^2}"
-    r" + m_{\mathrm{п}}\dfrac{v_{\mathrm{п}}^2}{\omega^2}",
-    "flywheel": r"I_{\mathrm{м}} = \dfrac{\Delta A}{\delta\,\omega^2} - I_{\Sigma}",
     "harmonic": r"t_k = t_k^a \sin\left(k\varphi + \gamma_k\right)",
-    "second": r"t_{j2} = \dfrac{1}{2}\, d_j\,\omega^2,\quad d_j = \dfrac{m_j r}{F_{\mathrm{п}}}",
-    "shift": r"h = \psi L,\quad"
-    r" \psi_{\mathrm{опт}} = 1 - \dfrac{t_{\mathrm{г}2}}{t_{j2}}",
     "series": r"\dfrac{s}{R} = 1 + k - \cos\alpha - p_2\cos 2\alpha + p_4\cos 4\alpha"
     r" - p_6\cos 6\alpha + p_8\cos 8\alpha",
     "exact": r"j = \dfrac{\cos(\alpha+\beta)}{\cos\beta}"
     r" + \lambda\dfrac{\cos^2\alpha}{\cos^3\beta}",
 }
+_UNITS = {"kN": "кН", "Nm": "Н·м"}
 _ALPHA = r"$\alpha$, °"
 
 
 def companions(chapter: Chapter) -> Markup:
     """Balance, reduced inertia and flywheel, torque orders, exact motion and its series."""
     terms = chapter.terms
+    if "balance_orders" not in terms.model.tables:  # no series: an offset or articulated rods
+        return Markup("")
     return chapter.page(
         "companions.html.j2",
         formulas=_FORMULAS,
         figures=_figures(terms),
         tables=_tables(chapter),
-        ranked=chapter.input.engine.cylinders <= MAX_CYLINDERS,
-        zone=round(terms.value("zone")),
+        ranked="firing_orders" in terms.model.tables,
+        banks="order_right_cos" in terms.values.columns["balance_orders"],
+        zone=round(terms.value("zone")) if terms.has("zone") else 0,
         series_error=_power(terms.value("j_series_error")),
-        moves=bool(np.abs(terms.column("balance.Lup_Nm")).max() > _NOTHING),
+        moves=_is_there(terms, "balance.Lup_Nm"),
+        pulls=_is_there(terms, "balance.Fup_kN"),
     )
+
+
+def _is_there(terms: Terms, name: str) -> bool:
+    return bool(np.abs(terms.column(name)).max() > _NOTHING)
+
+
+def _vector(terms: Terms, key: str, unit: str, caption: str, label: str) -> Figure:
+    """Path of the vector of all orders and of the rotating masses before balancing."""
+    right = f"{key}right_{unit}"
+    if right not in terms.values.columns["balance"]:
+        right = f"{key}rot_right_{unit}"
+    x, y = terms.column(f"balance.{right}"), terms.column(f"balance.{key}up_{unit}")
+    axes = (f"${label}_x$, {_UNITS[unit]}", f"${label}_y$, {_UNITS[unit]}")
+    draw = partial(polar_path, x, y, phi(terms, "balance"), *axes, most=95.0, least_step=30.0)
+    return Figure(draw, caption)
 
 
 def _power(value: float) -> str:
@@ -74,7 +83,6 @@ def _figures(terms: Terms) -> dict[str, Figure]:
         curves = series(terms, *names)
         return Figure(partial(line_chart, x, curves, label, y, height=72.0), caption)
 
-    suppression = tuple(float(v) for v in terms.column("suppression.n_rpm"))
     orders = terms.model.tables["torque_orders"].rows
     flywheel = over("inertia", "Угловая скорость вала за цикл", r"$\omega$, с$^{-1}$", "omega_1_s")
     return {
@@ -107,15 +115,13 @@ def _figures(terms: Terms) -> dict[str, Figure]:
             ),
             "Амплитуды гармоник удельной тангенциальной силы по порядкам",
         ),
-        "suppression": Figure(
-            partial(
-                line_chart, suppression,
-                series(terms, *(f"suppression.{k}_MPa"
-                                for k in ("t_j2", "residual_bare", "residual_psi"))),
-                "$n$, мин$^{-1}$", "$t$, МПа", height=66.0, angle=False,
-            ),
-            "Инерционный коэффициент второго порядка и остаток момента",
+        "force_vector": _vector(
+            terms, "F", "kN", "Конец вектора свободной силы за оборот до уравновешивания", "F"
         ),
+        "moment_vector": _vector(
+            terms, "L", "Nm", "Конец вектора продольного момента за оборот до уравновешивания", "M"
+        ),
+        **_suppression(terms),
         "errors": over(
             "segal_errors", "Погрешности приближённых формул", r"доля $R$, $\omega R$, $\omega^2R$",
             "ds", "dv", "dj",
@@ -127,11 +133,26 @@ def _figures(terms: Terms) -> dict[str, Figure]:
     }  # fmt: skip
 
 
+def _suppression(terms: Terms) -> dict[str, Figure]:
+    if "suppression" not in terms.model.tables:
+        return {}
+    speeds = tuple(float(v) for v in terms.column("suppression.n_rpm"))
+    names = (f"suppression.{k}_MPa" for k in ("t_j2", "residual_bare", "residual_psi"))
+    draw = partial(
+        line_chart, speeds, series(terms, *names), "$n$, мин$^{-1}$", "$t$, МПа",
+        height=66.0, angle=False,
+    )  # fmt: skip
+    return {
+        "suppression": Figure(draw, "Инерционный коэффициент второго порядка и остаток момента")
+    }
+
+
 def _tables(chapter: Chapter) -> dict[str, TablePlan]:
     terms = chapter.terms
 
     def scalars(caption: str, *keys: str) -> TablePlan:
-        return TablePlan(partial(scalar_table, terms, keys), caption, size="dense", keep=True)
+        present = [key for key in keys if terms.has(key)]
+        return TablePlan(partial(scalar_table, terms, present), caption, size="dense", keep=True)
 
     vectors = [
         f"{key}1_{name}_{part}"
@@ -139,6 +160,9 @@ def _tables(chapter: Chapter) -> dict[str, TablePlan]:
     ]  # fmt: skip
     orders = ["order", "order_amplitude", "order_cos", "order_sin", "F_order_kN", "M_order_Nm",
               "F_left_kN", "M_left_Nm"]  # fmt: skip
+    if "order_right_cos" in terms.values.columns["balance_orders"]:
+        orders = ["order", "order_amplitude", "F_order_kN", "F_order_min_kN", "F_order_dir_deg",
+                  "M_order_Nm", "M_order_min_Nm", "M_order_dir_deg"]  # fmt: skip
     torque = ["order", "gas_amplitude_MPa", "gas_phase_deg", "inertia_amplitude_MPa",
               "inertia_phase_deg", "cylinders_sum", "M_engine_order_Nm"]  # fmt: skip
     return {
@@ -153,7 +177,8 @@ def _tables(chapter: Chapter) -> dict[str, TablePlan]:
         ),
         "devices": scalars(
             "Противовесы и балансирные валы", "counterweight_needed", "counterweight_web",
-            "shaft1_moment", "shaft1_mass", "shaft2_moment", "shaft2_mass",
+            "shaft1_moment", "shaft1_mass", "shaft1_back_moment", "shaft1_back_mass",
+            "shaft2_moment", "shaft2_mass", "shaft2_back_moment", "shaft2_back_mass",
         ),
         "firing": TablePlan(
             partial(_firing, chapter), "Порядки работы, лучшие первыми", keep=True

@@ -130,7 +130,7 @@ def _page(model: Model, values: Values, env: Environment) -> str:
         body = _write(Chapter(terms, writer, env))
     writer.n.check()
     store.store().save()
-    return texts.keep_together(_whole(env, Chapter(terms, writer, env), body))
+    return texts.spaces_inside(_whole(env, Chapter(terms, writer, env), body))
 
 
 def _whole(env: Environment, chapter: Chapter, body: Markup) -> str:

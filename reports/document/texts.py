@@ -44,16 +44,19 @@ def titled(svg: str, title: object) -> Markup:
     )
 
 
-_GLUED = re.compile(r"([^\s<>]+\u00a0)(<(a|i|span)\b[^<>]*>(?:(?!</?\3\b).)*</\3>)")
+_SPACE_BEFORE = re.compile("([ \u00a0])(<(?:a|i)\\b[^<>]*>)")
+_SPACE_BEFORE_UNBROKEN = re.compile('([ \u00a0])(<span class="nb">)')
 
 
-def keep_together(page: str) -> str:
-    """Wrap «рисунке&nbsp;<a>12</a>» into a span that does not break.
+def spaces_inside(page: str) -> str:
+    """Move a space that ends a text before an inline element into the element.
 
-    Where a text ends with a no-break space and the element behind it does not fit, Pango 1.50
-    breaks the line after the text's first word; within such a span there is nothing to break.
+    A text that fits its line without its last space, but not with it, is taken for one that
+    cannot be broken, and the line ends after its first word or within it.  Before an element
+    that must not break, the space gets an element of its own.
     """
-    return _GLUED.sub(r'<span class="nb">\1\2</span>', page)
+    page = _SPACE_BEFORE.sub(r"\2\1", page)
+    return _SPACE_BEFORE_UNBROKEN.sub(r"<span>\1</span>\2", page)
 
 
 def raised(text: str) -> str:

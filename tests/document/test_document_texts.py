@@ -1,3 +1,4 @@
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from markupsafe import Markup
@@ -50,21 +51,28 @@ def test_css_names_every_face_and_embeds_on_demand():
     assert "kshm-font" not in embedded and "data:font/ttf;base64," in embedded
 
 
-def test_a_word_and_its_number_stay_on_one_line():
-    text = 'дан на рисунке\u00a0<a class="ref" href="#r">12</a>, масс\u00a0<i>m<sub>j</sub></i>.'
-    assert texts.keep_together(text) == (
-        'дан на <span class="nb">рисунке\u00a0<a class="ref" href="#r">12</a></span>, '
-        '<span class="nb">масс\u00a0<i>m<sub>j</sub></i></span>.'
+def test_spaces_move_into_the_element_behind_them():
+    text = 'дан на рисунке\u00a0<a class="ref" href="#r">12</a>, масс <i>m<sub>j</sub></i> при '
+    assert texts.spaces_inside(text + '<span class="nb">φ = 0</span>') == (
+        'дан на рисунке<a class="ref" href="#r">\u00a012</a>, масс<i> m<sub>j</sub></i> при'
+        '<span> </span><span class="nb">φ = 0</span>'
     )
 
 
-def test_lines_are_filled_before_a_number_that_does_not_fit(tmp_path):
-    # The width at which only the number does not fit is searched for.
-    body = "<p>Моменты даны в таблице, суммарный момент показан на рисунке\u00a0<a>12</a>.</p>"
+BEGINNING = "Моменты даны в таблице, суммарный момент показан на рисунке"
+
+
+@pytest.mark.parametrize(
+    "end",
+    ["\u00a0<a>12</a>.", " <i>m</i>, остальное ниже.", ' <span class="nb">φ = 0</span>, а далее.'],
+)
+def test_lines_are_filled_whatever_follows_a_space(end, tmp_path):
+    # All widths at which the text fits without its last space, but not with it.
     css = "html{font:14pt STIXGeneral;hyphens:auto}p{margin:0;width:%dpx}@page{size:A4;margin:0}"
-    for width in range(500, 560, 4):
-        style = f"<style>{fonts_css()}{css % width}</style>"
-        page = f'<html lang="ru"><head>{style}</head><body>{body}</body></html>'
-        (text,) = pages_of(render(texts.keep_together(page)).pdf, tmp_path)
-        first = text.strip().splitlines()[0]
-        assert len(first) > 45, (width, text)
+    body = "".join(f'<p style="width:{width}px">{BEGINNING}{end}</p>' for width in range(478, 560))
+    style = f"<style>{fonts_css()}{css % 500}</style>"
+    page = f'<html lang="ru"><head>{style}</head><body>{body}</body></html>'
+    text = "".join(pages_of(render(texts.spaces_inside(page)).pdf, tmp_path))
+    firsts = [line for line in text.splitlines() if line.strip().startswith("Моменты")]
+    assert len(firsts) == 82
+    assert min(len(line.strip()) for line in firsts) > 45

@@ -24,6 +24,9 @@ _NOTHING = 1e-6  # N·m: rounding noise of balanced moments
 
 # Definitions that no single formula of the sheets states.
 _FORMULAS = {
+    "inertia": r"I_{\mathrm{п}} = I_{\mathrm{к}} + m_{\mathrm{ш}}\dfrac{v_C^2}{\omega^2}"
+    r" + I_{\mathrm{ш}}\dfrac{\omega_{\mathrm{ш}}^2}{\omega^2}"
+    r" + m_{\mathrm{п}}\dfrac{v_{\mathrm{п}}^2}{\omega^2}",
     "harmonic": r"t_k = t_k^a \sin\left(k\varphi + \gamma_k\right)",
     "series": r"\dfrac{s}{R} = 1 + k - \cos\alpha - p_2\cos 2\alpha + p_4\cos 4\alpha"
     r" - p_6\cos 6\alpha + p_8\cos 8\alpha",

@@ -19,7 +19,7 @@ ORDERS = tuple(range(1, 9))
 def columns(engine: Engine) -> dict[str, Columns]:
     """Tables ``balance``, ``balance_orders`` and ``firing_orders`` in SI units."""
     tables = {"balance": _over_a_turn(engine), "balance_orders": _orders(engine)}
-    if engine.is_basic and engine.cylinders <= firing_orders.MAX_CYLINDERS:
+    if engine.strokes == 4 and engine.cylinders <= firing_orders.MAX_CYLINDERS:
         tables["firing_orders"] = _firing_orders(engine)
     return tables
 
@@ -108,8 +108,7 @@ def _over_a_turn(engine: Engine) -> Columns:
 
 
 def _firing_orders(engine: Engine) -> Columns:
-    angles = np.array([throw.angle for throw in engine.crankshaft.throws])
-    table = firing_orders.offsets_table(angles)
+    table = firing_orders.offsets_table(firing_orders.dead_centres(engine))
     codes = [int("".join(map(str, firing_orders.sequence(row)))) for row in table]
     gaps = firing_orders.intervals(table)
     return {

@@ -29,13 +29,19 @@ class FiringOrder:
     journal_load: float  # greatest load of a main journal [N]
 
 
-def offsets_table(throw_angles: Array) -> Array:
+def dead_centres(engine: Engine) -> Array:
+    """Shaft angles [rad] at which the cylinders' pins lie along their axes, one each."""
+    throws = engine.crankshaft.throws
+    return np.array([c.axis - c.pin_angle - throws[c.throw].angle for c in engine.arrangement])
+
+
+def offsets_table(starts: Array) -> Array:
     """Firing offsets [rad] of all orders, shape (2^(cylinders − 1), cylinders).
 
-    Cylinder i fires with its crank at TDC: θ_i = −γ_i modulo a turn, in the first or
-    second turn of the cycle; cylinder 1 always in the first.
+    Cylinder i fires with its pin at TDC, see ``dead_centres``, in the first or second
+    turn of the cycle; cylinder 1 always in the first.
     """
-    base = np.mod(-throw_angles, 2 * np.pi)
+    base = np.mod(starts, 2 * np.pi)
     base = np.where(np.isclose(base, 2 * np.pi, atol=1e-9), 0.0, base)
     count = len(base)
     variants = np.arange(2 ** (count - 1))[:, None]
@@ -78,15 +84,18 @@ def rank_firing_orders(engine: Engine) -> tuple[FiringOrder, ...]:
     main journal.
 
     Raises:
-        ValueError: more cylinders than orders can be listed for.
+        ValueError: more cylinders than orders can be listed for, or two strokes, which
+            leave no choice.
     """
     from kshm.solver import solve_batch
 
+    if engine.strokes != 4:
+        msg = "a two-stroke engine has one firing order"
+        raise ValueError(msg)
     if engine.cylinders > MAX_CYLINDERS:
         msg = f"firing orders are listed for up to {MAX_CYLINDERS} cylinders"
         raise ValueError(msg)
-    angles = np.array([throw.angle for throw in engine.crankshaft.throws])
-    table = offsets_table(angles)
+    table = offsets_table(dead_centres(engine))
     engines = [
         replace(engine, firing_offsets=tuple(row), force_offsets=None, step_deg=10) for row in table
     ]

@@ -178,8 +178,8 @@ def balance_blocks(shape: Shape, turn: tuple[float, ...]) -> tuple[Block, ...]:
         _turn(shape, turn), *_boxes(shape), devices_table(shape), vectors_table(shape),
         sums_table(shape), throws_grid(shape), _orders(shape),
     ]  # fmt: skip
-    if shape.basic and shape.cylinders <= MAX_CYLINDERS:
-        blocks.append(firing_table(shape.cylinders))
+    if shape.strokes == 4 and shape.cylinders <= MAX_CYLINDERS:
+        blocks.append(firing_table(shape))
     return tuple(blocks)
 
 

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from reports.tables.shape import Shape
 from reports.tables.spec import Column, TableSpec
 
 FIRING_SHEET = "Порядки работы"
 MAX_CYLINDERS = 7
 
 
-def firing_table(cylinders: int) -> TableSpec:
-    """All firing orders of a shaft with one rod on each throw."""
+def firing_table(shape: Shape) -> TableSpec:
+    """All firing orders of a four-stroke engine's shaft."""
+    cylinders = shape.cylinders
     columns = [Column("variant", None)]
     numbers = range(1, cylinders + 1)
     for i in numbers:
-        base = f"mod(720 - throw_angle_{i}_deg, 360)"
+        base = f"mod(720 - {_before_tdc(shape, i)}, 360)"
         turn = f" + 360*mod(floor((variant - 1)/{2 ** (i - 2)}), 2)" if i > 1 else ""
         columns.append(Column(f"theta{i}_deg", base + turn, "колено в ВМТ"))
     digits, gaps = [], []
@@ -62,3 +64,11 @@ def firing_table(cylinders: int) -> TableSpec:
         ),
         step=1.0,
     )
+
+
+def _before_tdc(shape: Shape, cylinder: int) -> str:
+    """Angle from the cylinder's axis to its crankpin at φ = 0 [deg]."""
+    angle = f"throw_angle_{shape.throw_of(cylinder)}_deg"
+    if shape.arrangement[cylinder - 1].pin_angle:
+        angle = f"({angle} + crankshaft_split_pin_deg)"
+    return angle if shape.axis(cylinder) == "0" else f"({angle} - {shape.axis(cylinder)})"

@@ -229,7 +229,7 @@ def test_own_order_is_among_the_ranked_and_has_its_own_load() -> None:
 
 def test_six_cylinders_have_even_orders_known_from_practice() -> None:
     cranks = np.radians([0.0, 120, 240, 240, 120, 0])
-    table = firing_orders.offsets_table(cranks)
+    table = firing_orders.offsets_table(-cranks)
     assert table.shape == (32, 6)
     even = {
         firing_orders.sequence(row)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from kshm import balance, kinematics
+from kshm import balance, firing_orders, kinematics
 from kshm.inertia import point_masses
 from reports.inputs.convert import to_engine
 from tests.layouts import MAKERS, made
@@ -76,3 +76,21 @@ def test_offset_and_articulated_engines_have_no_series() -> None:
     for name in ("offset", "articulated"):
         assert not balance.is_balanced_by_orders(to_engine(made(name)))
     assert set(NAMES) <= set(MAKERS)
+
+
+@pytest.mark.parametrize("name", ["four", "v_six", "split", "opposed_four"])
+def test_the_own_firing_order_is_among_those_of_the_shaft(name: str) -> None:
+    engine = to_engine(made(name))
+    table = firing_orders.offsets_table(firing_orders.dead_centres(engine))
+    own = np.mod(engine.firing_offsets, 4 * np.pi)
+    first = np.mod(own - own[0], 4 * np.pi)
+    rows = np.mod(table - table[:, :1], 4 * np.pi)
+    gap = np.abs(np.mod(rows - first + np.pi, 4 * np.pi) - np.pi).max(axis=1)
+    assert (gap < 1e-9).sum() == 1
+    ranked = firing_orders.rank_firing_orders(engine)
+    assert len(ranked) == len(table) and ranked[0].unevenness <= ranked[-1].unevenness
+
+
+def test_a_two_stroke_engine_has_no_choice_of_orders() -> None:
+    with pytest.raises(ValueError, match="two-stroke"):
+        firing_orders.rank_firing_orders(to_engine(made("two_stroke")))

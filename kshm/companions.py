@@ -7,7 +7,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kshm import balance, balance_results, harmonics, inertia_results, reference, torque_results
+from kshm import (
+    balance,
+    balance_results,
+    continuous,
+    harmonics,
+    inertia_results,
+    pin_bearing,
+    reference,
+    torque_results,
+    two_term,
+)
 from kshm import dimensionless as segal
 from kshm.engine import Engine
 from kshm.masses import mass_scalars
@@ -28,7 +38,7 @@ def companion_columns(engine: Engine, raw: BatchSolution, index: int) -> dict[st
 
     Most follow the series of a central mechanism and take no articulated rods.
     """
-    always = {table: in_units(values) for table, values in reference.columns(engine).items()}
+    always = {table: in_units(values) for table, values in _chapters(engine, raw, index)}
     if not balance.is_balanced_by_orders(engine):
         return always
     others = {
@@ -44,9 +54,26 @@ def companion_columns(engine: Engine, raw: BatchSolution, index: int) -> dict[st
     }
 
 
+def _chapters(engine: Engine, raw: BatchSolution, index: int) -> list[tuple[str, Columns]]:
+    """Tables of chapters 1 and 2 beside the chain itself, for engines of every layout."""
+    tables = {
+        **reference.columns(engine),
+        **pin_bearing.columns(engine, raw, index),
+        **continuous.columns(engine, raw, index),
+        **two_term.columns(engine),
+    }
+    return list(tables.items())
+
+
 def companion_scalars(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float]:
     """All scalars of the companion sources in SI units; see ``companion_columns``."""
-    always = {**mass_scalars(engine), **reference.scalars(engine)}
+    always = {
+        **mass_scalars(engine),
+        **reference.scalars(engine),
+        **pin_bearing.scalars(engine, raw, index),
+        **continuous.scalars(engine, raw, index),
+        **two_term.scalars(engine),
+    }
     if not balance.is_balanced_by_orders(engine):
         return always
     return {

@@ -269,6 +269,7 @@ class Engine:
     balancing: Balancing = field(default_factory=Balancing)
     name: str = field(default="engine")
     cycle: CycleRun | None = None  # the cycle calculation that the gas comes from
+    oil_hole: float | None = None  # angle of the crankpin's oil hole [rad], by the wear if None
     regimes: tuple[Regime, ...] = ()  # further speeds and loads
     reference_lambdas: tuple[float, ...] = ()  # λ of the reference tables, none if not asked for
     reference_angle: float = 0.0  # crank angle of the drawn mechanism [rad]

@@ -7,6 +7,13 @@ from __future__ import annotations
 
 Row = tuple[str, str, str, str, str, str]  # key, symbol, tex, unit, title, format
 
+
+def symbol_tex(key: str, way: str) -> str:
+    """Symbol of a reaction of the continuous shaft or of its difference."""
+    letter = r"R^{\mathrm{н}}" if key == "Rc" else r"\Delta R"
+    return rf"{letter}_{{\mathrm{{{way}}}}}"
+
+
 _MASSES: tuple[Row, ...] = (
     ("m_piston", "mп", r"m_{\mathrm{п}}", "kg", "масса поршневой группы", "0.000"),
     ("m_rod", "mш", r"m_{\mathrm{ш}}", "kg", "масса шатуна", "0.000"),
@@ -98,10 +105,79 @@ _REGIMES: tuple[Row, ...] = (
     ("governs", "режим", "", "", "определяющий режим", "@"),
 )  # fmt: skip
 
-CHAPTER_ROWS: tuple[Row, ...] = (*_MASSES, *_REFERENCE, *_DIAGRAM, *_REGIMES)
+_BEARINGS: tuple[Row, ...] = (
+    ("Bx_MPa", "Bx", "B_x", "MPa", "нагрузка на шатунный подшипник поперёк шатуна", "0.000"),
+    ("By_MPa", "By", "B_y", "MPa", "нагрузка на шатунный подшипник вдоль шатуна", "0.000"),
+    ("B_MPa", "B", "B", "MPa", "удельная нагрузка на шатунный подшипник", "0.000"),
+    ("B_mean", "Bср", r"B_{\mathrm{ср}}", "MPa", "средняя удельная нагрузка на шатунный подшипник", "0.000"),
+    ("B_max", "Bmax", r"B_{\max}", "MPa", "наибольшая удельная нагрузка на шатунный подшипник", "0.000"),
+    ("phi_B_max_deg", "φ(Bmax)", r"\varphi_{B\max}", "deg", "угол наибольшей нагрузки на шатунный подшипник", "0"),
+    ("B_min", "Bmin", r"B_{\min}", "MPa", "наименьшая удельная нагрузка на шатунный подшипник", "0.000"),
+    ("phi_B_min_deg", "φ(Bmin)", r"\varphi_{B\min}", "deg", "угол наименьшей нагрузки на шатунный подшипник", "0"),
+    ("Ralpha_MPa", "Rα", r"R_{\alpha}", "MPa", "проекция силы на плоскость масляного отверстия", "0.000"),
+    ("Malpha_Nm", "Mα", r"M_{\alpha}", "Nm", "момент, изгибающий шейку в плоскости масляного отверстия", "0.0"),
+    ("plane#_MPa", "R#", "R_{#}", "MPa", "проекция силы на плоскость № #", "0.000"),
+    ("alpha_oil_deg", "αм", r"\alpha_{\mathrm{м}}", "deg", "угол масляного отверстия от колена против вращения", "0.0"),
+    ("Ralpha_max", "Rα max", r"R_{\alpha\,\max}", "MPa", "наибольшая проекция силы на плоскость отверстия", "0.000"),
+    ("Ralpha_min", "Rα min", r"R_{\alpha\,\min}", "MPa", "наименьшая проекция силы на плоскость отверстия", "0.000"),
+    ("Malpha_max", "Mα max", r"M_{\alpha\,\max}", "Nm", "наибольший изгибающий момент", "0.0"),
+    ("Malpha_min", "Mα min", r"M_{\alpha\,\min}", "Nm", "наименьший изгибающий момент", "0.0"),
+    ("Malpha_swing", "Mα a", r"M_{\alpha\,a}", "Nm", "амплитуда изгибающего момента", "0.0"),
+    ("Malpha_mean", "Mα m", r"M_{\alpha\,m}", "Nm", "среднее за цикл изгибающего момента", "0.0"),
+    ("alpha_best_deg", "αопт", r"\alpha_{\mathrm{опт}}", "deg", "плоскость с наименьшей амплитудой момента", "0"),
+    ("Mbest_swing", "Ma min", r"M_{a\,\min}", "Nm", "наименьшая амплитуда изгибающего момента", "0.0"),
+    ("plane_deg", "α", r"\alpha", "deg", "угол плоскости от колена", "0"),
+    ("plane_swing", "Ma", "M_a", "Nm", "амплитуда момента в плоскости", "0.0"),
+    ("plane_best", "α min", r"\alpha_{\min}", "deg", "угол, если здесь наименьшая амплитуда", '[>9000]"";0'),
+    *((f"beam{side}{what}", f"{side}{what}", f"{side}_{{{what}}}", unit, title, "0.00E+00")
+      for side in "AB" for what, unit, title in (
+          ("a", "m2", "коэффициент силы левого шатуна"), ("b", "m2", "коэффициент силы правого шатуна"),
+          ("U", "Nm2", "центробежные силы вдоль колена"), ("L", "Nm2", "центробежные силы поперёк колена"))),
+    ("end_x", "Mx", "M_x", "Nm", "момент внешнего противовеса на крайней опоре, ось x", "0.0"),
+    ("end_y", "My", "M_y", "Nm", "момент внешнего противовеса на крайней опоре, ось y", "0.0"),
+    ("pivot", "d", "d", "m", "диагональный член после исключения", "0.0000"),
+    *((f"load_{side}{axis}", f"{side}{axis}", f"{side}_{{{axis}}}", "Nm2", "грузовой член пролёта", "0.0")
+      for side in "AB" for axis in "UL"),
+    ("step_m", "m", "m", "Nm", "прогонка", "0.0"),
+    *((f"Ms{axis}#_Nm", f"Mоп.{axis}#", rf"M_{{\mathrm{{оп}}\,{axis}#}}", "Nm", f"опорный момент на опоре #, ось {axis}", "0.0") for axis in "xy"),
+    *((f"Rc{axis}#_MPa", f"R{axis}#", f"R_{{{axis}#}}", "MPa", f"реакция опоры # неразрезного вала, ось {axis}", "0.000") for axis in "xy"),
+    ("Rc#_MPa", "R#", "R_{#}", "MPa", "реакция опоры # неразрезного вала", "0.000"),
+    ("Rsplit_mean", "Rср разр.", r"R^{\mathrm{р}}_{\mathrm{ср}}", "MPa", "средняя реакция по разрезной схеме", "0.000"),
+    ("Rsplit_max", "Rmax разр.", r"R^{\mathrm{р}}_{\max}", "MPa", "наибольшая реакция по разрезной схеме", "0.000"),
+    *((f"{key}{mark}_{way}", f"{symbol}{short}", tex, unit, f"{title[way]}", fmt)
+      for mark in ("", "#")
+      for key, symbol, unit, fmt, words in (("Rc", "R", "MPa", "0.000", "реакция по неразрезной схеме"), ("dRc", "ΔR", "percent", "0.0", "отличие неразрезной схемы от разрезной"))
+      for way, short, tex in (("mean", "ср", symbol_tex(key, "ср")), ("max", "max", symbol_tex(key, "max")))
+      for title in ({"mean": f"{words}, средняя", "max": f"{words}, наибольшая"},)),
+    ("qc_max", "qmax", r"q_{\max}", "MPa", "наибольшее давление на шейку по неразрезной схеме", "0.00"),
+    ("qc#_max", "qmax", r"q_{\max}", "MPa", "наибольшее давление на шейку # по неразрезной схеме", "0.00"),
+)  # fmt: skip
+
+_TWO_TERM: tuple[Row, ...] = (
+    *((f"e{name}{part}_{suffix}", f"{symbol}{mark}", tex.format(symbol), unit, f"{word}{way}", fmt)
+      for name, symbol, suffix, unit, word, fmt in (
+          ("s", "s", "mm", "mm", "перемещение поршня", "0.0000"), ("v", "v", "m_s", "m_s", "скорость поршня", "0.000"),
+          ("j", "j", "m_s2", "m_s2", "ускорение поршня", "0.0"), ("Pj", "Pj", "MPa", "MPa", "удельная сила инерции", "0.0000"))
+      for part, mark, tex, way in (("_exact", "", "{0}", ", точно"), ("_two", "′", "{0}'", ", двучленно"), ("", "′ − точн.", r"\Delta {0}", ": погрешность двучленной формулы"))),
+    ("eN_MPa", "ΔN", r"\Delta N", "MPa", "боковая сила: погрешность двучленной формулы", "0.0000"),
+    ("eT_MPa", "ΔT", r"\Delta T", "MPa", "тангенциальная сила: погрешность двучленной формулы", "0.0000"),
+    ("eM_Nm", "ΔM", r"\Delta M", "Nm", "момент цилиндра: погрешность двучленной формулы", "0.00"),
+    ("k_two_term", "k", "k", "", "относительный дезаксаж", "0.0000"),
+    *((f"{key}{name}{tail}", f"{mark}{symbol}{end}", rf"\{lead} {symbol}_{{\max}}" if lead == "Delta" else rf"\{lead}_{{{symbol}}}", what if tail == "_max" else other, f"{word}: {text}", fmt if tail == "_max" else near)
+      for name, symbol, what, word, fmt in (("s", "s", "mm", "перемещение поршня", "0.0000"), ("v", "v", "m_s", "скорость поршня", "0.000"), ("j", "j", "m_s2", "ускорение поршня", "0.0"),
+                                           ("Pj", "P", "MPa", "сила инерции", "0.0000"), ("N", "N", "MPa", "боковая сила", "0.0000"), ("T", "T", "MPa", "тангенциальная сила", "0.0000"), ("M", "M", "Nm", "момент цилиндра", "0.00"))
+      for key, tail, mark, end, lead, other, text, near in (("e", "_max", "|Δ", "|max", "Delta", "", "наибольшая погрешность", ""), ("phi_e", "_deg", "φ(Δ", ")", "varphi", "deg", "угол наибольшей погрешности", "0"),
+                                                            ("e", "_rel", "δ", "", "delta", "percent", "наибольшая погрешность к наибольшему значению", "0.00"))),
+)  # fmt: skip
+
+CHAPTER_ROWS: tuple[Row, ...] = (
+    *_MASSES, *_REFERENCE, *_DIAGRAM, *_REGIMES, *_BEARINGS, *_TWO_TERM,
+)  # fmt: skip
+
 CHAPTER_UNITS: tuple[tuple[str, str, float], ...] = (
     ("kg_m2", "кг/м²", 1.0),
     ("s", "с", 1.0),
+    ("Nm2", "Н·м²", 1.0),
     ("MPa_deg", "МПа/°", 1e6),
     ("MPa_deg2", "МПа/°²", 1e6),
     ("MPa_deg3", "МПа/°³", 1e6),

@@ -18,6 +18,7 @@ from reports.document.blocks import DocumentInfo
 from reports.document.drawing import Drawing
 from reports.document.render import AttachedFile, RenderError, environment, render_pdf
 from reports.document.sections import (
+    bearings,
     closing,
     companions,
     crankpin,
@@ -27,6 +28,7 @@ from reports.document.sections import (
     journals,
     kinematics,
     opening,
+    reference,
     regimes,
 )
 from reports.document.sections import torque as torques
@@ -52,8 +54,10 @@ CHAPTERS: tuple[Callable[[Chapter], Markup], ...] = (
     torques.torque,
     crankpin.crankpin,
     journals.journals,
+    bearings.bearings,
     torques.running,
     regimes.regimes,
+    reference.reference,
     companions.companions,
     closing.checks,
     closing.conclusion,

@@ -70,6 +70,7 @@ def to_engine(model: InputFile) -> Engine:
         balancing=_balancing(model.balance),
         name=model.engine.name,
         cycle=run,
+        oil_hole=None if shaft.oil_hole_deg is None else DEG.to_si(shaft.oil_hole_deg),
         regimes=tuple(_regime(regime, model.engine.strokes) for regime in model.regimes),
         reference_lambdas=() if reference is None else reference.lambdas,
         reference_angle=0.0 if reference is None else DEG.to_si(reference.angle_deg),

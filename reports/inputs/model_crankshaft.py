@@ -106,6 +106,19 @@ class CrankshaftSection(Strictly):
     pin_mass_kg: (
         Annotated[float, number("Приведенная масса шатунной шейки", "m_шш", KG, 0, 5000)] | None
     ) = None
+    oil_hole_deg: (
+        Annotated[
+            float,
+            number(
+                "Масляное отверстие шатунной шейки: угол от колена против вращения",
+                "α_м",
+                DEG,
+                -360,
+                360,
+            ),
+        ]
+        | None
+    ) = None
     nose_mass_kg: Annotated[
         float, number("Внешний противовес на носке: приведенная масса", "m_вп1", KG, 0, 5000)
     ] = 0.0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from reports.inputs.model import InputFile
 from reports.tables.balance import balance_blocks, balance_charts
+from reports.tables.bearings import bearing_blocks, bearing_charts
 from reports.tables.inertia import inertia_blocks, inertia_charts
 from reports.tables.neiman import neiman_blocks, neiman_charts
 from reports.tables.reference import reference_blocks, reference_charts
@@ -11,6 +12,7 @@ from reports.tables.segal import segal_blocks, segal_charts
 from reports.tables.shape import Shape
 from reports.tables.spec import Block, ChartSpec
 from reports.tables.torque_orders import torque_order_blocks, torque_order_charts
+from reports.tables.two_term import two_term_blocks, two_term_charts
 
 
 def companion_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block, ...]:
@@ -26,6 +28,8 @@ def companion_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block,
         *segal_blocks(),
         *neiman_blocks(),
         *reference_blocks(model, turn),
+        *bearing_blocks(model, cycle),
+        *two_term_blocks(model, turn),
     )
 
 
@@ -41,4 +45,6 @@ def companion_charts(model: InputFile) -> tuple[ChartSpec, ...]:
         *segal_charts(),
         *neiman_charts(),
         *reference_charts(model),
+        *bearing_charts(model),
+        *two_term_charts(),
     )

@@ -99,7 +99,7 @@ def _axes(chart: ScatterChart, spec: ChartSpec, values: Values) -> None:
             axis.scaling.min, axis.scaling.max = -1, 1
             axis.majorUnit = 0.5
             axis.number_format = "0.0"
-    if spec.kind == "path" or spec.series[0].x.endswith("Rx_MPa"):
+    if spec.kind == "path" or spec.series[0].x.endswith(("Rx_MPa", "block_x_MPa")):
         chart.x_axis.scaling.orientation = "maxMin"
     if spec.series[0].y.endswith("Krod_MPa"):
         chart.y_axis.scaling.orientation = "maxMin"

@@ -13,6 +13,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 LAST = 60
+LONGEST = 20
 _RANGE = re.compile(r"\((\d+)[аa]?\)\s*[-–]\s*\((\d+)[аa]?\)")
 _ONE = re.compile(r"\((\d+)[аa]?\)")
 _NAMED = re.compile(r"(?:Gots|Гоц)[^\n]*")
@@ -81,6 +82,12 @@ FORMULAS: dict[int, str] = {
     60: "угол реакции",
 }
 
+# Formulas that stand nowhere by themselves, and why.
+REASONS: dict[int, str] = {
+    38: "M = T·r с T по (37): столбец M П4.1 и `torque`; в печати (38) T стоит вместо P_s",
+    43: "частный случай (50)–(53) для симметричного колена; считается общими формулами",
+}
+
 
 def numbers(text: str) -> set[int]:
     """Numbers of the book's formulas that a text names after the author."""
@@ -88,7 +95,10 @@ def numbers(text: str) -> set[int]:
     for match in _NAMED.finditer(text):
         part = match.group()
         for first, last in _RANGE.findall(part):
-            found |= set(range(int(first), int(last) + 1))
+            if int(last) - int(first) < LONGEST:  # «(1)-(60)» names the book, not a formula
+                found |= set(range(int(first), int(last) + 1))
+            else:
+                part = part.replace(f"({first})", "").replace(f"({last})", "")
         found |= {int(number) for number in _ONE.findall(part)}
     return {number for number in found if 1 <= number <= LAST}
 
@@ -105,9 +115,9 @@ def _docstrings(tree: ast.Module) -> Iterator[tuple[str, str]]:
 def _sources(tree: ast.Module) -> Iterator[str]:
     """Texts of the specifications that begin with the author's name."""
     for node in ast.walk(tree):
-        if isinstance(node, ast.Constant) and isinstance(node.value, str):
-            if node.value.startswith("Гоц"):
-                yield node.value
+        text = node.value if isinstance(node, ast.Constant) else None
+        if isinstance(text, str) and text.startswith("Гоц"):
+            yield text
 
 
 def places() -> dict[int, tuple[list[str], list[str]]]:
@@ -141,7 +151,10 @@ def render() -> str:
     for number, (solver, tables) in places().items():
         shown = [", ".join(f"`{name}`" for name in dict.fromkeys(names)) or "—"
                  for names in (solver, tables)]  # fmt: skip
-        lines.append(f"| {number} | {FORMULAS[number]} | {shown[0]} | {shown[1]} |")
+        what = FORMULAS[number]
+        if not solver and not tables:
+            what += f". {REASONS.get(number, '')}"
+        lines.append(f"| {number} | {what} | {shown[0]} | {shown[1]} |")
     return "\n".join(lines) + "\n"
 
 

@@ -111,7 +111,7 @@ def _firing_orders(engine: Engine) -> Columns:
     table = firing_orders.offsets_table(firing_orders.dead_centres(engine))
     codes = [int("".join(map(str, firing_orders.sequence(row)))) for row in table]
     gaps = firing_orders.intervals(table)
-    return {
+    columns = {
         "variant": np.arange(1.0, len(table) + 1),
         **{f"theta{i + 1}_deg": table[:, i] for i in range(table.shape[1])},
         "order_code": np.array(codes, dtype=float),
@@ -121,6 +121,10 @@ def _firing_orders(engine: Engine) -> Columns:
         "half_order_sum": firing_orders.order_sum(table, 0.5),
         "first_order_sum": firing_orders.order_sum(table, 1.0),
     }
+    rods = [place.throw for place in engine.arrangement]
+    if len(set(rods)) == len(rods) and engine.force_offsets is None:
+        columns["Rorder_max_kN"] = firing_orders.journal_loads(engine, table)
+    return columns
 
 
 def scalars(engine: Engine) -> dict[str, float]:

@@ -77,6 +77,15 @@ def sequence(offsets: Array) -> tuple[int, ...]:
     return tuple(int(i) + 1 for i in np.lexsort((np.arange(len(offsets)), rounded)))
 
 
+def journal_loads(engine: Engine, table: Array) -> Array:
+    """Greatest load of a main journal [N] for every row of firing offsets."""
+    from kshm.solver import solve_batch
+
+    engines = [replace(engine, firing_offsets=tuple(row), force_offsets=None) for row in table]
+    loads: Array = solve_batch(engines).journal_load.max(axis=(1, 2))
+    return loads * engine.geometry.piston_area
+
+
 def rank_firing_orders(engine: Engine) -> tuple[FiringOrder, ...]:
     """All firing orders of the engine's crankshaft, the best first.
 
@@ -87,8 +96,6 @@ def rank_firing_orders(engine: Engine) -> tuple[FiringOrder, ...]:
         ValueError: more cylinders than orders can be listed for, or two strokes, which
             leave no choice.
     """
-    from kshm.solver import solve_batch
-
     if engine.strokes != 4:
         msg = "a two-stroke engine has one firing order"
         raise ValueError(msg)
@@ -96,10 +103,7 @@ def rank_firing_orders(engine: Engine) -> tuple[FiringOrder, ...]:
         msg = f"firing orders are listed for up to {MAX_CYLINDERS} cylinders"
         raise ValueError(msg)
     table = offsets_table(dead_centres(engine))
-    engines = [
-        replace(engine, firing_offsets=tuple(row), force_offsets=None, step_deg=10) for row in table
-    ]
-    loads = solve_batch(engines).journal_load.max(axis=(1, 2)) * engine.geometry.piston_area
+    loads = journal_loads(engine, table)
     rough, half = unevenness(table), order_sum(table, 0.5)
     found = [
         FiringOrder(sequence(row), tuple(row), float(a), float(b), float(load))

@@ -15,7 +15,7 @@ from reports.tables.balance_sums import (
     vector_sum,
     vectors_table,
 )
-from reports.tables.firing import MAX_CYLINDERS, firing_table
+from reports.tables.firing import MAX_CYLINDERS, firing_loads, firing_table, has_loads
 from reports.tables.shape import Shape
 from reports.tables.spec import (
     Block,
@@ -172,14 +172,18 @@ def numbers(shape: Shape) -> range:
     return range(1, shape.cylinders + 1)
 
 
-def balance_blocks(shape: Shape, turn: tuple[float, ...]) -> tuple[Block, ...]:
+def balance_blocks(shape: Shape, cycle: tuple[float, ...], *, forced: bool) -> tuple[Block, ...]:
     """Sheets of the balance; for pistons that Neiman's series describes."""
+    turn = tuple(angle for angle in cycle if angle <= 360)
     blocks: list[Block] = [
         _turn(shape, turn), *_boxes(shape), devices_table(shape), vectors_table(shape),
         sums_table(shape), throws_grid(shape), _orders(shape),
     ]  # fmt: skip
     if shape.strokes == 4 and shape.cylinders <= MAX_CYLINDERS:
-        blocks.append(firing_table(shape))
+        loads = has_loads(shape, forced=forced)
+        blocks.append(firing_table(shape, loads=loads))
+        if loads and shape.throws > 1:
+            blocks.append(firing_loads(shape, cycle))
     return tuple(blocks)
 
 

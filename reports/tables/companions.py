@@ -19,10 +19,11 @@ def companion_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block,
     """Blocks of the companion sources: most are about basic engines only."""
     shape = Shape.of(model)
     turn = tuple(angle for angle in cycle if angle <= 360)
+    forced = model.crankshaft.force_offsets_deg is not None
     if not shape.by_orders:
         return reference_blocks(model, turn)
     return (
-        *balance_blocks(shape, turn),
+        *balance_blocks(shape, cycle, forced=forced),
         *inertia_blocks(model, cycle),
         *torque_order_blocks(model, cycle),
         *segal_blocks(),

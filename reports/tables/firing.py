@@ -9,7 +9,60 @@ FIRING_SHEET = "Порядки работы"
 MAX_CYLINDERS = 7
 
 
-def firing_table(shape: Shape) -> TableSpec:
+def firing_loads(shape: Shape, cycle: tuple[float, ...]) -> TableSpec:
+    """Loads of the inner journals when the throw behind fires a turn later or sooner.
+
+    A journal feels only its two neighbours, and they fire either as they do or a turn apart
+    from that: two curves for each journal give the loads of all orders.
+    """
+    columns = [Column("phi_deg", None)]
+    turned = "mod(phi_deg + 360, 720)"
+    for k in range(2, shape.throws + 1):
+        t = f"P4_3_{k}"
+        later = {
+            axis: f"interpolate({turned}, firing_loads.phi_deg, firing_loads.after_{axis}{k}_MPa)"
+            for axis in "xy"
+        }
+        columns += [
+            Column(f"after_x{k}_MPa", f"{t}.bTcos_MPa - {t}.bKsin_MPa", "Гоц (56)", helper=True),
+            Column(f"after_y{k}_MPa", f"{t}.bTsin_MPa + {t}.bKcos_MPa", "Гоц (57)", helper=True),
+            Column(
+                f"Rturned{k}_MPa",
+                f"sqrt(({t}.Rx_MPa - after_x{k}_MPa + {later['x']})**2"
+                f" + ({t}.Ry_MPa - after_y{k}_MPa + {later['y']})**2)",
+                "Гоц (59)",
+                helper=True,
+            ),
+        ]
+    return TableSpec(
+        "firing_loads",
+        "У.н",
+        "Нагрузки коренных шеек при другом порядке работы",
+        FIRING_SHEET,
+        tuple(columns),
+        cycle,
+        note="Колено за шейкой работает на оборот позже или раньше, чем при заданном порядке.",
+        helper=True,
+    )
+
+
+def has_loads(shape: Shape, *, forced: bool) -> bool:
+    """Whether the loads of other orders can be told from those of neighbouring throws."""
+    return shape.single_rods and not forced
+
+
+def _load(shape: Shape) -> str:
+    """Greatest load of a main journal with the order of a row [kN]."""
+    found = ["Rmain1_max", f"Rmain{shape.throws + 1}_max"]
+    for k in range(2, shape.throws + 1):
+        (i,), (j,) = shape.groups[k - 2], shape.groups[k - 1]
+        apart = f"theta{j}_deg - theta{i}_deg - firing_offset_{j}_deg + firing_offset_{i}_deg"
+        same = f"abs(mod({apart} + 180, 720) - 180) < 1"
+        found.append(f"(Rmain{k}_max if {same} else col_max(firing_loads.Rturned{k}_MPa))")
+    return f"to_kN(of_MPa(max({', '.join(found)}))*F_piston)"
+
+
+def firing_table(shape: Shape, *, loads: bool) -> TableSpec:
     """All firing orders of a four-stroke engine's shaft."""
     cylinders = shape.cylinders
     columns = [Column("variant", None)]
@@ -51,6 +104,8 @@ def firing_table(shape: Shape) -> TableSpec:
         Column("half_order_sum", vector("0.5"), "сложение векторов"),
         Column("first_order_sum", vector("1"), "сложение векторов"),
     ]
+    if loads:
+        columns.append(Column("Rorder_max_kN", _load(shape), "Гоц (59)"))
     return TableSpec(
         "firing_orders",
         "У.р",

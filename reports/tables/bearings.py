@@ -8,6 +8,7 @@ from reports.inputs.convert import arrangement_of
 from reports.inputs.model import InputFile
 from reports.tables.cylinder import cylinder_table_id
 from reports.tables.extremes import NEVER, TIE, extreme_columns, extreme_scalars
+from reports.tables.shape import Shape, rods_table
 from reports.tables.spec import (
     Block,
     ChartSpec,
@@ -33,7 +34,7 @@ def bearing_blocks(model: InputFile, rows: tuple[float, ...]) -> tuple[Block, ..
     if all(c.master is None for c in arrangement):
         blocks += [_rod_bearing(rows), *_bearing_results()]
     if all(c.pin_angle == 0 for c in arrangement):
-        blocks += [_bending(rows), *_bending_results(model)]
+        blocks += [_bending(model, rows), *_bending_results(model)]
     if has_continuous(model):
         blocks += [_beam(model), _pivots(model), _continuous(model, rows), _compared(model)]
     return tuple(blocks)
@@ -86,11 +87,15 @@ def _bearing_results() -> tuple[Block, ...]:
     return ScalarTable("rod_bearing_list", title, BEARING, (mean, *extremes)), box
 
 
-def _bending(rows: tuple[float, ...]) -> TableSpec:
+def _bending(model: InputFile, rows: tuple[float, ...]) -> TableSpec:
+    """Projections of R_к on planes through the pin's axis, Gots 2.6."""
+    single = Shape.of(model).single_rods
+    inward = "crankpin.Ksum_MPa" if single else f"{rods_table(1)}.Ksum_MPa"
+    ahead = "crankpin.T_MPa" if single else f"{rods_table(1)}.Tsum_MPa"
     planes = [
         Column(
             f"plane{i}_MPa",
-            f"crankpin.Ksum_MPa*cos(rad({10 * (i - 1)})) + T_MPa*sin(rad({10 * (i - 1)}))",
+            f"{inward}*cos(rad({10 * (i - 1)})) + T_MPa*sin(rad({10 * (i - 1)}))",
             "Гоц, 2.6, рис. 31",
         )
         for i in range(1, PLANES + 1)
@@ -102,10 +107,10 @@ def _bending(rows: tuple[float, ...]) -> TableSpec:
         BENDING,
         (
             INDEX,
-            Column("T_MPa", "crankpin.T_MPa", "Гоц (37)", helper=True),
+            Column("T_MPa", ahead, "Гоц (37)", helper=True),
             Column(
                 "Ralpha_MPa",
-                "crankpin.Ksum_MPa*cos(rad(alpha_oil_deg)) + T_MPa*sin(rad(alpha_oil_deg))",
+                f"{inward}*cos(rad(alpha_oil_deg)) + T_MPa*sin(rad(alpha_oil_deg))",
                 "Гоц, 2.6",
             ),
             Column(

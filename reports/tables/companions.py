@@ -20,32 +20,34 @@ def companion_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block,
     shape = Shape.of(model)
     turn = tuple(angle for angle in cycle if angle <= 360)
     forced = model.crankshaft.force_offsets_deg is not None
+    chapters = (
+        *reference_blocks(model, turn),
+        *bearing_blocks(model, cycle),
+        *two_term_blocks(model, turn),
+    )
     if not shape.by_orders:
-        return reference_blocks(model, turn)
+        return chapters
     return (
         *balance_blocks(shape, cycle, forced=forced),
         *inertia_blocks(model, cycle),
         *torque_order_blocks(model, cycle),
         *segal_blocks(),
         *neiman_blocks(),
-        *reference_blocks(model, turn),
-        *bearing_blocks(model, cycle),
-        *two_term_blocks(model, turn),
+        *chapters,
     )
 
 
 def companion_charts(model: InputFile) -> tuple[ChartSpec, ...]:
     """Charts of the companion sources."""
     shape = Shape.of(model)
+    chapters = (*reference_charts(model), *bearing_charts(model), *two_term_charts())
     if not shape.by_orders:
-        return reference_charts(model)
+        return chapters
     return (
         *balance_charts(shape),
         *inertia_charts(),
         *torque_order_charts(shape.strokes),
         *segal_charts(),
         *neiman_charts(),
-        *reference_charts(model),
-        *bearing_charts(model),
-        *two_term_charts(),
+        *chapters,
     )

@@ -9,6 +9,7 @@ import re
 import zipfile
 from dataclasses import dataclass, field
 from posixpath import join, normpath
+from xml.parsers.expat import ExpatError, ParserCreate
 
 import numpy as np
 from lxml import etree
@@ -346,7 +347,12 @@ def _read_plain(sheet: _Sheet, data: bytes) -> bool:
     """Read a sheet in the usual form; False, and nothing read, where it is not."""
     head, _, body = data.partition(b"<sheetData>")
     body = body.partition(b"</sheetData>")[0]
-    if b"<!" in data or b"<?" in body or f'<worksheet xmlns="{_MAIN[1:-1]}"'.encode() not in head:
+    if (
+        b"<!" in data
+        or not _is_well_formed(data)
+        or b"<?" in body
+        or f'<worksheet xmlns="{_MAIN[1:-1]}"'.encode() not in head
+    ):
         return False
     try:
         text = body.decode("utf-8")
@@ -382,6 +388,14 @@ def _read_plain(sheet: _Sheet, data: bytes) -> bool:
     return True
 
 
+def _is_well_formed(data: bytes) -> bool:
+    try:
+        ParserCreate().Parse(data, True)
+    except ExpatError:
+        return False
+    return True
+
+
 def _plain_text(text: str) -> str:
     if "&" not in text:
         return text
@@ -404,10 +418,10 @@ def _read_xml(sheet: _Sheet, title: str, root: etree._Element) -> None:
                 column += 1
             else:
                 match = _CELL.fullmatch(address)
-                if match is None or int(match[2]) != row:
+                if match is None:
                     msg = f"на листе «{title}» ячейка с неверным адресом"
                     raise BadBook(msg)
-                column = column_number(match[1])
+                row, column = int(match[2]), column_number(match[1])
             formula = cell.find(f"{_MAIN}f")
             inline = cell.find(f"{_MAIN}is")
             about = None

@@ -1,0 +1,180 @@
+"""Hostile files: each refused or graded with a reason, and nobody else is harmed."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from reports.grading.grade import Options, grade
+from tests.grading import classroom
+from tests.grading.fill import filled_book
+from tests.grading.hostile import hostile_files
+
+ROOT = Path(__file__).parents[2]
+
+
+def right_book(number: int) -> bytes:
+    return filled_book(classroom.handout(number), classroom.assignment(number))
+
+
+def run(submitted: Path, out: Path, **options) -> dict:
+    """Grade a folder against the small class."""
+    folder = classroom.folder()
+    return grade(
+        folder / "issued", submitted, out, secret_file=folder / "secret.key",
+        options=Options(workers=2, **options),
+    ).summary  # fmt: skip
+
+
+def result_of(out: Path, key: str) -> dict:
+    for path in (out / "results").glob("*.json"):
+        data = json.loads(path.read_text(encoding="utf-8"))
+        if data.get("key") == key:
+            return data
+    raise AssertionError(key)
+
+
+def test_every_hostile_file_is_one_row_with_a_reason(tmp_path):
+    classroom.register()
+    submitted, alone = tmp_path / "submitted", tmp_path / "alone"
+    submitted.mkdir()
+    alone.mkdir()
+    good = {1: right_book(1), 2: right_book(2)}
+    files = dict(hostile_files(right_book(3), classroom.book(3).ticket, classroom.book(4).ticket))
+    assert len(files) >= 40
+    for name, data in files.items():
+        (submitted / name).write_bytes(data)
+    for number, data in good.items():
+        for place in (submitted, alone):
+            path = place / classroom.book(number).file
+            path.write_bytes(data)
+            os.utime(path, (1_700_000_000, 1_700_000_000))
+    started = time.monotonic()
+    summary = run(submitted, tmp_path / "out")
+    assert time.monotonic() - started < 300
+    run(alone, tmp_path / "out-alone")
+
+    # What the student's own rows say does not depend on the company.
+    for number in good:
+        key = classroom.book(number).file
+        mine, theirs = result_of(tmp_path / "out", key), result_of(tmp_path / "out-alone", key)
+        assert mine == theirs
+        assert mine["points"] == 100
+        assert mine["manual"] == []
+
+    quiet = []
+    for name in files:
+        result = result_of(tmp_path / "out", name)
+        page = (tmp_path / "out" / result["page"]).read_text(encoding="utf-8")
+        assert "<script" not in page.lower()
+        if result["status"] == "graded":
+            lines = {line["id"]: line for line in result["items"]}
+            told = [line for line in lines.values() if line["verdict"] != "right"]
+            if not (result["manual"] or told or result["notes"]):
+                quiet.append(name)
+            # A formula that could not be calculated never earns points.
+            for line in told:
+                assert line["verdict"] != "unknown" or line["points"] == 0
+        else:
+            assert result["manual"], name
+            assert result.get("points") is None
+        text = json.dumps(result, ensure_ascii=False)
+        assert "root:" not in text
+        assert "внутренняя ошибка" not in text, (name, result["manual"])
+    # These are right books in spite of what was tried.
+    assert set(quiet) <= {"up-chain.xlsx", "lying.xlsx", "wrong-row.xlsx"}, quiet
+    assert len(summary["manual"]) >= 35
+    csv_text = (tmp_path / "out" / "gradebook.csv").read_text(encoding="utf-8-sig")
+    assert not any(field.startswith(("=", "+", "@")) for line in csv_text.splitlines()
+                   for field in line.split(";"))  # fmt: skip
+
+
+def test_a_worker_that_dies_or_hangs_costs_one_file(tmp_path):
+    classroom.register()
+    submitted = tmp_path / "submitted"
+    submitted.mkdir()
+    (submitted / classroom.book(1).file).write_bytes(right_book(1))
+    (submitted / "slow.xlsx").write_bytes(right_book(2))
+    # Nothing can be graded in no time: the limit itself is what is tried.
+    summary = run(submitted, tmp_path / "out", timeout_s=0.001)
+    assert {row["status"] for row in summary["rows"]} <= {"не принято", "не сдано", "проверено"}
+    assert any("слишком много времени" in " ".join(entry["why"]) for entry in summary["manual"])
+
+
+def test_the_worker_refuses_network_and_programs():
+    code = (
+        "import socket, subprocess\n"
+        "from reports.grading.worker import forbid_the_world\n"
+        "forbid_the_world()\n"
+        "for act in (lambda: socket.create_connection(('127.0.0.1', 9)),\n"
+        "            lambda: subprocess.run(['true'])):\n"
+        "    try:\n        act()\n"
+        "    except PermissionError:\n        print('refused')\n"
+    )
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=True
+    )
+    assert done.stdout.split() == ["refused", "refused"]
+
+
+def tree(folder: Path) -> dict[str, bytes]:
+    """All files of a folder; the workbook's parts, whose zip holds no time of ours."""
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    }
+
+
+def test_killed_in_the_middle_and_started_again(tmp_path):
+    folder = classroom.folder()
+    classroom.register()
+    submitted = tmp_path / "submitted"
+    submitted.mkdir()
+    for copy in range(4):
+        for number in (1, 2, 3):
+            path = submitted / f"{copy}-{classroom.book(number).file}"
+            path.write_bytes(right_book(number) if copy == 0 else classroom.handout(number))
+            os.utime(path, (1_700_000_000 + copy, 1_700_000_000 + copy))
+    (submitted / "bad.xlsx").write_bytes(b"bad")
+    os.utime(submitted / "bad.xlsx", (1_700_000_000, 1_700_000_000))
+    out = tmp_path / "out"
+    command = [
+        sys.executable, "-m", "reports", "grade", str(folder / "issued"), str(submitted),
+        "-o", str(out), "--secret", str(folder / "secret.key"), "--jobs", "1",
+    ]  # fmt: skip
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    process = subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, cwd=ROOT)
+    results = out / "results"
+    for _ in range(1200):
+        if results.is_dir() and len(list(results.glob("*.json"))) >= 4:
+            break
+        assert process.poll() is None, process.communicate()
+        time.sleep(0.05)
+    process.send_signal(signal.SIGKILL)
+    process.communicate()
+    before = len(list(results.glob("*.json"))) - 1
+    assert 0 < before < 13
+    assert not (out / "summary.html").exists()
+
+    done = subprocess.run(
+        command, env=environment, capture_output=True, text=True, cwd=ROOT, check=False
+    )
+    assert done.returncode == 1, done.stderr  # bad.xlsx needs a person
+    whole = tmp_path / "whole"
+    command[command.index(str(out))] = str(whole)
+    subprocess.run(command, env=environment, capture_output=True, check=False, cwd=ROOT)
+    assert tree(out) == tree(whole)
+    # A third run has nothing left to do and changes nothing.
+    again = grade(
+        folder / "issued", submitted, whole, secret_file=folder / "secret.key",
+        options=Options(workers=1),
+    )  # fmt: skip
+    assert again.reused == 13
+    assert tree(out) == tree(whole)

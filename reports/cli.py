@@ -25,6 +25,8 @@ _WORDS = {
     "Options:": "Ключи:",
     "Commands:": "Команды:",
     "Show this message and exit.": "Показать эту справку.",
+    "[required]": "[обязательно]",
+    "[default: ": "[по умолчанию: ",
 }
 
 

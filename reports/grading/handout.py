@@ -12,7 +12,7 @@ from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.grading.items import Assignment
-from reports.layout import CONTENTS_SHEET, FIRST_ROW, INPUT_SHEET, Cell, Layout, check_names
+from reports.layout import CONTENTS_SHEET, INPUT_SHEET, Cell, Layout, check_names
 from reports.tables.spec import Block, ChartSpec, Grid, Model, TableSpec
 from reports.tables.values import Values, evaluate_model
 from reports.workbook import styles
@@ -161,4 +161,3 @@ def _lock(book: Workbook, layout: Layout) -> None:
         sheet.protection.formatCells = False
         sheet.protection.formatColumns = False
         sheet.protection.formatRows = False
-        sheet.print_area = None if sheet.max_row < FIRST_ROW else sheet.print_area

@@ -13,7 +13,7 @@ import numpy as np
 from reports.errors import InputError
 from reports.grading.causes import Causes, OtherVariant
 from reports.grading.issue import assignment_for
-from reports.grading.items import Assignment
+from reports.grading.items import Assignment, Item
 from reports.grading.matching import Match, file_properties, find_by_name, find_owner
 from reports.grading.register import Issued, Register
 from reports.grading.rubric import Rubric
@@ -216,7 +216,8 @@ def _line(
     }
     if judgement.verdict in (WRONG, CARRIED, TYPED, BROKEN):
         line["cells"] = _cells(student, judgement)
-        line["mark"] = _fingerprint(judgement)
+        line["mark"] = _fingerprint(item, judgement.values)
+        line["right_mark"] = _fingerprint(item, judgement.expected)
         if item.is_column:
             line["chart"] = {
                 "x": [float(label) for label in item.labels],
@@ -258,10 +259,9 @@ def _plain(values: np.ndarray[Any, np.dtype[np.float64]]) -> list[float | None]:
     return [float(f"{v:.6g}") if math.isfinite(v) else None for v in values]
 
 
-def _fingerprint(judgement: Judgement) -> str:
+def _fingerprint(item: Item, values: np.ndarray[Any, np.dtype[np.float64]]) -> str:
     """The same for equal values, whatever the book: for the signals of similarity."""
-    values = judgement.values
-    if judgement.item.is_column and np.unique(values[np.isfinite(values)]).size < 4:
+    if item.is_column and np.unique(values[np.isfinite(values)]).size < 4:
         return ""  # zeros and constants are alike by themselves
     text = ";".join(f"{value:.6g}" for value in values)
     return hashlib.sha256(text.encode()).hexdigest()[:16]

@@ -17,7 +17,7 @@ from reports.layout import (
     VALUE_COLUMN,
     Layout,
 )
-from reports.recalculation.by_columns.grid import Grid
+from reports.recalculation.by_columns import Engine, Grid, UnknownFormula
 from reports.tables.spec import Model, TableSpec
 from reports.workbook.sheets import capital
 
@@ -103,7 +103,10 @@ def _rows(
     grid: Grid, sheet: str, header: int, column: int, wanted: tuple[float, ...]
 ) -> tuple[int | None, ...]:
     """Rows below the header whose index is the wanted one, in order."""
-    constants = grid.column(sheet, column).constants
+    known = grid.column(sheet, column)
+    constants = dict(known.constants)
+    if known.runs:  # angles calculated from the row above
+        constants |= _calculated(grid, sheet, header, column)
     rows = sorted(r for r in constants if header + 1 < r <= header + _SEARCH_ROWS)
     found: list[int | None] = []
     at = 0
@@ -120,6 +123,16 @@ def _rows(
             found.append(rows[hit])
             at = hit + 1
     return tuple(found)
+
+
+def _calculated(grid: Grid, sheet: str, header: int, column: int) -> dict[int, float]:
+    first, last = header + 2, header + _SEARCH_ROWS
+    try:
+        values, kinds = Engine(grid).values(sheet, column, first, last)
+    except (UnknownFormula, RecursionError):
+        return {}
+    numbers = zip(values.tolist(), kinds, strict=True)
+    return {first + i: value for i, (value, kind) in enumerate(numbers) if kind == "n"}
 
 
 def _report_sheets(model: Model, layout: Layout, found: Placement) -> None:

@@ -48,20 +48,20 @@ def _same_files(results: Sequence[dict[str, Any]]) -> list[str]:
 
 
 def _same_values(graded: Sequence[dict[str, Any]]) -> list[str]:
-    """The same wrong values under different variants, pair by pair."""
-    by_mark: dict[tuple[str, str], list[dict[str, Any]]] = {}
+    """The same wrong values where the right ones differ, pair by pair."""
+    by_mark: dict[tuple[str, str], list[tuple[str, dict[str, Any]]]] = {}
     for result in graded:
         for line in result["items"]:
             if line.get("mark") and line["of"] > 0:
-                by_mark.setdefault((line["id"], line["mark"]), []).append(result)
+                key = line["id"], line["mark"]
+                by_mark.setdefault(key, []).append((line["right_mark"], result))
     pairs: dict[tuple[str, str], list[str]] = {}
     for (item, _), group in sorted(by_mark.items()):
-        people = sorted({_who(result) for result in group})
-        if len({result["number"] for result in group}) < 2:
-            continue
-        for i, first in enumerate(people):
-            for second in people[i + 1 :]:
-                pairs.setdefault((first, second), []).append(item)
+        for i, (right, first) in enumerate(group):
+            for other, second in group[i + 1 :]:
+                if right != other and first["number"] != second["number"]:
+                    names = sorted((_who(first), _who(second)))
+                    pairs.setdefault((names[0], names[1]), []).append(item)
     return [
         f"одинаковые неверные значения при разных вариантах: {first} и {second} — "
         f"{len(items)} (например, {', '.join(items[:3])})"

@@ -124,7 +124,7 @@ def _distribution(marks: list[float], maximum: float) -> list[dict[str, Any]]:
     most = max(counts) or 1
     return [
         {
-            "label": f"{i * 10}–{i * 10 + 10} %",
+            "label": f"{i * 10}–{i * 10 + 10}\u00a0%",
             "count": count,
             "width": round(_BAR * count / most),
         }

@@ -275,7 +275,7 @@ def reference_charts(model: InputFile) -> tuple[ChartSpec, ...]:
         motion("7", "Ускорение поршня", "j/(rω²)", "j_rel", "j1_rel", "j2_rel"),
         motion("10", "Угловые скорость и ускорение шатуна", "ω/ω, ε/ω²", "omega_rod_rel",
                "eps_rod_rel"),
-        ChartSpec("ref_fig8", KINEMATIC, "Ускорение поршня при разных λ", "line", j_curves,
+        ChartSpec("ref_fig8", MOTION, "Ускорение поршня при разных λ", "line", j_curves,
                   "φ, ° ПКВ", "j/(rω²)", "8"),
         ChartSpec("ref_fig6a", SPEED, "Угол наибольшей скорости поршня", "line",
                   (Series(x, "ref_fig6.phi_vmax_deg"),), "λ", "φ, °", "6"),

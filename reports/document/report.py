@@ -36,9 +36,8 @@ from reports.document.sections.chapter import Chapter
 from reports.document.sections.torque import worst
 from reports.document.terms import Terms
 from reports.document.writer import Draft, Writer
-from reports.errors import InputError, Problem, SystemPartMissing
+from reports.errors import SystemPartMissing
 from reports.inputs.model import InputFile
-from reports.tables.shape import Shape
 from reports.tables.spec import Model
 from reports.tables.values import Values
 
@@ -117,9 +116,6 @@ def report_page(
         media: "print" for WeasyPrint, "screen" for a browser.
         templates: a folder of own templates, see :mod:`reports.document.overrides`.
     """
-    if not Shape.of(model.input).basic:
-        what = "отчёт пока строится только для рядного четырёхтактного центрального двигателя"
-        raise InputError(Problem(model.input.engine.name, what, "книгу даёт --only xlsx"))
     with overrides.told(templates):
         return _page(model, values, environment(templates, media=media))
 

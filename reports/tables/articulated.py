@@ -71,7 +71,7 @@ def hung_corners(shape: Shape) -> Corners:
     """Volume and dead centres of the cylinders with articulated rods."""
     return Corners(
         shape, lambda phi: _ratio(_height(shape, phi)),
-        " + phi_tdc_art_deg", " + (phi_bdc_art_deg - 180)", SUFFIX,
+        "phi_tdc_art_deg", "phi_bdc_art_deg", SUFFIX,
     )  # fmt: skip
 
 

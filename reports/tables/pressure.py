@@ -15,15 +15,16 @@ from reports.tables.spec import Scalar, ScalarTable
 EDGE = "0.0000001"  # degrees: the angles come from whole degrees and sums of them
 WORK = "(p_MPa + following(p_MPa))/2*(following(volume_dm3) - volume_dm3)*1000"
 _P_A, _P_R, _P_Z = "gas_intake_pressure_mpa", "gas_residual_pressure_mpa", "gas_max_pressure_mpa"
+_OPENS, _CLOSES = "gas_exhaust_start_before_bdc_deg", "gas_exhaust_end_after_bdc_deg"
 _EPS, _N_1 = "geometry_compression_ratio", "gas_compression_exponent"
 
 
 @dataclass(frozen=True, slots=True)
 class Corners:
-    """A kind of cylinder: its volume, and what is added to the angles of its dead centres.
+    """A kind of cylinder: its volume and the names of its dead centres' angles.
 
-    ``tdc`` and ``bdc`` begin with their sign or are empty; ``suffix`` tells its scalars from
-    those of the cylinders with rods of their own.
+    ``tdc`` and ``bdc`` are empty where these stand at 0 and 180°; ``suffix`` tells its scalars
+    from those of the cylinders with rods of their own.
     """
 
     shape: Shape
@@ -31,6 +32,18 @@ class Corners:
     tdc: str = ""
     bdc: str = ""
     suffix: str = ""
+
+    def after_tdc(self, angle: str) -> str:
+        """Angle [deg] that is counted from a TDC as if this stood at 0 or 360°."""
+        if angle == "0" and self.tdc:
+            return self.tdc
+        return f"{angle} + {self.tdc}" if self.tdc else angle
+
+    def after_bdc(self, angle: str) -> str:
+        """Angle [deg] that is counted from a BDC as if this stood at 180 or 540°."""
+        if angle == "180" and self.bdc:
+            return self.bdc
+        return f"{angle} + ({self.bdc} - 180)" if self.bdc else angle
 
     def name(self, key: str) -> str:
         """Key of one of its scalars: ``phi_c_art_deg``."""
@@ -59,17 +72,13 @@ def corner_points(model: InputFile, corners: Corners) -> ScalarTable:
         return Scalar(name(key), from_cycle(model, text), where)
 
     scalars = [
-        scalar("phi_c_deg", start + corners.tdc, "Dinn: 360° − УОВ + УЗВ"),
-        scalar(
-            "phi_open_deg", f"{bottom} - gas_exhaust_start_before_bdc_deg" + corners.bdc, "Dinn"
-        ),
+        scalar("phi_c_deg", corners.after_tdc(start), "Dinn: 360° − УОВ + УЗВ"),
+        scalar("phi_open_deg", corners.after_bdc(f"{bottom} - {_OPENS}"), "Dinn"),
     ]
     if two:
-        scavenge = f"{bottom} - gas_scavenge_start_before_bdc_deg" + corners.bdc
+        scavenge = corners.after_bdc(f"{bottom} - gas_scavenge_start_before_bdc_deg")
         scalars.append(scalar("phi_scavenge_deg", scavenge, "исходные данные"))
-    scalars.append(
-        scalar("phi_close_deg", f"{bottom} + gas_exhaust_end_after_bdc_deg" + corners.bdc, "Dinn")
-    )
+    scalars.append(scalar("phi_close_deg", corners.after_bdc(f"{bottom} + {_CLOSES}"), "Dinn"))
     if two:
         scalars.append(scalar("x_close", ratio(name("phi_close_deg")), source))
     scalars += [
@@ -137,10 +146,10 @@ def _four_stroke(phi: str, ratio: str, corners: Corners) -> tuple[list[tuple[str
     opens, closes = name("phi_open_deg"), name("phi_close_deg")
     compression = f"{_P_A}*({_EPS}/{ratio})**{_N_1}"
     limits = [
-        (f"0{corners.tdc}", _P_R),
-        (f"180{corners.bdc}", _P_A),
+        (corners.after_tdc("0"), _P_R),
+        (corners.after_bdc("180"), _P_A),
         (name("phi_c_deg"), compression),
-        (f"360{corners.tdc}", _rise(phi, corners)),
+        (corners.after_tdc("360"), _rise(phi, corners)),
         (opens, _expansion(ratio)),
         (closes, _line(phi, opens, name("p_open"), closes, _P_R)),
     ]
@@ -151,7 +160,7 @@ def _two_stroke(phi: str, ratio: str, corners: Corners) -> tuple[list[tuple[str,
     name = corners.name
     opens, scavenge, closes = (name(f"phi_{key}_deg") for key in ("open", "scavenge", "close"))
     limits = [
-        (f"0{corners.tdc}", _rise(f"(360{corners.tdc})", corners)),
+        (corners.after_tdc("0"), _rise(f"({corners.after_tdc('360')})", corners)),
         (opens, _expansion(ratio)),
         (scavenge, _line(phi, opens, name("p_open"), scavenge, _P_R)),
         (closes, _line(phi, scavenge, _P_R, closes, _P_A)),

@@ -112,13 +112,13 @@ class Shape:
 
     @property
     def tdc(self) -> str:
-        """What an offset adds to the angle of a TDC [deg], with its sign; empty without."""
-        return " + phi_tdc_deg" if self.offset else ""
+        """Name of the angle of TDC, empty where it is 0."""
+        return "phi_tdc_deg" if self.offset else ""
 
     @property
     def bdc(self) -> str:
-        """What an offset adds to the angle of a BDC [deg]; empty without."""
-        return " + (phi_bdc_deg - 180)" if self.offset else ""
+        """Name of the angle of BDC, empty where it is 180°."""
+        return "phi_bdc_deg" if self.offset else ""
 
     @property
     def turn(self) -> str:

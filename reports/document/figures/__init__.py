@@ -14,6 +14,7 @@ from reports.document.figures.charts import (
     stacked_panels,
     twin_chart,
 )
+from reports.document.figures.overview import engine_scheme
 from reports.document.figures.polar import Pole, polar_path
 from reports.document.figures.schemes import crank_scheme, mechanism_sketch
 from reports.document.figures.wear import roman, wear_diagram
@@ -25,6 +26,7 @@ __all__ = [
     "Pole",
     "Series",
     "crank_scheme",
+    "engine_scheme",
     "line_chart",
     "mechanism_sketch",
     "polar_path",

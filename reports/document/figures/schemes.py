@@ -14,19 +14,20 @@ _GREY = "#e4e4e4"
 _FAINT = "#b4b4b4"
 
 
-def mechanism_sketch(lam: float, phi: float = 50.0, *, width: float = 150.0) -> str:
-    """Central mechanism: а) geometry, б) forces; drawn to scale in λ, as SVG.
+def mechanism_sketch(lam: float, phi: float = 50.0, *, k: float = 0.0, width: float = 150.0) -> str:
+    """Mechanism: а) geometry, б) forces; drawn to scale in λ and in the offset, as SVG.
 
     Args:
         lam: Crank radius over rod length λ, between 0.1 and 0.6.
         phi: Crank angle to draw [deg], best between 30 and 70.
+        k: Relative offset e/r, between −0.6 and 0.6.
         width: Width of the figure [mm].
 
     Raises:
         ValueError: λ cannot be drawn.
     """
-    if not 0.1 <= lam <= 0.6:
-        msg = f"Схема механизма: λ = {lam} вне пределов 0,1…0,6"
+    if not 0.1 <= lam <= 0.6 or abs(k) > 0.6:
+        msg = f"Схема механизма: λ = {lam} вне пределов 0,1…0,6 или k = {k} вне ±0,6"
         raise ValueError(msg)
     radius = 45.0
     rod = radius / lam
@@ -35,7 +36,7 @@ def mechanism_sketch(lam: float, phi: float = 50.0, *, width: float = 150.0) -> 
         pen = Pen(page)
         for share, letter in ((0.27, "а)"), (0.75, "б)")):
             origin = (page.width * share, radius + 36)
-            part = _Mechanism(pen, origin, radius, rod, math.radians(phi))
+            part = _Mechanism(pen, origin, radius, rod, math.radians(phi), k * radius)
             if letter == "а)":
                 part.links()
                 part.geometry()
@@ -49,14 +50,24 @@ def mechanism_sketch(lam: float, phi: float = 50.0, *, width: float = 150.0) -> 
 class _Mechanism:
     """One drawing of the mechanism with its joints O, A, B."""
 
-    def __init__(self, pen: Pen, origin: Point, radius: float, rod: float, phi: float) -> None:
+    def __init__(
+        self,
+        pen: Pen,
+        origin: Point,
+        radius: float,
+        rod: float,
+        phi: float,
+        offset: float = 0.0,
+    ) -> None:
         self.pen, self.origin, self.radius, self.rod, self.phi = pen, origin, radius, rod, phi
-        self.beta = math.asin(radius / rod * math.sin(phi))
+        self.offset = offset
+        self.beta = math.asin((radius * math.sin(phi) - offset) / rod)
         self.pin = polar(origin, radius, phi)
         lift = radius * math.cos(phi) + rod * math.cos(self.beta)
-        self.piston = (origin[0], origin[1] + lift)
-        self.top = (origin[0], origin[1] + radius + rod)
-        self.bottom = (origin[0], origin[1] + rod - radius)
+        axis = origin[0] + offset
+        self.piston = (axis, origin[1] + lift)
+        self.top = (axis, origin[1] + math.sqrt((rod + radius) ** 2 - offset**2))
+        self.bottom = (axis, origin[1] + math.sqrt((rod - radius) ** 2 - offset**2))
         self.bore = radius * 0.52
 
     def links(self, *, faint: bool = False) -> None:
@@ -65,6 +76,9 @@ class _Mechanism:
         crown = self.top[1] + 22
         pen.line([(x, y - self.radius - 12), (x, crown + 12)], HAIR, CENTRE)
         pen.line([(x - self.radius - 10, y), (x + self.radius + 10, y)], HAIR, CENTRE)
+        x += self.offset
+        if self.offset:
+            pen.line([(x, y - self.radius - 12), (x, crown + 12)], HAIR, CENTRE)
         for side in (-1, 1):
             wall = x + side * (self.bore + 2)
             pen.line([(wall, self.bottom[1] - 14), (wall, crown)], 1.4)
@@ -79,14 +93,20 @@ class _Mechanism:
             pen.circle(joint, 3.2, fill="#ffffff", width=1.2)
 
     def geometry(self) -> None:
-        """Dead centres, r, L, φ, β, ω and the names of the joints."""
+        """Dead centres, r, L, φ, β, ω, the offset and the names of the joints."""
         pen, (x, y) = self.pen, self.origin
         edge = x - self.radius - 16
+        if self.offset:
+            below = y - self.radius - 8
+            pen.measure((x, below), (x + self.offset, below))
+            pen.text((x + self.offset + (9 if self.offset > 0 else -9), below), "$e$", SMALL)
         for place, name in ((self.top, "ВМТ"), (self.bottom, "НМТ")):
             pen.line([(edge - 4, place[1]), (place[0], place[1])], HAIR, DASHED)
             pen.text((edge - 20, place[1]), name, SMALL)
         pen.measure((edge, self.bottom[1]), (edge, self.top[1]))
-        pen.text((edge - 22, (self.top[1] + self.bottom[1]) / 2), "$S=2r$", SMALL)
+        stroke = r"$S_{\mathrm{д}}$" if self.offset else "$S=2r$"
+        pen.text((edge - 22, (self.top[1] + self.bottom[1]) / 2), stroke, SMALL)
+        x += self.offset
         across = x + self.bore + 16
         pen.line([(x, self.piston[1]), (across + 4, self.piston[1])], HAIR, DASHED)
         pen.line([(x, self.top[1]), (across + 4, self.top[1])], HAIR, DASHED)
@@ -98,7 +118,7 @@ class _Mechanism:
         pen.text(polar(self.piston, self.rod * 0.42 + 9, math.pi - self.beta / 2), r"$\beta$")
         pen.text(_beside(self.origin, self.pin, 0.6, -9), "$r$")
         pen.text(_beside(self.piston, self.pin, 0.62, 11), "$L$")
-        pen.text((x - 9, y - 9), "$O$")
+        pen.text((self.origin[0] - 9, y - 9), "$O$")
         pen.text((self.pin[0] + 11, self.pin[1] + 2), "$B$")
         pen.text((x - self.bore + 8, self.piston[1] + 4), "$A$", halo=False)
         spin = self.radius * 0.62

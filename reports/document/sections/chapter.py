@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from markupsafe import Markup
@@ -10,6 +11,7 @@ from markupsafe import Markup
 from reports.document.terms import Terms
 from reports.document.writer import Writer
 from reports.inputs.model import InputFile
+from reports.tables.shape import Shape
 from reports.tables.spec import Model
 
 if TYPE_CHECKING:
@@ -37,6 +39,16 @@ class Chapter:
         """The input file."""
         return self.terms.model.input
 
+    @cached_property
+    def shape(self) -> Shape:
+        """Layout of the engine."""
+        return Shape.of(self.input)
+
+    @property
+    def example(self) -> float:
+        """Crank angle of the worked lines of the dynamics, shortly after the combustion [deg]."""
+        return 390.0 if self.shape.strokes == 4 else 30.0
+
     def page(self, template: str, **context: Any) -> Markup:  # noqa: ANN401
         """Render a template of the folder ``report`` with the tools and a chapter's own data."""
         names = {
@@ -44,6 +56,8 @@ class Chapter:
             "w": self.writer,
             "n": self.writer.n,
             "input": self.input,
+            "shape": self.shape,
+            "example": self.example,
             "eq": self.eq,
             "full": self.full,
             "sub": self.sub,

@@ -14,6 +14,7 @@ from reports.document.sections.torque import worst
 from reports.document.spec_tables import angle_table
 from reports.document.terms import Terms
 from reports.document.writer import TablePlan
+from reports.tables.shape import Shape, rods_table
 from reports.tables.summary import NO, YES
 
 SOURCES = (
@@ -113,24 +114,24 @@ def sources(chapter: Chapter) -> Markup:
 
 def appendices(chapter: Chapter) -> Markup:
     """All tables over the crank angle: П3 in appendix А, П4 in appendix Б."""
-    terms, count = chapter.terms, chapter.input.engine.cylinders
-    tables = terms.model.tables
+    terms, shape = chapter.terms, chapter.shape
+    tables, count = terms.model.tables, shape.cylinders
     main = [
         (
             f"P4_3_{k}",
             _plan(terms, f"P4_3_{k}", ["phi_deg", "Rx_MPa", "Ry_MPa", "R_MPa", "psiR_deg"]),
         )
-        for k in range(1, count + 2)
+        for k in range(1, shape.throws + 2)
     ]
     wear = tables["table_14"]
     return chapter.page(
         "appendices.html.j2",
-        kinematic=[(key, _plan(terms, key)) for key in ("P3_1", "P3_2")],
+        kinematic=[(key, _plan(terms, key, number=number)) for key, number in _kinematic(shape)],
         cylinder=[
             ("gas", _plan(terms, "gas", number="П4.Г")),
             ("P4_1", _plan(terms, "P4_1")),
             ("P4_2", _plan(terms, "P4_2", size="dense" if count > 6 else "")),
-            ("crankpin", _plan(terms, "crankpin", number="П4.Ш")),
+            *((key, _plan(terms, key, number=f"П4.{tables[key].number}")) for key in _loads(shape)),
         ],
         main=main,
         running=[
@@ -141,6 +142,24 @@ def appendices(chapter: Chapter) -> Markup:
             terms, "table_14", number="П4.Л", size="tiny" if len(wear.columns) > 14 else "dense"
         ),
     )
+
+
+def _kinematic(shape: Shape) -> list[tuple[str, str | None]]:
+    """Tables of appendix А with the numbers of those that the book has not."""
+    found: list[tuple[str, str | None]] = [("P3_1", None), ("P3_2", None)]
+    if shape.offset:
+        found.append(("offset", "П3.Д"))
+    if shape.articulated:
+        found.append(("articulated", "П3.П"))
+    return found
+
+
+def _loads(shape: Shape) -> list[str]:
+    """Tables of the forces on throws and crankpins."""
+    pins = ["crankpin", *(f"crankpin_{n}" for n in range(2, len(shape.pins) + 1))]
+    if shape.single_rods:
+        return pins
+    return [*(rods_table(throw) for throw in range(1, shape.throws + 1)), *pins]
 
 
 def _moments(terms: Terms, table: str) -> list[str]:

@@ -11,17 +11,18 @@ from reports.document.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.figures import Level, Pole, polar_path, roman, wear_diagram
 from reports.document.numbers import fixed
 from reports.document.sections.chapter import Chapter
-from reports.document.sections.dynamics import EXAMPLE
 from reports.document.sections.plots import extreme_marks, over_phi, phi
 from reports.document.terms import Terms
 from reports.document.writer import Figure, TablePlan
+from reports.tables.shape import pin_name
 
 
 def crankpin(chapter: Chapter) -> Markup:
     """Loads on the crankpin."""
-    terms, rays = chapter.terms, chapter.input.calculation.wear_rays
+    terms, rays, shape = chapter.terms, chapter.input.calculation.wear_rays, chapter.shape
+    rods = sum(not shape.is_hung(cylinder) for cylinder in shape.pins[0])
     figures = {
-        "polar": _polar(terms),
+        "polar": _polar(terms, "crankpin", rods),
         "unfolded": over_phi(
             terms,
             "Развёрнутая диаграмма нагрузки на шатунную шейку",
@@ -37,7 +38,13 @@ def crankpin(chapter: Chapter) -> Markup:
     return chapter.page(
         "crankpin.html.j2",
         figures=figures,
-        at=EXAMPLE,
+        at=chapter.example,
+        several=shape.pins[0] if len(shape.pins[0]) > 1 else (),
+        others=[(n, _other(terms, n, rods, rays)) for n in range(2, len(shape.pins) + 1)],
+        pin_loads=TablePlan(
+            partial(_loads, terms, len(shape.pins)), "Нагрузки на шатунные шейки", size="dense"
+        ),
+        worst_pin=round(terms.value("worst_pin_load")) if len(shape.pins) > 1 else 1,
         rays=rays,
         sums=TablePlan(
             partial(ray_sums, terms, ["pin"], [r"\Sigma R'_{\mathrm{ш.ш}}"], rays),
@@ -53,25 +60,55 @@ def least_ray(terms: Terms, key: str) -> str:
     return roman(round(terms.value(key)))
 
 
-def _polar(terms: Terms) -> Figure:
-    rod, throw = terms.value("K_r_rod"), terms.value("K_r_throw")
-    poles = (
-        Pole("$O$"),
-        Pole(r"$O_{\mathrm{ш}}$", 0.0, rod),
-        Pole(r"$O_{\mathrm{к}}$", 0.0, rod + throw),
-    )
+def _other(terms: Terms, number: int, rods: int, rays: int) -> dict[str, Figure]:
+    """Diagrams of a further crankpin of a V engine."""
+    wear = wear_figure(
+        terms, f"pin{number}", rays, f"Условная диаграмма износа шатунной шейки {number}",
+        "от оси вала", 84.0,
+    )  # fmt: skip
+    return {"polar": _polar(terms, f"crankpin_{number}", rods, f" {number}", 100.0), "wear": wear}
+
+
+def _loads(terms: Terms, count: int) -> TableBlock:
+    """Loads of all crankpins side by side."""
+    columns = [
+        Column("Шейка", 0.8),
+        Column(symbol_head(r"R'_{\max}", "МПа")),
+        Column(symbol_head(r"\varphi_{\max}", "°")),
+        Column(symbol_head(r"R'_{\mathrm{ср}}", "МПа")),
+        Column(symbol_head(r"R_{\max}", "кН")),
+        Column(symbol_head(r"q_{\max}", "МПа")),
+        Column(symbol_head(r"q_{\mathrm{ср}}", "МПа")),
+        Column(symbol_head(r"\alpha_{\mathrm{м}}", "°")),
+    ]
+    rows = []
+    for number in range(1, count + 1):
+        n = pin_name(number)
+        keys = (
+            f"Rpin{n}_max", f"phi_Rpin{n}_max_deg", f"Rpin{n}_mean", f"Rpin{n}_max_kN",
+            f"q_pin{n}_max", f"q_pin{n}_mean", f"hole_pin{n}_deg",
+        )  # fmt: skip
+        rows.append([str(number), *(terms.num(key) for key in keys)])
+    return table_block(columns, rows)
+
+
+def _polar(terms: Terms, table: str, rods: int, words: str = "", most: float = 122.0) -> Figure:
+    rod = rods * terms.value("K_r_rod")
+    poles = [Pole("$O$"), Pole(r"$O_{\mathrm{ш}}$", 0.0, rod)]
+    if terms.has(f"{table}.Ksum_MPa"):
+        poles.append(Pole(r"$O_{\mathrm{к}}$", 0.0, rod + terms.value("K_r_throw")))
     draw = partial(
         polar_path,
-        terms.column("crankpin.T_MPa"),
-        terms.column("crankpin.K_MPa"),
-        phi(terms, "crankpin"),
-        rf"${terms.tex('crankpin.T_MPa')}$, МПа",
-        rf"${terms.tex('crankpin.K_MPa')}$, МПа",
+        terms.column(f"{table}.T_MPa"),
+        terms.column(f"{table}.K_MPa"),
+        phi(terms, table),
+        rf"${terms.tex(f'{table}.T_MPa')}$, МПа",
+        rf"${terms.tex(f'{table}.K_MPa')}$, МПа",
         invert=(False, True),
-        poles=poles,
-        most=122.0,
+        poles=tuple(poles),
+        most=most,
     )
-    return Figure(draw, "Полярная диаграмма удельной нагрузки на шатунную шейку")
+    return Figure(draw, f"Полярная диаграмма удельной нагрузки на шатунную шейку{words}")
 
 
 def wear_figure(terms: Terms, name: str, rays: int, caption: str, top: str, size: float) -> Figure:

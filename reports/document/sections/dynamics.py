@@ -11,6 +11,7 @@ from reports.document.blocks import TableBlock
 from reports.document.figures import Level, Mark, line_chart, pv_diagram
 from reports.document.sections.chapter import Chapter
 from reports.document.sections.diagram import rounded_text
+from reports.document.sections.layout import rods_text
 from reports.document.sections.masses import mass_notes
 from reports.document.sections.plots import PHI, over_phi, phi, series
 from reports.document.spec_tables import scalar_table
@@ -20,16 +21,14 @@ from reports.inputs.model import TableGasSection
 from reports.inputs.model_gas import RoundedGasSection
 from reports.tables.diagram import is_smooth
 
-EXAMPLE = 390.0  # shortly after the greatest pressure
-
 
 def dynamics(chapter: Chapter) -> Markup:
     """Masses, pressure of the gases and the forces of one cylinder."""
     terms, gas = chapter.terms, chapter.input.gas
     polytropic = not isinstance(gas, TableGasSection | RoundedGasSection)
     figures = {
-        "pv": _pv(terms),
-        "p_phi": _p_phi(terms),
+        "pv": _pv(terms, two_stroke=chapter.shape.strokes == 2),
+        "p_phi": _p_phi(terms, two_stroke=chapter.shape.strokes == 2),
         "specific": over_phi(terms, "Удельные силы давления газов, инерции и их сумма",
                              "$p'$, МПа", "P4_1.Pg_MPa", "P4_1.Pj_MPa", "P4_1.Ps_MPa", height=80.0),
         "ns": over_phi(terms, "Удельные силы на стенку цилиндра и вдоль шатуна",
@@ -50,7 +49,8 @@ def dynamics(chapter: Chapter) -> Markup:
         pressure=_pressure_tex(terms) if polytropic else "",
         masses=masses,
         mass_notes=partial(mass_notes, chapter),
-        at=EXAMPLE,
+        rods=partial(rods_text, chapter),
+        at=chapter.example,
         exact=chapter.input.calculation.method == "exact",
         inertia=inertia,
         from_cycle=chapter.input.gas.source == "cycle",
@@ -66,7 +66,7 @@ def _is_computed(chapter: Chapter, key: str) -> bool:
 def _points(terms: Terms) -> TableBlock:
     names = (
         "phi_c_deg", "p_start", "p_c_end", "gas_max_pressure_mpa", "cyc_p_z",
-        "phi_open_deg", "p_open", "phi_close_deg",
+        "phi_open_deg", "p_open", "phi_scavenge_deg", "phi_close_deg",
     )  # fmt: skip
     return scalar_table(terms, [name for name in names if terms.has(name)])
 
@@ -86,24 +86,29 @@ def _pressure_tex(terms: Terms) -> str:
     return r" \\ ".join(lines)
 
 
-def _marks(terms: Terms, x: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> tuple[Mark, ...]:
+def _marks(
+    terms: Terms, x: np.ndarray[tuple[int, ...], np.dtype[np.float64]], *, two_stroke: bool
+) -> tuple[Mark, ...]:
     """Points of the cycle that lie on the grid: a, z, b, r."""
     p = terms.column("gas.p_MPa")
     angles = np.asarray(phi(terms, "gas"))
-    rows = {"$a$": terms.row("gas", 180.0), "$z$": int(np.argmax(p)), "$r$": 0}
+    start = terms.value("phi_close_deg") if two_stroke and terms.has("phi_close_deg") else 180.0
+    rows = {"$a$": terms.row("gas", start), "$z$": int(np.argmax(p))}
+    if not two_stroke:
+        rows["$r$"] = 0
     if terms.has("phi_open_deg"):
         opening = terms.value("phi_open_deg")
         rows["$b$"] = int(np.flatnonzero(angles <= opening + 1e-9)[-1])
     return tuple(Mark(name, float(x[row]), float(p[row])) for name, row in rows.items())
 
 
-def _pv(terms: Terms) -> Figure:
+def _pv(terms: Terms, *, two_stroke: bool) -> Figure:
     volume = terms.column("gas.volume_dm3")
     draw = partial(
         pv_diagram,
         volume,
         terms.column("gas.p_MPa"),
-        marks=_marks(terms, volume),
+        marks=_marks(terms, volume, two_stroke=two_stroke),
         volume_label="$V$, дм³",
         pressure_label=rf"${terms.tex('gas.p_MPa')}$, МПа",
         ambient=terms.value("gas_ambient_pressure_mpa"),
@@ -112,7 +117,7 @@ def _pv(terms: Terms) -> Figure:
     return Figure(draw, "Индикаторная диаграмма в координатах p–V")
 
 
-def _p_phi(terms: Terms) -> Figure:
+def _p_phi(terms: Terms, *, two_stroke: bool) -> Figure:
     angles = np.asarray(phi(terms, "gas"))
     draw = partial(
         line_chart,
@@ -122,6 +127,6 @@ def _p_phi(terms: Terms) -> Figure:
         rf"${terms.tex('gas.p_MPa')}$, МПа",
         height=72.0,
         levels=(Level("$p_0$", terms.value("gas_ambient_pressure_mpa")),),
-        marks=_marks(terms, angles),
+        marks=_marks(terms, angles, two_stroke=two_stroke),
     )
     return Figure(draw, "Индикаторная диаграмма, развёрнутая по углу поворота вала")

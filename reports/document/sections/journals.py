@@ -17,16 +17,16 @@ from reports.document.terms import Terms
 from reports.document.writer import Figure, TablePlan
 from reports.tables.spec import Grid
 
-EXAMPLE = 390.0
-_FORCES = ("C1", "C2", "C3", "C4", "C6", "C7", "C8", "C9", "C10", "C11", "C12", "C13", "C14", "C15")
-_REACTIONS = ("length", "share", "RKCL", "RTCL", "RKCP", "RTCP")
+_FORCES = ("C1", "C2", "C3", "C4", "C5", "C6", "C7", "C8", "C9", "C10", "C11", "C12", "C13",
+           "C14", "C15", "C4x", "C5x")  # fmt: skip
+_REACTIONS = ("length", "share", "share2", "RKCL", "RTCL", "RKCP", "RTCP")
 _SUM_COLUMNS = 7  # journals in one table of sums
 
 
 def journals(chapter: Chapter) -> Markup:
     """Reactions of the bearings on every main journal."""
     terms, rays = chapter.terms, chapter.input.calculation.wear_rays
-    throws = chapter.input.engine.cylinders
+    throws = chapter.shape.throws
     numbers = list(range(1, throws + 2))
     k = worst(terms, "worst_main_load")
     neighbours = [("a", k - 1, "правой"), ("b", k, "левой")]
@@ -56,7 +56,7 @@ def journals(chapter: Chapter) -> Markup:
         worst=k,
         sides=[(side, i, word) for side, i, word in neighbours if 1 <= i <= throws],
         forced=chapter.input.crankshaft.force_offsets_deg is not None,
-        at=EXAMPLE,
+        at=chapter.example,
     )
 
 

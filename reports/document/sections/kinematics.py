@@ -9,6 +9,7 @@ from markupsafe import Markup
 from reports.document.figures import Panel, mechanism_sketch, twin_chart
 from reports.document.numbers import fixed
 from reports.document.sections.chapter import Chapter
+from reports.document.sections.layout import articulated_text, offset_kinematics
 from reports.document.sections.plots import PHI, over_phi, phi, series
 from reports.document.terms import Terms
 from reports.document.writer import Figure
@@ -18,6 +19,8 @@ EXAMPLE = 30.0  # crank angle of the worked lines [deg]; every grid has it
 
 def kinematics(chapter: Chapter) -> Markup:
     """Kinematics of piston and rod."""
+    if chapter.shape.offset:
+        return offset_kinematics(chapter, EXAMPLE) + articulated_text(chapter)
     terms = chapter.terms
     lam = min(max(terms.value("lam"), 0.1), 0.6)
     half = terms.value("P3_1.s_mm", 90.0) / (1000 * terms.value("S_stroke"))
@@ -37,7 +40,8 @@ def kinematics(chapter: Chapter) -> Markup:
                          height=58.0),
         "rod": _rod(terms),
     }  # fmt: skip
-    return chapter.page("kinematics.html.j2", figures=figures, at=EXAMPLE, half=fixed(half, 3))
+    page = chapter.page("kinematics.html.j2", figures=figures, at=EXAMPLE, half=fixed(half, 3))
+    return page + articulated_text(chapter)
 
 
 def _rod(terms: Terms) -> Figure:

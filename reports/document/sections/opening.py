@@ -9,6 +9,7 @@ from markupsafe import Markup
 
 from reports.document.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.sections.chapter import Chapter
+from reports.document.sections.layout import scheme_text
 from reports.document.spec_tables import list_block, unit_cell
 from reports.document.symbols import inline_html
 from reports.document.terms import input_text, plain_number
@@ -17,6 +18,7 @@ from reports.formula.tex import input_symbol_tex
 from reports.inputs.fields import Field
 from reports.inputs.model import InputFile, TableGasSection
 from reports.tables.diagram import is_smooth
+from reports.tables.shape import Shape
 
 _LISTS = ("firing_offset_", "throw_angle_", "force_offset_", "web_", "gas_point_")
 _ARMS = ("l1", "l2", "l3", "l4", "l5", "l6", "left_web", "right_web")
@@ -48,6 +50,7 @@ def input_data(chapter: Chapter) -> Markup:
     return chapter.page(
         "inputs.html.j2",
         plans=plans,
+        scheme=partial(scheme_text, chapter),
         by_points=isinstance(model.gas, TableGasSection),
         smooth=is_smooth(model),
     )
@@ -77,17 +80,23 @@ def _named(fields: Sequence[Field], pattern: str, count: int) -> Iterator[str]:
 
 
 def _phases(fields: Sequence[Field], model: InputFile) -> TableBlock:
-    count = model.engine.cylinders
+    shape = Shape.of(model)
+    count, numbers = shape.cylinders, range(1, shape.cylinders + 1)
+    angles = list(_named(fields, "throw_angle_{}_deg", shape.throws))
     columns = [
-        Column("Цилиндр и колено"),
+        Column("Цилиндр" if shape.banks else "Цилиндр и колено"),
         Column(symbol_head(r"\theta_i", "°")),
         Column(symbol_head(r"\gamma_i", "°")),
     ]
     cells = [
-        [str(i) for i in range(1, count + 1)],
+        [str(i) for i in numbers],
         list(_named(fields, "firing_offset_{}_deg", count)),
-        list(_named(fields, "throw_angle_{}_deg", count)),
+        [angles[shape.throw_of(i) - 1] for i in numbers],
     ]
+    if shape.banks:
+        columns[1:1] = [Column("Ряд"), Column("Колено")]
+        banks = ["правый" if shape.is_right(i) else "левый" for i in numbers]
+        cells[1:1] = [banks, [str(shape.throw_of(i)) for i in numbers]]
     if model.crankshaft.force_offsets_deg is not None:
         columns.append(Column(symbol_head(r"\theta^{*}_i", "°")))
         cells.append(list(_named(fields, "force_offset_{}_deg", count)))

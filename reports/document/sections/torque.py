@@ -45,14 +45,16 @@ def torque(chapter: Chapter) -> Markup:
 def firing_order(chapter: Chapter) -> str:
     """Order in which the power strokes begin: ``1–3–4–2``."""
     offsets = chapter.input.crankshaft.firing_offsets_deg
-    order = sorted(range(len(offsets)), key=lambda i: (offsets[i] % 720, i))
+    period = chapter.shape.period
+    order = sorted(range(len(offsets)), key=lambda i: (offsets[i] % period, i))
     return "–".join(str(i + 1) for i in order)
 
 
 def _intervals(chapter: Chapter) -> str:
     """Equal interval of the power strokes in degrees, empty if they are not equal."""
-    offsets = sorted(value % 720 for value in chapter.input.crankshaft.firing_offsets_deg)
-    gaps = [b - a for a, b in zip(offsets, [*offsets[1:], offsets[0] + 720], strict=True)]
+    period = chapter.shape.period
+    offsets = sorted(value % period for value in chapter.input.crankshaft.firing_offsets_deg)
+    gaps = [b - a for a, b in zip(offsets, [*offsets[1:], offsets[0] + period], strict=True)]
     counted = Counter(round(gap, 3) for gap in gaps)
     return fixed(gaps[0], 0) if len(counted) == 1 else ""
 
@@ -64,7 +66,7 @@ def _ratio(terms: Terms) -> str:
 
 def running(chapter: Chapter) -> Markup:
     """Running-on torques on main journals and crankpins, ranges, the most loaded ones."""
-    terms, count = chapter.terms, chapter.input.engine.cylinders
+    terms, count = chapter.terms, chapter.shape.throws
     main = [f"P4_4.Mmain{k}_Nm" for k in range(2, count + 2)]
     pin = [f"P4_5.Mpin{i}_Nm" for i in range(1, count + 1)]
     main_figures = panels(

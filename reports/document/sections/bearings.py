@@ -11,7 +11,6 @@ from reports.document.blocks import TableBlock
 from reports.document.figures import Series as Curve
 from reports.document.figures import line_chart, polar_path
 from reports.document.sections.chapter import Chapter
-from reports.document.sections.dynamics import EXAMPLE
 from reports.document.sections.plots import PHI, over_phi, phi
 from reports.document.spec_tables import grid_table, scalar_table
 from reports.document.terms import Terms
@@ -52,7 +51,7 @@ def bearings(chapter: Chapter) -> Markup:
         "bearings.html.j2",
         figures=figures,
         worst=worst,
-        at=EXAMPLE,
+        at=chapter.example,
         given=chapter.input.crankshaft.oil_hole_deg is not None,
         bending=TablePlan(
             partial(scalar_table, terms, _BENDING), "Изгиб шатунной шейки", keep=True

@@ -39,8 +39,6 @@ _ALPHA = r"$\alpha$, °"
 
 def companions(chapter: Chapter) -> Markup:
     """Balance, reduced inertia and flywheel, torque orders, exact motion and its series."""
-    if not chapter.shape.basic:
-        return Markup("")  # the sources are about four-stroke in-line engines
     terms = chapter.terms
     if "balance_orders" not in terms.model.tables:  # no series: an offset or articulated rods
         return Markup("")

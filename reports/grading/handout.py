@@ -156,6 +156,9 @@ def _lock(book: Workbook, layout: Layout) -> None:
         place = layout.cells[name]
         sheet.cell(place.row, place.column).protection = Protection(locked=True)
     sheet.data_validations.dataValidation = []
+    for line in book[CONTENTS_SHEET].iter_rows():  # the samples of colours
+        for cell in line:
+            cell.protection = Protection(locked=True)
     for sheet in book.worksheets:
         sheet.protection.sheet = True
         sheet.protection.formatCells = False

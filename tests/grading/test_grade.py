@@ -1,0 +1,162 @@
+"""Grading as an instructor runs it: whose file, which counts, what it is worth, the tables."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import subprocess
+import sys
+import zipfile
+from datetime import datetime
+from pathlib import Path
+
+import pytest
+
+from reports.errors import InputError
+from reports.grading.grade import Options, grade
+from reports.grading.marking import late_factor
+from reports.grading.rubric import rubric_of
+from reports.grading.submissions import collect
+from tests.grading import classroom
+from tests.grading.fill import filled_book
+
+ROOT = Path(__file__).parents[2]
+
+
+def right(number: int) -> bytes:
+    return filled_book(classroom.handout(number), classroom.assignment(number))
+
+
+def run(submitted: Path, out: Path) -> dict:
+    folder = classroom.folder()
+    secret = folder / "secret.key"
+    done = grade(folder / "issued", submitted, out, secret_file=secret, options=Options(workers=1))
+    return done.summary
+
+
+def test_moodles_zip_is_read_as_it_is(tmp_path):
+    classroom.register()
+    path = tmp_path / "assignment.zip"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("Иванов Имя_101_assignsubmission_file_/моя работа.xlsx", right(1))
+        # The file of another student under a foreign name.
+        archive.writestr("Петров Имя_102_assignsubmission_file_/x.xlsx", right(3))
+        archive.writestr("__MACOSX/junk.xlsx", b"x")
+    found = collect(path)
+    assert [item.moodle_id for item in found] == ["101", "102"]
+    summary = run(path, tmp_path / "out")
+    rows = {row["student"]: row for row in summary["rows"]}
+    assert rows["Иванов Имя"]["points"] == 100
+    assert not rows["Иванов Имя"]["manual"]
+    assert rows["Сидорова Имя"]["manual"]
+    assert "а идентификатор выдан: Сидорова Имя" in rows["Сидорова Имя"]["remark"]
+    assert any("идентификатор выдан" in text for text in summary["signals"])
+    table = list(csv.reader(io.StringIO((tmp_path / "out" / "moodle.csv").read_text("utf-8"))))
+    grades = {line[1]: line for line in table[1:]}
+    assert grades["Иванов Имя"][0] == "Participant 101"
+    assert grades["Иванов Имя"][2] == "s1@example.org"
+    assert grades["Иванов Имя"][4] == "100"
+    assert grades["Сидорова Имя"][4] == ""  # a person looks first
+
+
+def test_the_last_of_several_files_counts_and_copies_are_noticed(tmp_path):
+    classroom.register()
+    submitted = tmp_path / "submitted"
+    submitted.mkdir()
+    same = right(2)
+    for name, data, when in (
+        ("a.xlsx", right(1), 3_000), ("b.xlsx", classroom.handout(1), 1_000),
+        ("c.xlsx", same, 1_000), ("d.xlsx", same, 1_000),
+    ):  # fmt: skip
+        (submitted / name).write_bytes(data)
+        os.utime(submitted / name, (1_700_000_000 + when,) * 2)
+    summary = run(submitted, tmp_path / "out")
+    rows = {row["number"]: row for row in summary["rows"]}
+    assert rows[1]["points"] == 100
+    assert "оценён последний (a.xlsx)" in rows[1]["remark"]
+    assert rows[3]["status"] == "не сдано"
+    assert any(text.startswith("одинаковые файлы: ") for text in summary["signals"])
+
+
+def test_without_an_identifier_the_name_of_the_file_decides(tmp_path):
+    from tests.grading.forms import rewritten
+
+    ticket = classroom.book(2).ticket.encode()
+    data = rewritten(right(2), lambda name, part: part.replace(ticket, b"-"))
+    result = classroom.marks(data, "группа 1/Petrov, кр.xlsx")
+    assert result["student"] == "Петров Имя"
+    assert "идентификатора нет" in result["evidence"][0]
+    assert result["points"] == 100
+    assert classroom.marks(data, "Новая книга.xlsx")["status"] == "unmatched"
+
+
+def test_late_rules():
+    rubric = rubric_of(
+        {"late": {"deadline": datetime(2026, 12, 1, 12), "rules": [
+            {"after_hours": 0, "factor": 0.9}, {"after_hours": 24, "factor": 0.5}]}}, "r",
+    )  # fmt: skip
+    assert late_factor(rubric, datetime(2026, 12, 1, 12)) == 1
+    assert late_factor(rubric, datetime(2026, 12, 1, 12, 1)) == 0.9
+    assert late_factor(rubric, datetime(2026, 12, 3)) == 0.5
+    assert late_factor(rubric, None) == 1
+
+
+def test_wrong_places_are_refused(tmp_path):
+    classroom.register()
+    with pytest.raises(InputError, match="нет такого файла или папки"):
+        run(tmp_path / "nothing", tmp_path / "out")
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(InputError, match="нет ни одной сданной работы"):
+        run(tmp_path / "empty", tmp_path / "out")
+    (tmp_path / "empty" / "a.xlsx").write_bytes(b"a")
+    with pytest.raises(InputError, match="результаты легли бы"):
+        run(tmp_path / "empty", tmp_path / "empty" / "out")
+    with pytest.raises(InputError, match="секрет не читается"):
+        folder = classroom.folder()
+        grade(folder / "issued", tmp_path / "empty", tmp_path / "out",
+              secret_file=tmp_path / "no.key")  # fmt: skip
+
+
+def kshm(*arguments: object) -> subprocess.CompletedProcess[str]:
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONIOENCODING": "utf-8"}
+    return subprocess.run(
+        [sys.executable, "-m", "reports", *map(str, arguments)],
+        capture_output=True, text=True, cwd=ROOT, env=environment, check=False,
+    )  # fmt: skip
+
+
+def test_the_command_explains_a_verdict(tmp_path):
+    classroom.register()
+    file = tmp_path / "работа.xlsx"
+    wrong = {"omega": ["=regime_speed_rpm*PI()/60"]}
+    file.write_bytes(filled_book(classroom.handout(1), classroom.assignment(1), wrong))
+    folder = classroom.folder()
+    common = ("--secret", folder / "secret.key", "--explain", file)
+    done = kshm("grade", folder / "issued", *common, "П3.1!E")
+    assert done.returncode == 0, done.stderr
+    for words in ("P3_1.v1_m_s", "=r_crank*omega*SIN(RADIANS(A6))", "по его предыдущим значениям",
+                  "omega", "Вердикт: верно по вашим предыдущим значениям"):  # fmt: skip
+        assert words in done.stdout
+    done = kshm("grade", folder / "issued", *common, "omega")
+    assert "Вердикт: неверно" in done.stdout
+    assert "вдвое меньше" in done.stdout
+    done = kshm("grade", folder / "issued", *common, "П3.1!Z")
+    assert done.returncode == 2
+    assert len(done.stderr.splitlines()) == 1
+    assert "Traceback" not in done.stderr
+    done = kshm("grade", folder / "issued")
+    assert done.returncode == 2
+    assert "нужны папка выдачи" in done.stderr
+
+
+def test_a_pdf_on_demand(tmp_path):
+    classroom.register()
+    submitted = tmp_path / "submitted"
+    submitted.mkdir()
+    (submitted / "a.xlsx").write_bytes(right(1))
+    folder = classroom.folder()
+    grade(folder / "issued", submitted, tmp_path / "out", secret_file=folder / "secret.key",
+          options=Options(workers=1, pdf=True))  # fmt: skip
+    (pdf,) = (tmp_path / "out" / "pages").glob("*.pdf")
+    assert pdf.read_bytes().startswith(b"%PDF")

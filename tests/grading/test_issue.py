@@ -1,0 +1,243 @@
+"""Issuing: rosters as people make them, variants that differ, nothing given away."""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+import zipfile
+
+import pytest
+from openpyxl import load_workbook
+
+from reports.build import load_input
+from reports.errors import InputError
+from reports.grading.issue import issue
+from reports.grading.register import load_register
+from reports.grading.roster import read_roster
+from reports.grading.rubric import Rubric, load_rubric
+from reports.resources import samples_dir
+from reports.tables.values import evaluate_model
+from reports.variants import draw_variants, load_base
+from tests.grading import classroom
+
+PEOPLE = 'Фамилия;Имя;Группа\nИванов;Иван;ДВС-1\nПётр "Первый";Анна;ДВС-1\n'
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp1251"])
+@pytest.mark.parametrize("delimiter", [";", ",", "\t"])
+def test_a_roster_in_any_usual_form(tmp_path, encoding, delimiter):
+    path = tmp_path / "group.csv"
+    text = PEOPLE.replace('"Первый"', "Ёлкин").replace(";", delimiter).replace("\n", "\r\n")
+    path.write_bytes(text.encode(encoding))
+    found = read_roster(path)
+    assert [student.full for student in found] == ["Иванов Иван", "Пётр Ёлкин Анна"]
+    assert found[0].group == "ДВС-1"
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        (b"", "список пуст"),
+        ("Фамилия;Имя\n".encode(), "нет ни одного студента"),
+        ("Иванов;Иван\nПетров;Пётр\n".encode(), "нет столбца «Фамилия»"),
+        ("Фамилия;Имя\nИванов;Иван\nИванов;Иван\n".encode(), "уже есть в строке 2"),
+        ("Фамилия;Имя\n;Иван\n".encode(), "строка 2: нет фамилии"),
+        ('Фамилия;Имя\n"Иванов;Иван\n'.encode(), "не закрыта кавычка"),
+        (b"PK\x03\x04xxxx", "это книга Excel"),
+        ("Фамилия;Имя\nИванов;Иван\n".encode("utf-16"), "UTF-16"),
+        (b"\x80\x81\xff\xfa surname name\n\xf0\xf1\n", "не UTF-8 и не Windows-1251"),
+    ],
+)
+def test_a_bad_roster_is_one_clear_line(tmp_path, data, words):
+    path = tmp_path / "group.csv"
+    path.write_bytes(data)
+    with pytest.raises(InputError, match=words) as caught:
+        read_roster(path)
+    assert len(caught.value.lines()) == 1
+
+
+def base(tmp_path, ranges):
+    path = tmp_path / "base.toml"
+    text = classroom.base_text().split("[variants]")[0]
+    path.write_text(text + ranges, encoding="utf-8")
+    return path
+
+
+def test_variants_are_repeatable_and_differ(tmp_path):
+    path = base(tmp_path, '[variants]\n"geometry.bore_mm" = {min = 84, max = 92, step = 0.5}\n'
+                          '"crankshaft.webs.1.mass_kg" = {values = [0.24, 0.245]}\n')  # fmt: skip
+    loaded = load_base(path)
+    people = [f"s{i}" for i in range(20)]
+    first = draw_variants(loaded, people, 1)
+    assert len({variant.key for variant in first}) == 20
+    assert [v.drawn for v in first] == [v.drawn for v in draw_variants(loaded, people, 1)]
+    assert [v.drawn for v in first] != [v.drawn for v in draw_variants(loaded, people, 2)]
+    # A student more changes nobody else's variant.
+    assert [v.drawn for v in draw_variants(loaded, [*people, "new"], 1)][:20] == [
+        v.drawn for v in first
+    ]
+    assert (
+        first[0].raw["crankshaft"]["webs"][0]["mass_kg"]
+        == first[0].drawn["crankshaft.webs.1.mass_kg"]
+    )
+    assert all(not variant.loaded.warnings for variant in first)
+
+
+@pytest.mark.parametrize(
+    ("ranges", "words"),
+    [
+        ("", r"нет раздела \[variants\]"),
+        ("[variants]\n", "пуст"),
+        ('[variants]\n"geometry.bore" = {min = 1, max = 2, step = 1}\n', "нет такого параметра"),
+        ('[variants]\n"geometry.bore_mm" = {min = 2, max = 1, step = 1}\n', "min ≤ max"),
+        ('[variants]\n"geometry.bore_mm" = {min = 1, max = 2}\n', "неверные ключи"),
+        ('[variants]\n"geometry.bore_mm" = 5\n', "это не диапазон"),
+        ('[variants]\n"geometry.bore_mm" = {values = [88, 88]}\n', "повторы"),
+    ],
+)
+def test_bad_ranges_are_refused(tmp_path, ranges, words):
+    with pytest.raises(InputError, match=words):
+        load_base(base(tmp_path, ranges))
+
+
+def test_too_few_variants_are_refused(tmp_path):
+    path = base(tmp_path, '[variants]\n"geometry.bore_mm" = {values = [86, 88, 90]}\n')
+    with pytest.raises(InputError, match="только 3 вариантов, а студентов 4"):
+        draw_variants(load_base(path), list("abcd"), 1)
+    # A rod shorter than the crank does not pass the check.
+    path = base(tmp_path, '[variants]\n"geometry.rod_length_mm" = {values = [10, 20, 148]}\n')
+    with pytest.raises(InputError, match="хватило только на 1 из 2"):
+        draw_variants(load_base(path), list("ab"), 1)
+
+
+def test_an_issue_can_be_repeated_and_every_variant_passes_the_check(tmp_path):
+    first = classroom.issue_class(tmp_path, 3)
+    mode = (tmp_path / "secret.key").stat().st_mode & 0o777
+    assert first.new_secret is not None
+    assert mode == 0o600
+    before = {p.name: p.read_bytes() for p in (tmp_path / "issued").rglob("*") if p.is_file()}
+    again = classroom.issue_class(tmp_path, 3)
+    after = {p.name: p.read_bytes() for p in (tmp_path / "issued").rglob("*") if p.is_file()}
+    assert again.new_secret is None
+    assert before == after
+    for book in first.register.books:
+        toml = tmp_path / "issued" / book.folder / book.file.replace(".xlsx", ".toml")
+        assert load_input(toml).warnings == ()
+    assert load_register(tmp_path / "issued") == first.register
+    assert len({book.ticket for book in first.register.books}) == 3
+
+
+def test_the_secret_may_not_go_out_with_the_books(tmp_path):
+    classroom.issue_class(tmp_path, 1)
+    with pytest.raises(InputError, match="не должен лежать в папке выдачи"):
+        issue(tmp_path / "base.toml", tmp_path / "group.csv", tmp_path / "out", seed=1,
+              secret_file=tmp_path / "out" / "secret.key")  # fmt: skip
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "thesis.doc").write_bytes(b"x")
+    with pytest.raises(InputError, match="чужие файлы"):
+        issue(tmp_path / "base.toml", tmp_path / "group.csv", tmp_path / "mine", seed=1,
+              secret_file=tmp_path / "secret.key")  # fmt: skip
+    assert (tmp_path / "mine" / "thesis.doc").exists()
+
+
+def test_a_changed_register_is_refused(tmp_path):
+    done = classroom.issue_class(tmp_path, 2)
+    path = tmp_path / "issued" / "register.json"
+    data = json.loads(path.read_text(encoding="utf-8"))
+    data["books"][0]["raw"]["geometry"]["bore_mm"] = 99.0
+    path.write_text(json.dumps(data), encoding="utf-8")
+    secret = bytes.fromhex((tmp_path / "secret.key").read_text())
+    done.register.check(secret, path)
+    with pytest.raises(InputError, match="не соответствует секрету"):
+        load_register(tmp_path / "issued").check(secret, path)
+
+
+def test_a_handout_gives_nothing_away():
+    book = load_workbook(io.BytesIO(classroom.handout()))
+    assignment = classroom.assignment()
+    values = evaluate_model(assignment.model)
+    secret = {
+        round(float(value), 6)
+        for node in assignment.fill_nodes
+        for value in (
+            values.columns[node.split(".")[0]][node.split(".")[1]] if "." in node
+            else [values.scalars[node]]
+        )
+        if not isinstance(value, str) and abs(value) > 1e-3 and round(float(value), 3) != value
+    }  # fmt: skip
+    given = {
+        round(float(cell.value), 6)
+        for sheet in book.worksheets
+        for line in sheet.iter_rows()
+        for cell in line
+        if isinstance(cell.value, (int, float))
+    }
+    allowed = {
+        round(float(v), 6)
+        for node in assignment.given_nodes
+        for v in (
+            values.columns[node.split(".")[0]][node.split(".")[1]] if "." in node
+            else [values.scalars[node]]
+        )
+        if not isinstance(v, str)
+    }  # fmt: skip
+    inputs = {
+        round(float(f.value), 6)
+        for f in assignment.model.inputs
+        if isinstance(f.value, (int, float))
+    }
+    assert not (secret - allowed - inputs) & given
+    for sheet in book.worksheets:
+        assert sheet.protection.sheet, sheet.title
+        for line in sheet.iter_rows():
+            for cell in line:
+                assert not (isinstance(cell.value, str) and cell.value.startswith("=")), cell
+                if not cell.protection.locked:
+                    assert cell.value is None, (sheet.title, cell.coordinate)
+    with zipfile.ZipFile(io.BytesIO(classroom.handout())) as archive:
+        for name in archive.namelist():
+            if name.startswith("xl/charts/"):
+                shown = re.findall(rb"<yVal>.*?</yVal>", archive.read(name), re.S)
+                assert shown
+                for curve in shown:  # only what is given may be drawn
+                    assert b"<v>" not in curve or "Газы".encode() in curve
+
+
+def test_the_sample_of_a_class_can_be_issued(tmp_path):
+    folder = samples_dir() / "class"
+    loaded = load_base(folder / "base.toml")
+    people = [student.id for student in read_roster(folder / "group.csv")]
+    assert len(draw_variants(loaded, people, 1)) == 5
+    rubric = load_rubric(folder / "rubric.toml")
+    # The sample shows the defaults; only the examples of points, times and limits differ.
+    plain = rubric.model_copy(
+        update={"points": {}, "late": Rubric().late, "tolerance": Rubric().tolerance,
+                "work": rubric.work.model_copy(update={"title": ""})}
+    )  # fmt: skip
+    assert plain == Rubric()
+    assert rubric.tolerance.units == Rubric().tolerance.units
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("[credit]\ncarried = 2\n", "credit.carried: недопустимое значение 2; нужно число от 0"),
+        ("[credit]\ncaried = 1\n", "credit.caried: неизвестный ключ; возможно, .* carried"),
+        ("[feedback]\nmode = 'all'\n", "hints"),
+        ("x = [", "rubric.toml"),
+        ("[late]\ndeadline = 'завтра'\n", "late.deadline"),
+    ],
+)
+def test_a_bad_rubric_is_refused(tmp_path, text, words):
+    path = tmp_path / "rubric.toml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=words):
+        load_rubric(path)
+
+
+def test_a_rubric_that_does_not_fit_the_engine_is_refused(tmp_path):
+    with pytest.raises(InputError, match="нет таблицы P9_9"):
+        classroom.issue_class(tmp_path, 1, '[work]\nfill = ["P9_9"]\n')
+    with pytest.raises(InputError, match=r"нет заполняемой таблицы или столбца P3_1\.x"):
+        classroom.issue_class(tmp_path, 1, '[points]\n"P3_1.x" = 2\n')

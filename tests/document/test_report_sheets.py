@@ -211,3 +211,15 @@ def test_hostile_report_data_reads_nothing_and_asks_nobody(listener, tmp_path):
     assert "{{ 7*7 }}" in pages[0] and "<img" in pages[0]
     html = report_html(t.model, t.values, source=source)
     assert "<img" not in html and "<link" not in html
+
+
+def test_outline_language_and_metadata_are_in_the_file(framed):
+    data = unpacked(framed[0].pdf)
+    assert b"/Lang (ru)" in data
+    titles = [bytes.fromhex(hex_[4:].decode()).decode("utf-16-be")
+              for hex_ in re.findall(rb"/Title\s*<(feff[0-9a-f]+)>", data)]  # fmt: skip
+    for title in ("Введение", "Заключение", "Библиографический список"):
+        assert title in titles
+    assert len([t for t in titles if re.match(r"\d+(\.\d+)*\s", t)]) > 15
+    info = poppler("pdfinfo", str(framed[2] / "text.pdf"))
+    assert re.search(r"Author:\s+Иванов И\. И\.", info) and "Creator:         kshm" in info

@@ -42,6 +42,24 @@ _COMMENTED: dict[str, tuple[type[Strictly], tuple[str, ...]]] = {
     "reference": (ReferenceSection, _REFERENCE_HINT),
 }
 
+# Other ways to give a section's data, told above it.
+_MORE: dict[str, tuple[str, ...]] = {
+    "gas": (
+        'source = "rounded" — скругленная диаграмма рисунка 22 (kind = "petrol" или "diesel");',
+        'source = "table" — точки points, interpolation = "linear" или "monotone";',
+        'source = "file" — текстовая таблица рядом с этим файлом (CSV или результаты',
+        'DIESEL-RK, сохраненные как текст): file = "diagram.csv", pressure_unit = "bar",',
+        "angle_column и pressure_column — номер или заголовок столбца, firing_tdc_deg — угол",
+        "ВМТ сгорания в таблице.",
+        "Другие режимы того же двигателя — разделы [[regimes]] с [regimes.gas]: см. образец",
+        "gots-regimes.",
+    ),
+    "masses": (
+        "Шатун: rod_centre_mm, или rod_small_end_share, или взвешивание",
+        "rod_weighed_small_end_kg, или качания; чего нет — оценит estimate_fuel по таблице 4.",
+    ),
+}
+
 
 def list_samples() -> tuple[str, ...]:
     """Return the names of the samples, sorted."""
@@ -96,6 +114,8 @@ def _explained() -> str:
             continue
         document.add(tomlkit.nl())
         document.add(tomlkit.comment(title))
+        for line in _MORE.get(name, ()):
+            document.add(tomlkit.comment(line))
         document.add(name, _table(models[name], values.get(name, {})))
     return tomlkit.dumps(document)
 

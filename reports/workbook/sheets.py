@@ -124,7 +124,8 @@ class Writer:
         if first > VALUE_COLUMN - 1:
             sheet.cell(place.row, place.column + 1, "Обозначение").style = styles.HEADER
         for offset, label in enumerate(block.labels):
-            sheet.cell(place.row, first + offset, label).style = styles.HEADER
+            # A label may be a name that a person gave: never a formula.
+            styles.as_text(sheet.cell(place.row, first + offset, label)).style = styles.HEADER
         for offset, row in enumerate(block.rows, 1):
             at, quantity = place.row + offset, row.quantity
             wide = first > VALUE_COLUMN - 1

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import io
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from openpyxl import load_workbook
 
 from kshm import solve
 from reports.errors import InputError
@@ -164,3 +166,15 @@ def test_a_wrong_value_names_its_regime() -> None:
     first, second = caught.value.lines()
     assert first.startswith("r.toml: regimes[1].speed_rpm: значение 0 вне допустимых пределов")
     assert second.startswith("r.toml: regimes[2].gas.max_pressure_mpa: p_z = 1 МПа ниже")
+
+
+def test_a_hostile_name_of_a_regime_stays_text() -> None:
+    raw = coarse()
+    raw["regimes"][0]["name"] = "=1+1"
+    model = build_model(read(raw))
+    (result,) = Formualizer().recalculate([workbook_bytes(model)])
+    assert errors_in(result) == []
+    opened = load_workbook(io.BytesIO(workbook_bytes(model)))
+    cells = [c for row in opened["Режимы"].iter_rows() for c in row if c.value == "=1+1"]
+    assert cells
+    assert all(cell.data_type == "s" for cell in cells)

@@ -117,9 +117,10 @@ def _about(student: Student, item: Item, judgement: Judgement, causes: Causes) -
         for run in student.runs(node)[:_SHOWN]:
             text = render(run.pattern, run.first, run.column) if run.pattern else "=" + run.text
             yield f"Формула студента, строки {run.first}–{run.last}: {text[:300]}"
-    names = ", ".join(sorted(judgement.precedents)) or "ни на одну величину книги"
+    found = frozenset().union(*(student.precedents(node) for node in item.nodes))
+    names = ", ".join(sorted(found)) or "ни на одну величину книги"
     yield f"Ссылается на: {names}"
-    for name in sorted(judgement.precedents):
+    for name in sorted(found):
         answer = student.answers.get(name)
         if answer is not None:
             right = np.ravel(np.asarray(student.expected.value(name), dtype=object))

@@ -279,13 +279,8 @@ def altered(student: Student, original: Grid | None) -> list[str]:
     for place in columns.values():
         column = grid.column(place.sheet, place.column)
         for run in column.runs:
-            cached = column.cached
-            claims = np.array(
-                [
-                    claim if isinstance(claim, float) else math.nan
-                    for claim in map(cached.get, range(run.first, run.last + 1))
-                ]
-            )
+            cached = [column.cached.get(row) for row in range(run.first, run.last + 1)]
+            claims = _claims(cached)
             if np.isnan(claims).all():
                 continue
             try:
@@ -302,6 +297,13 @@ def altered(student: Student, original: Grid | None) -> list[str]:
                 now, was = values[index], claims[index]
                 found.append(f"{place.sheet}!{where}: сохранено {was:g}, формула даёт {now:g}")
     return found
+
+
+def _claims(cached: list[Any]) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """Saved numbers; NaN where nothing or something else was saved."""
+    if any(isinstance(claim, (str, bool)) for claim in cached):
+        cached = [claim if isinstance(claim, float) else None for claim in cached]
+    return np.array(cached, dtype=float)
 
 
 def _score(result: Result, rubric: Rubric, time: datetime | None) -> None:

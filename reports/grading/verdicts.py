@@ -100,13 +100,14 @@ def judge(item: Item, student: Student) -> Judgement:
     allowed = tolerance(item, expected, student)
     good = close(item, values, expected, allowed)
     demanded = student.assignment.formulas_demanded(item)
-    precedents = frozenset().union(*(student.precedents(node) for node in item.nodes))
-    linked = _linked(item, student, precedents)
     if good.all():
+        linked = _is_linked(item, student)
         if demanded and (typed or not linked):
             why = "" if typed else "формула состоит из одних чисел"
-            return verdict(TYPED, typed, reason=why, precedents=precedents)
-        return verdict(RIGHT, precedents=precedents)
+            return verdict(TYPED, typed, reason=why)
+        return verdict(RIGHT)
+    precedents = frozenset().union(*(student.precedents(node) for node in item.nodes))
+    linked = _is_linked(item, student)
     rows = tuple(np.flatnonzero(~good).tolist())
     own, path = None, ""
     if linked and not typed:
@@ -146,15 +147,16 @@ def _where(kinds: str, kind: str) -> tuple[int, ...]:
     return tuple(i for i, found in enumerate(kinds) if found == kind)
 
 
-def _linked(item: Item, student: Student, precedents: frozenset[str]) -> bool:
-    """Whether the formula refers to cells on which the result depends."""
+def _is_linked(item: Item, student: Student) -> bool:
+    """Whether the formulas refer to cells on which the result depends.
+
+    Other cells of the work-book do as well: there is more than one right way to a value.
+    """
     needed = student.assignment.ancestors(item)
-    if not needed:
+    if not needed or any(student.refers_to(node, needed) for node in item.nodes):
         return True
-    if precedents & needed:
-        return True
-    # Other cells of the work-book with the same meaning do as well.
-    return any(not name.startswith("report_") for name in precedents)
+    names = frozenset().union(*(student.precedents(node) for node in item.nodes))
+    return any(not name.startswith("report_") for name in names)
 
 
 def _has_wrong(student: Student, item: Item, precedents: frozenset[str] | None) -> bool:

@@ -6,19 +6,18 @@ solved book's formulas and saved by LibreOffice, as students save them.
 
 from __future__ import annotations
 
+import json
 import os
-import resource
-import shutil
 import tempfile
 import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from reports.grading.grade import Options, grade
 from reports.grading.issue import assignment_for, issue
 from reports.grading.register import Register
 from reports.recalculation.by_libreoffice import LibreOffice
 from reports.resources import samples_dir
+from tests.bench._process import Cost, kshm, run
 from tests.grading.fill import filled_book
 
 STUDENTS = 10
@@ -43,14 +42,14 @@ def rows() -> Iterator[tuple[str, str]]:
             for book in register.books
         ]
         books = LibreOffice().converted(empty)
-        few, memory_few = _graded(folder, books, FEW, workers)
-        yield f"проверка {FEW} книг, процессов {workers}, с их запуском", f"{few:.1f} с"
-        many, memory_many = _graded(folder, books, MANY, workers)
-        yield f"проверка {MANY} книг, процессов {workers}, с их запуском", f"{many:.1f} с"
-        speed = (MANY - FEW) / (many - few)
+        few, many = _graded(folder, books, FEW), _graded(folder, books, MANY)
+        for count, cost in ((FEW, few), (MANY, many)):
+            yield f"проверка {count} книг, процессов {workers}, с их запуском", str(cost)
+        # The start of the processes costs the same for any number of books.
+        speed = (MANY - FEW) / (many.wall - few.wall)
         yield "скорость проверки без запуска", f"{speed:.1f} книг/с"
-        growth = f"{memory_few:.0f} и {memory_many:.0f} МиБ"
-        yield f"наибольшая память процесса на {FEW} и {MANY} книгах", growth
+        processor = (many.cpu - few.cpu) / (MANY - FEW)
+        yield "процессорное время на книгу", f"{processor:.3f} с ({workers / processor:.1f} книг/с)"
         office = _office(books)
         yield (
             "пересчёт книги в LibreOffice без запуска",
@@ -71,19 +70,18 @@ def _issued(folder: Path) -> Register:
     ).register
 
 
-def _graded(folder: Path, books: list[bytes], count: int, workers: int) -> tuple[float, float]:
-    """Seconds for so many books, and the largest memory of any process so far [MiB]."""
+def _graded(folder: Path, books: list[bytes], count: int) -> Cost:
+    """Cost of the command for so many books; all of them are right."""
     place, out = folder / f"submitted{count}", folder / f"graded{count}"
     place.mkdir()
     for i in range(count):
         (place / f"{i:05d}.xlsx").write_bytes(books[i % len(books)])
-    started = time.perf_counter()
-    options = Options(workers=workers)
-    done = grade(folder / "issued", place, out, secret_file=folder / "key", options=options)
-    seconds = time.perf_counter() - started
-    assert done.summary["mean"] == done.summary["maximum"], done.summary["mean"]
-    shutil.rmtree(place)
-    return seconds, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
+    command = kshm("grade", str(folder / "issued"), str(place), "-o", str(out),
+                   "--secret", str(folder / "key"))  # fmt: skip
+    cost = run(command)
+    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+    assert summary["mean"] == summary["maximum"], summary["mean"]
+    return cost
 
 
 def _office(books: list[bytes]) -> float:

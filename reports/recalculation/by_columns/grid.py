@@ -9,14 +9,12 @@ import re
 import zipfile
 from dataclasses import dataclass, field
 from posixpath import join, normpath
-from xml.parsers.expat import ExpatError, ParserCreate
 
 import numpy as np
 from lxml import etree
 from numpy.typing import NDArray
 
 from reports.recalculation.by_columns.syntax import (
-    HERE,
     Token,
     UnknownFormula,
     column_number,
@@ -33,6 +31,7 @@ MAX_ROW, MAX_COLUMN, MAX_CELLS, MAX_SHEETS = 20_000, 1_000, 400_000, 200
 
 Constant = float | str | bool
 Cached = float | str | bool | None
+_PlainCell = tuple[str, str, str, str, str, str, str]  # as _PLAIN_CELL finds it
 
 _ADDRESS = re.compile(r"('(?:[^']|'')+'|[^\W\d][\w.]*)!\$?([A-Z]{1,3})\$?([0-9]{1,7})")
 
@@ -226,31 +225,37 @@ class _Sheet:
         elif found is not None and found != "":
             known.constants[row] = found
 
-    def follow(self, row: int, column: int, text: str, value: str) -> bool:
-        """Take a cell that continues the run above it; False, and nothing taken, otherwise."""
+    def follow(self, column: int, cells: list[_PlainCell], at: int) -> int:
+        """Take the cells from ``at`` on that continue the run above them; tell how many."""
         current = self.open.get(column)
         if current is None:
-            return False
+            return 0
         run, template, _ = current
         if template is None:
-            return False
-        if run.first + run.count != row or row > MAX_ROW:
-            return False
-        if isinstance(template, str):
-            if template.replace(HERE, str(row)) != text:
-                return False
-        elif filled(template, row) != text:
-            return False
-        try:
-            found = float(value) if value else None
-        except ValueError:
-            return False
-        if found is not None and not math.isfinite(found):
-            return False
-        run.count += 1
-        self.columns[column].cached[row] = found
-        self.grid.cells += 1
-        return True
+            return 0
+        row = run.first + run.count
+        values: list[float | None] = []
+        for _, digits, kind, about, formula, value, _ in cells[at:]:
+            if digits != str(row) or row > MAX_ROW or not formula:
+                break
+            if kind not in ("", "n") or "t=" in about or "si=" in about:
+                break
+            wanted = filled(template, row)
+            if formula != wanted and _plain_text(formula) != wanted:
+                break
+            try:
+                number = float(value) if value else None
+            except ValueError:
+                break
+            if number is not None and not -1e308 < number < 1e308:
+                break
+            values.append(number)
+            row += 1
+        first = run.first + run.count
+        self.columns[column].cached.update(zip(range(first, row), values, strict=True))
+        run.count += len(values)
+        self.grid.cells += len(values)
+        return len(values)
 
     def _value(self, kind: str, text: str | None) -> Cached:
         if text is None:
@@ -334,6 +339,7 @@ _PLAIN_CELL = re.compile(
 )
 _LETTER = re.compile(r"&#([1-9][0-9]{2,4});")  # from 100 up: no sign of the markup
 _ESCAPES = (("&lt;", "<"), ("&gt;", ">"), ("&quot;", '"'), ("&apos;", "'"), ("&amp;", "&"))
+_EMPTY_ROW = re.compile(rb"<row [^>]*/>")
 _ATTRIBUTE = re.compile(r'(t|si)="([^"&]*)"')
 
 
@@ -345,14 +351,9 @@ def _read_sheet(grid: Grid, title: str, data: bytes, strings: list[str]) -> None
 
 def _read_plain(sheet: _Sheet, data: bytes) -> bool:
     """Read a sheet in the usual form; False, and nothing read, where it is not."""
-    head, _, body = data.partition(b"<sheetData>")
-    body = body.partition(b"</sheetData>")[0]
-    if (
-        b"<!" in data
-        or not _is_well_formed(data)
-        or b"<?" in body
-        or f'<worksheet xmlns="{_MAIN[1:-1]}"'.encode() not in head
-    ):
+    head, _, rest = data.partition(b"<sheetData>")
+    body, _, tail = rest.partition(b"</sheetData>")
+    if b"<!" in data or b"<?" in body or not _is_whole(head, body, tail):
         return False
     try:
         text = body.decode("utf-8")
@@ -363,37 +364,41 @@ def _read_plain(sheet: _Sheet, data: bytes) -> bool:
     cells = _PLAIN_CELL.findall(text)
     if len(cells) != text.count("<c "):
         return False
-    put, number, follow = sheet.put, column_number, sheet.follow
-    for letters, digits, kind, about, formula, value, inline in cells:
-        if formula:
-            if "&" in formula:
-                formula = _plain_text(formula)  # noqa: PLW2901
-            row, column = int(digits), number(letters)
-            if "t=" not in about and "si=" not in about:
-                # By far the most cells: a formula filled down, with a number saved.
-                if (not kind or kind == "n") and follow(row, column, formula, value):
-                    continue
-                made = ("normal", formula, "")
-            else:
-                found = dict(_ATTRIBUTE.findall(about))
-                made = (found.get("t", "normal"), formula, found.get("si", ""))
-            put(row, column, kind or "n", made, _plain_text(value) or None, None)
-        elif about:
-            found = dict(_ATTRIBUTE.findall(about))
-            made = (found.get("t", "normal"), "", found.get("si", ""))
-            put(int(digits), number(letters), kind or "n", made, _plain_text(value) or None, None)
-        elif value or inline:
-            own = _plain_text(inline) or None
-            put(int(digits), number(letters), kind or "n", None, _plain_text(value) or None, own)
+    by_column: dict[str, list[_PlainCell]] = {}
+    for cell in cells:
+        by_column.setdefault(cell[0], []).append(cell)
+    for letters, found in by_column.items():
+        _read_column(sheet, column_number(letters), found)
     return True
 
 
-def _is_well_formed(data: bytes) -> bool:
-    try:
-        ParserCreate().Parse(data, True)
-    except ExpatError:
-        return False
-    return True
+def _read_column(sheet: _Sheet, column: int, cells: list[_PlainCell]) -> None:
+    """Cells of one column from the top, formulas that were filled down all at once."""
+    at = 0
+    while at < len(cells):
+        taken = sheet.follow(column, cells, at)
+        if taken:
+            at += taken
+            continue
+        _, digits, kind, about, formula, value, inline = cells[at]
+        made = None
+        if formula or about:
+            known = dict(_ATTRIBUTE.findall(about))
+            made = (known.get("t", "normal"), _plain_text(formula), known.get("si", ""))
+        if made is not None or value or inline:
+            shown, own = _plain_text(value) or None, _plain_text(inline) or None
+            sheet.put(int(digits), column, kind or "n", made, shown, own)
+        at += 1
+
+
+def _is_whole(head: bytes, body: bytes, tail: bytes) -> bool:
+    """Whether a sheet in the usual form has its end and closes its rows."""
+    closed = body.count(b"</row>") + len(_EMPTY_ROW.findall(body))
+    return (
+        f'<worksheet xmlns="{_MAIN[1:-1]}"'.encode() in head
+        and tail.rstrip().endswith(b"</worksheet>")
+        and body.count(b"<row") == closed
+    )
 
 
 def _plain_text(text: str) -> str:

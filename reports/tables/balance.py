@@ -96,8 +96,19 @@ def _order_columns(
         yield Column(f"{letter}_order_deg", phase, "направление")
         return
     right_cos, right_sin = names["cos_right"], names["sin_right"]
-    along = f"(sqrt(({cos} + {right_sin})**2 + ({sin} - {right_cos})**2)/2)"
-    against = f"(sqrt(({cos} - {right_sin})**2 + ({sin} + {right_cos})**2)/2)"
+    along, against = f"{across}_along{end}", f"{across}_against{end}"
+    yield Column(
+        along,
+        f"sqrt(({cos} + {right_sin})**2 + ({sin} - {right_cos})**2)/2",
+        "вектор по вращению",
+        helper=True,
+    )
+    yield Column(
+        against,
+        f"sqrt(({cos} - {right_sin})**2 + ({sin} + {right_cos})**2)/2",
+        "вектор против вращения",
+        helper=True,
+    )
     angle = (
         f"(deg(atan2({right_cos} - {sin}, {cos} + {right_sin}))"
         f" + deg(atan2({sin} + {right_cos}, {cos} - {right_sin})))/2"

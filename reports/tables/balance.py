@@ -91,7 +91,7 @@ def _order_columns(
     if not shape.banks:
         size = f"sqrt({cos}**2 + {sin}**2)"
         sine = f"(0 if abs({sin}) < {least} else {sin})"
-        phase = f"0 if {size} < {least} else deg(atan2({sine}, {cos}))/order"
+        phase = f"0 if {size} <= {least} else deg(atan2({sine}, {cos}))/order"
         yield Column(f"{letter}_order_{unit}", f"{unit_force}*{size}", title)
         yield Column(f"{letter}_order_deg", phase, "направление")
         return

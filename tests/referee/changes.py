@@ -18,6 +18,11 @@ from reports.layout import Layout
 from reports.tables.registry import build_model
 from reports.workbook.caches import sheet_parts
 
+# Angles that fix each other: changing one alone is refused.
+_PHASES = (
+    "firing_offset", "throw_angle", "force_offset", "crankshaft_bank_angle",
+    "crankshaft_split_pin",
+)  # fmt: skip
 MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 
 
@@ -35,7 +40,7 @@ def random_change(data: InputFile, rng: random.Random) -> tuple[Change, InputFil
         if not field.structural
         and field.path[0] != "report"
         and (field.choices is not None or isinstance(field.value, float))
-        and not field.name.startswith(("firing_offset", "throw_angle", "force_offset"))
+        and not field.name.startswith(_PHASES)
     ]
     while True:
         field = rng.choice(free)

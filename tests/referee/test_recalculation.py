@@ -10,13 +10,17 @@ import pytest
 
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
+from reports.inputs.model import InputFile
 from reports.recalculation.by_formualizer import Formualizer
 from reports.recalculation.by_libreoffice import LibreOffice
 from reports.recalculation.protocol import formula_cells
 from reports.tables.registry import build_model
+from reports.tables.spec import Model
 from reports.workbook.caches import sheet_parts
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample, sample_names
+from tests.layouts import MAKERS as LAYOUTS
+from tests.layouts import made
 from tests.referee.changes import random_change, type_into, without_charts
 from tests.referee.compare import (
     differences_from_caches,
@@ -26,15 +30,29 @@ from tests.referee.compare import (
 
 CHANGES = 20
 OTHERS = 1  # LibreOffice needs a second or more for each book
+# Samples of the other layouts, on a coarse grid: the same formulas in fewer rows.
+COARSE = {"d-260", "ecoboost-10", "two-stroke", "vw-1600", "yamz-236", "yamz-238"}
+FEW = 4
+
+
+def grid_of(name: str) -> InputFile:
+    """A sample on its own grid or on the coarse one."""
+    raw = to_mapping(sample(name))
+    if name in COARSE:
+        raw["calculation"]["step_deg"] = 30
+    return load_mapping(raw, source=name).model
 
 
 @pytest.fixture(scope="module")
 def books() -> dict[str, bytes]:
-    return {name: workbook_bytes(build_model(sample(name))) for name in sample_names()}
+    return {name: workbook_bytes(build_model(grid_of(name))) for name in sample_names()}
 
 
 def check(name: str, book: bytes, recalculated: dict) -> None:
-    model = build_model(sample(name))
+    check_model(build_model(grid_of(name)), book, recalculated)
+
+
+def check_model(model: Model, book: bytes, recalculated: dict) -> None:
     assert errors_in(recalculated) == []
     assert differences_from_caches(book, recalculated) == []
     compared, wrong = differences_from_solver(model, recalculated)
@@ -45,6 +63,21 @@ def check(name: str, book: bytes, recalculated: dict) -> None:
 @pytest.mark.parametrize("name", sample_names())
 def test_formualizer_agrees(name: str, books: dict[str, bytes]) -> None:
     check(name, books[name], Formualizer().recalculate([books[name]])[0])
+
+
+@pytest.mark.parametrize("name", LAYOUTS)
+def test_formualizer_agrees_on_every_layout(name: str) -> None:
+    model = build_model(made(name, step_deg=30))
+    book = workbook_bytes(model)
+    check_model(model, book, Formualizer().recalculate([book])[0])
+
+
+@pytest.mark.libreoffice
+def test_libreoffice_agrees_on_layouts_without_a_sample(libreoffice: LibreOffice) -> None:
+    models = [build_model(made(name, step_deg=30)) for name in ("offset_articulated", "split")]
+    own = [workbook_bytes(model) for model in models]
+    for model, book, result in zip(models, own, libreoffice.recalculate(own), strict=True):
+        check_model(model, book, result)
 
 
 @pytest.mark.libreoffice
@@ -61,16 +94,16 @@ def changed_books(name: str, count: int = CHANGES) -> list[tuple]:
     coarse = load_mapping(raw, source=name).model
     book = workbook_bytes(build_model(coarse))
     rng = random.Random(f"changes of {name}")
-    made = []
+    changes = []
     for _ in range(count):
         change, data = random_change(coarse, rng)
-        made.append((change, data, type_into(book, coarse, change)))
-    return made
+        changes.append((change, data, type_into(book, coarse, change)))
+    return changes
 
 
 @pytest.mark.parametrize("name", sample_names())
 def test_formualizer_follows_random_changes(name: str) -> None:
-    for change, data, book in changed_books(name):
+    for change, data, book in changed_books(name, FEW if name in COARSE else CHANGES):
         (result,) = Formualizer().recalculate([book])
         assert errors_in(result) == [], change
         compared, wrong = differences_from_solver(build_model(data), result)

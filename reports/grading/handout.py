@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 from openpyxl.packaging.custom import StringProperty
 from openpyxl.styles import Protection
+from openpyxl.styles.cell_style import StyleArray
 from openpyxl.workbook import Workbook
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.grading.items import Assignment
 from reports.layout import CONTENTS_SHEET, INPUT_SHEET, Cell, Layout, check_names
-from reports.tables.spec import Block, ChartSpec, Grid, Model, TableSpec
-from reports.tables.values import Values, evaluate_model
+from reports.tables.spec import Block, ChartSpec, Grid, Model, TableSpec, scalars_of
+from reports.tables.values import Evaluation, Values
 from reports.workbook import styles
 from reports.workbook.sheets import Writer
 from reports.workbook.write import assemble, saved
@@ -52,13 +55,13 @@ def cell_name(key: str) -> str:
     return f"cell_{key}"
 
 
-def handout_bytes(assignment: Assignment, ticket: str, values: Values | None = None) -> bytes:
+def handout_bytes(assignment: Assignment, ticket: str) -> bytes:
     """The work-book of one student."""
     full = assignment.model
     layout = Layout.of(full)
     check_names(layout)
     model = replace(full, blocks=assignment.blocks, charts=_charts(assignment))
-    writer = _HandoutWriter(layout, _hidden(assignment, values or evaluate_model(full)))
+    writer = _HandoutWriter(layout, _given_values(assignment))
     book = assemble(model, writer, _LEGEND)
     for block in assignment.fill:
         _open_cells(book[block.sheet], block, layout)
@@ -69,20 +72,23 @@ def handout_bytes(assignment: Assignment, ticket: str, values: Values | None = N
     return saved(book, writer.caches)
 
 
-def _hidden(assignment: Assignment, values: Values) -> Values:
-    """Values without those that the student finds."""
-    fill = assignment.fill_nodes
-    scalars: dict[str, float | str] = {
-        key: (np.nan if isinstance(value, float) else "") if key in fill else value
-        for key, value in values.scalars.items()
-    }
-    columns = {
-        table: {
-            key: np.full(len(column), np.nan) if f"{table}.{key}" in fill else column
-            for key, column in items.items()
-        }
-        for table, items in values.columns.items()
-    }
+def _given_values(assignment: Assignment) -> Values:
+    """Values that stand in the work-book; what the student finds is not even calculated."""
+    run = Evaluation(assignment.model)
+    scalars: dict[str, float | str] = {}
+    columns: dict[str, dict[str, NDArray[np.float64]]] = {}
+    for block in assignment.blocks:
+        hidden = block in assignment.fill
+        if isinstance(block, TableSpec):
+            columns[block.id] = {
+                column.key: np.full(len(block.rows), np.nan)
+                if hidden and column.expr is not None
+                else run.value(f"{block.id}.{column.key}")
+                for column in block.columns
+            }
+        else:
+            for scalar in scalars_of(block):
+                scalars[scalar.key] = np.nan if hidden else run.value(scalar.key)
     return Values(scalars, columns)
 
 
@@ -114,12 +120,17 @@ def fill_cells(block: Block, layout: Layout) -> dict[str, list[Cell]]:
 
 
 def _open_cells(sheet: Worksheet, block: Block, layout: Layout) -> None:
+    # Naming the style of every cell would take as long as everything else together.
+    looks: dict[str, StyleArray] = {}
     for cells in fill_cells(block, layout).values():
         for place in cells:
             cell = sheet.cell(place.row, place.column)
             number_format = cell.number_format
-            cell.style = styles.ANSWER
-            cell.number_format = number_format
+            if number_format not in looks:
+                cell.style = styles.ANSWER
+                cell.number_format = number_format
+                looks[number_format] = cell._style
+            cell._style = copy(looks[number_format])
 
 
 def _anchors(book: Workbook, model: Model, layout: Layout) -> None:

@@ -16,6 +16,7 @@ from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_toml
 from reports.inputs.model import InputFile
 from reports.recalculation.by_formualizer import Formualizer
+from reports.recalculation.by_libreoffice import LibreOffice
 from reports.tables.registry import build_model
 from reports.tables.values import evaluate_model
 from reports.workbook.read import load_workbook_input
@@ -265,3 +266,17 @@ def test_a_file_elsewhere_is_refused(tmp_path: Path) -> None:
 def test_values_of_the_points_stand_in_the_sheet() -> None:
     values = evaluate_model(build_model(made(PETROL, 9.5))).scalars
     assert [values[f"node_deg{n}"] for n in (1, 4, 5, 6, 9, 11)] == [0, 345, 360, 372, 540, 720]
+
+
+@pytest.mark.libreoffice
+def test_libreoffice_agrees(libreoffice: LibreOffice) -> None:
+    """MATCH and INDEX in a row and in a column mean the same to the other referee."""
+    points = points_of(made(PETROL, 9.5), 3)
+    smooth = {"source": "table", "interpolation": "monotone", "points": points}
+    models = [build_model(made(gas, step=30)) for gas in (DIESEL, smooth)]
+    books = [workbook_bytes(model) for model in models]
+    results = libreoffice.recalculate(books)
+    for model, book, result in zip(models, books, results, strict=True):
+        assert errors_in(result) == []
+        assert differences_from_caches(book, result) == []
+        assert differences_from_solver(model, result)[1] == []

@@ -12,6 +12,7 @@ from multiprocessing.connection import wait
 from pathlib import Path
 from typing import Any
 
+from reports.errors import KshmError
 from reports.grading.submissions import Submission
 from reports.grading.worker import MEMORY, serve
 
@@ -40,7 +41,7 @@ class _Worker:
         self.process = context.Process(target=serve, args=(theirs, folder, memory), daemon=True)
         self.process.start()
         theirs.close()
-        self.ready = False
+        self.ready = self.started = False
         self.task: Submission | None = None
         self.since = time.monotonic()
         self.done = 0
@@ -77,30 +78,32 @@ def grade_all(
             heard = wait([worker.connection for worker in pool], timeout=0.5)
             for worker in [item for item in pool if item.connection in heard]:
                 outcome = _listen(worker)
+                if worker.ready and worker.task is None:
+                    # The next file first: writing this result must not keep the worker waiting.
+                    if waiting and worker.done < FILES_PER_WORKER:
+                        worker.give(waiting.popleft())
+                    elif not waiting:
+                        worker.stop()
+                        pool.remove(worker)
                 if outcome is not None:
                     yield outcome
-                if worker.ready and worker.task is None and waiting:
-                    worker.give(waiting.popleft())
-                elif worker.task is None and worker.ready:
-                    worker.stop()
-                    pool.remove(worker)
             for worker in list(pool):
                 lost = _lost(worker, timeout_s)
                 if not lost and worker.done >= FILES_PER_WORKER and waiting:
                     lost = "spent"
                 if not lost:
                     continue
-                task, was_ready = worker.task, worker.ready
+                task = worker.task
                 if lost == "spent" and task is not None:
                     continue
                 worker.stop()
                 pool.remove(worker)
                 if task is not None:
                     yield Outcome(task, None, "", lost)
-                failures += not was_ready
+                failures += not worker.started
                 if failures > 3:
-                    msg = "процессы проверки не запускаются"
-                    raise RuntimeError(msg)
+                    msg = "процессы проверки не запускаются; подробности: --jobs 1 и ключ -v"
+                    raise KshmError(msg)
                 if waiting:
                     pool.append(_Worker(register_folder, memory))
     finally:
@@ -116,7 +119,7 @@ def _listen(worker: _Worker) -> Outcome | None:
         worker.process.join(timeout=1)
         return None
     if kind == "ready":
-        worker.ready = True
+        worker.ready = worker.started = True
         return None
     task = worker.task
     assert task is not None

@@ -11,6 +11,8 @@ import time
 from pathlib import Path
 
 from reports.grading.grade import Options, grade
+from reports.grading.pool import DIED, grade_all
+from reports.grading.submissions import collect
 from tests.grading import classroom
 from tests.grading.fill import filled_book
 from tests.grading.hostile import hostile_files
@@ -104,6 +106,19 @@ def test_a_worker_that_dies_or_hangs_costs_one_file(tmp_path):
     summary = run(submitted, tmp_path / "out", timeout_s=0.001)
     assert {row["status"] for row in summary["rows"]} <= {"не принято", "не сдано", "проверено"}
     assert any("слишком много времени" in " ".join(entry["why"]) for entry in summary["manual"])
+
+
+def test_files_that_exhaust_the_memory_do_not_end_the_batch(tmp_path):
+    classroom.register()
+    submissions = []
+    for index in range(6):
+        path = tmp_path / f"{index}.xlsx"
+        path.write_bytes(right_book(1) if index == 0 else (tmp_path / "0.xlsx").read_bytes())
+        submissions += collect(path)
+    tight = grade_all(submissions, classroom.folder() / "issued", workers=2, memory=2**20)
+    found = list(tight)
+    assert sorted(outcome.submission.key for outcome in found) == [f"{i}.xlsx" for i in range(6)]
+    assert all(outcome.result is None and outcome.problem == DIED for outcome in found)
 
 
 def test_the_worker_refuses_network_and_programs():

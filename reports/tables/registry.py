@@ -17,6 +17,7 @@ from reports.tables.offset import offset_tables
 from reports.tables.regimes import regime_models
 from reports.tables.rename import substituted
 from reports.tables.rod_masses import mass_blocks, stand_ins
+from reports.tables.scheme import scheme_blocks, scheme_charts
 from reports.tables.shape import Shape
 from reports.tables.spec import Block, ChartSpec, Model
 from reports.tables.summary import summary_blocks
@@ -35,6 +36,7 @@ def build_model(model: InputFile) -> Model:
     blocks, shown = chain(model)
     further = regime_models(model, chain)
     blocks = (
+        *scheme_blocks(Shape.of(model)),
         *process_blocks(model),
         *result_blocks(model),
         *speed_blocks(model),
@@ -48,6 +50,7 @@ def build_model(model: InputFile) -> Model:
         tuple(iter_fields(model)),
         blocks,
         (
+            *scheme_charts(),
             *cycle_charts(model),
             *shown,
             *comparison_charts(model),

@@ -21,11 +21,17 @@ def test_samples():
         "cycle-turbo-diesel",
         "cycle-turbo-petrol",
         "d-240",
+        "d-260",
+        "ecoboost-10",
         "gots-appendix1",
         "gots-diesel",
         "gots-p3",
         "gots-p43",
         "gots-regimes",
+        "two-stroke",
+        "vw-1600",
+        "yamz-236",
+        "yamz-238",
     )
 
 

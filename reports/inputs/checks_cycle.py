@@ -27,6 +27,10 @@ def check_cycle(values: Values) -> Iterator[Finding]:
     if values.get("regime", "fullness") not in (None, 1.0):
         what = "полнота диаграммы при расчете цикла задается в cycle.fullness"
         yield Finding(("regime", "fullness"), what, "уберите ключ")
+    for key in ("crank_offset_mm", "pin_offset_mm"):
+        if values.get("geometry", key):
+            what = "расчет цикла ведется для центрального механизма"
+            yield Finding(("geometry", key), what, "уберите ключ или задайте давления газов сами")
     yield from _engine(values)
     yield from _groups(values)
 

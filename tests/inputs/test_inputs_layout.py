@@ -6,8 +6,11 @@ import math
 
 import pytest
 
+from reports.errors import InputError
 from reports.inputs.convert import to_engine
+from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
+from tests.conftest import sample
 from tests.layouts import MAKERS, in_line_four, v_six
 
 
@@ -204,3 +207,13 @@ def test_unusual_offset_is_a_warning(raw):
     raw["geometry"]["crank_offset_mm"] = 20.0
     (warning,) = load_mapping(raw, source="f.toml").warnings
     assert "k = e/r = 0.4255 необычно" in warning.line()
+
+
+def test_a_cycle_knows_no_offset():
+    raw = to_mapping(sample("cycle-tractor-diesel"))
+    with_sizes = {"bore_mm": 110.0, "stroke_mm": 125.0, "crank_offset_mm": 5.0}
+    raw["geometry"] |= with_sizes
+    for key in ("power_kw", "stroke_bore", "size_step_mm", "rounding"):
+        raw["cycle"].pop(key, None)
+    with pytest.raises(InputError, match="расчет цикла ведется для центрального механизма"):
+        loaded(raw)

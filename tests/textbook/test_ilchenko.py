@@ -17,6 +17,7 @@ import pytest
 from hypothesis import given, settings
 
 from kshm import dimensionless, reduced_inertia, rod_model, solve, speed_fluctuation
+from kshm.balance import is_balanced_by_orders
 from kshm.engine import Engine
 from kshm.reduced_inertia import Parts
 from tests.conftest import sample_names
@@ -110,6 +111,8 @@ def test_x_l_from_the_other_end_would_err_far_more() -> None:
 def test_approximation_19_on_the_samples() -> None:
     """The energies are squares, but the throw's part is exact: (19) errs less than (11)."""
     for name in sample_names():
+        if not is_balanced_by_orders(solution(name).engine):
+            continue  # an offset: the paper's mechanism is central
         scalars = solution(name).scalars
         assert 0 < scalars["I_error_max"] <= 5.7
         assert 0 < scalars["delta_I"] < 1

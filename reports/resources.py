@@ -1,4 +1,4 @@
-"""Where templates and samples lie: in the installed bundle, else in the checkout."""
+"""Where templates, samples and printed numbers lie: in the bundle, else in the checkout."""
 
 from __future__ import annotations
 
@@ -30,3 +30,8 @@ def templates_dir() -> Path:
 def samples_dir() -> Path:
     """Return the folder of sample input files."""
     return resource_dir("samples")
+
+
+def validation_dir() -> Path:
+    """Return the folder of printed numbers; it lies inside the package itself."""
+    return _PACKAGE / "validation" / "data"

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from kshm import kinematics
+from tests.textbook.book import beyond, checks, ours, recorded
 
 R = np.array(0.05)
 QUARTER = np.array(0.25)
@@ -17,10 +18,11 @@ def displacement(phi_deg: float, lam: float) -> float:
     return float(first + second)
 
 
-def test_at_90_degrees_the_piston_has_gone_nine_eighths_of_r() -> None:
-    """λ = 1/4: s = 9/8·r ≈ 0,56·S."""
-    assert displacement(90, 0.25) / 0.05 == pytest.approx(9 / 8, rel=1e-12)
-    assert round(displacement(90, 0.25) / 0.1, 2) == 0.56
+def test_numbers_of_the_text() -> None:
+    """s = 9/8·r ≈ 0,56·S, 77° by (5), φ + β = 90° at 75°58′, 1,57 of the mean speed."""
+    assert len(checks("text_1_2")) == 5
+    assert beyond("text_1_2") == recorded("text_1_2") == set()
+    assert {check.cell.units for check in checks("text_1_2").values()} == {0.5}
 
 
 @pytest.mark.parametrize("lam", [1 / 3.2, 0.25, 1 / 4.2])
@@ -30,19 +32,9 @@ def test_the_first_quarter_is_longer_by_half_lambda_r(lam: float) -> None:
     assert half - (whole - half) == pytest.approx(0.05 * lam, rel=1e-12)
 
 
-def test_greatest_speed_at_77_degrees_and_rod_square_to_crank_at_75_58() -> None:
-    """λ = 1/4: 77° by (5), while φ + β = 90° at 75°58′."""
-    fastest = float(np.degrees(kinematics.max_velocity_angle(QUARTER)))
-    assert round(fastest) == 77
-    square = np.degrees(np.arctan(1 / 0.25))
-    assert divmod(round(square * 60), 60) == (75, 58)
-    beta = kinematics.rod_angle(np.radians(square), QUARTER)
-    assert square + np.degrees(beta) == pytest.approx(90, abs=1e-9)
-
-
-def test_first_order_speed_is_1_57_of_the_mean() -> None:
-    first = float(kinematics.velocity_orders(np.array(np.pi / 2), R, QUARTER, OMEGA)[0])
-    assert round(first / float(kinematics.mean_velocity(R, OMEGA)), 2) == 1.57
+def test_the_rod_is_square_to_the_crank_where_tan_phi_is_one_over_lambda() -> None:
+    square = ours("text_1_2", "phi_square") / 60
+    assert square == pytest.approx(np.degrees(np.arctan(4)), abs=1e-6)
 
 
 @pytest.mark.parametrize("lam", [0.26, 1 / 3.2, 0.4])

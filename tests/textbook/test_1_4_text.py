@@ -7,6 +7,7 @@ import pytest
 
 from kshm import kinematics
 from kshm.engine import Geometry
+from tests.textbook.book import beyond, checks, recorded
 
 THIRD, FIFTH = np.array(1 / 3), np.array(0.2)
 
@@ -15,16 +16,16 @@ R, LAM, K = np.array(0.055), np.array(0.25), np.array(0.2)
 OMEGA = np.array(3600 * np.pi / 30)
 
 
-def test_sines_of_the_dead_centre_angles() -> None:
-    """λ = 1/3, k = 0.2: sin φ_1 = 0.05, sin φ_2 = 0.1 (without its sign)."""
-    tdc, bdc = kinematics.dead_centres(THIRD, FIFTH)
-    assert np.sin(tdc) == pytest.approx(0.05, abs=1e-12)
-    assert np.sin(bdc) == pytest.approx(-0.1, abs=1e-12)
+def test_numbers_of_the_text_but_for_the_dead_centre_angles() -> None:
+    """λ = 1/3, k = 0.2: the sines, S = 2,005 r; the angles are misprinted."""
+    assert len(checks("text_1_4")) == 6
+    assert beyond("text_1_4") == recorded("text_1_4") == {("phi_1", ""), ("phi_2", "")}
 
 
 def test_dead_centre_angles_are_misprinted() -> None:
     """Printed 1°50' and 5°50'; arcsin 0.05 and arcsin 0.1 are 2°52' and 5°44'."""
     tdc, bdc = (float(np.degrees(angle)) for angle in kinematics.dead_centres(THIRD, FIFTH))
+    assert np.sin(np.radians(bdc)) == pytest.approx(-0.1, abs=1e-12)  # without its sign in print
     assert tdc == pytest.approx(2 + 52 / 60, abs=0.5 / 60)
     assert bdc - 180 == pytest.approx(5 + 44 / 60, abs=0.5 / 60)
 
@@ -32,12 +33,6 @@ def test_dead_centre_angles_are_misprinted() -> None:
 def test_down_stroke_takes_more_than_half_a_turn() -> None:
     tdc, bdc = kinematics.dead_centres(THIRD, FIFTH)
     assert np.degrees(bdc - tdc) == pytest.approx(182.87, abs=0.005)
-
-
-def test_stroke_is_printed_as_2005_r() -> None:
-    geometry = Geometry(0.08, 0.05, 0.15, 10.0, crank_offset=0.01)
-    assert round(geometry.stroke / geometry.crank_radius, 3) == 2.005
-    assert geometry.stroke / 0.1 - 1 < 0.01
 
 
 def test_extreme_rod_angles_lie_at_90_and_270_degrees() -> None:

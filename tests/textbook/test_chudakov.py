@@ -17,7 +17,7 @@ from hypothesis import given, settings
 from kshm import balance, harmonics, solve, torque_harmonics
 from kshm.engine import Engine
 from tests.kshm.engines import basic_engines
-from tests.textbook.book import solution
+from tests.textbook.book import beyond, checks, recorded, solution
 
 PHI = np.arange(0, 721) * np.pi / 180
 D50 = 19.2  # kg/m: 192 gf·cm/cm²
@@ -52,6 +52,15 @@ def test_suppression_at_1630_implies_the_gas_coefficient() -> None:
     assert float(torque_harmonics.best_suppression(np.array(gas), t[helps][0])) == pytest.approx(
         0.5, abs=2e-3
     )
+
+
+def test_numbers_of_the_text() -> None:
+    """The second order, its phase and h = ψL; the rest rests on a curve that is not printed."""
+    assert len(checks("chudakov_text")) == 7
+    assert beyond("chudakov_text") == recorded("chudakov_text")
+    assert {row for row, _ in beyond("chudakov_text")} == {
+        "gamma_gas", "shaft_force", "psi_1630", "speed_helps",
+    }  # fmt: skip
 
 
 def test_table_of_the_d50() -> None:

@@ -9,30 +9,27 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from kshm import solve
-from reports.inputs.convert import to_engine
-from reports.inputs.fields import to_mapping
-from reports.inputs.load import load_mapping
-from tests.conftest import sample
+from reports.validation.gots_text import figure_6
+from tests.textbook.book import beyond, checks, recorded
 
 
 @pytest.fixture(scope="module")
 def figure() -> dict[str, np.ndarray]:
-    raw = to_mapping(sample("gots-p3"))
-    raw["reference"] = {}
-    return solve(to_engine(load_mapping(raw, source="6").model)).columns["ref_fig6"]
+    return figure_6()
 
 
 def at(figure: dict[str, np.ndarray], key: str, lam: float) -> float:
     return float(np.interp(lam, figure["lambda_value"], figure[key]))
 
 
-def test_angle_at_a_quarter_is_77_degrees(figure: dict[str, np.ndarray]) -> None:
-    assert round(at(figure, "phi_vmax_deg", 0.25)) == 77
+def test_points_of_the_text() -> None:
+    """77° and 1,57 at λ = 1/4."""
+    assert len(checks("figure_6")) == 2
+    assert beyond("figure_6") == recorded("figure_6") == set()
 
 
-def test_first_order_ratio_is_1_57_whatever_lambda(figure: dict[str, np.ndarray]) -> None:
-    assert set(np.round(figure["v1_ratio"], 2)) == {1.57}
+def test_first_order_ratio_is_the_same_whatever_lambda(figure: dict[str, np.ndarray]) -> None:
+    assert np.ptp(figure["v1_ratio"]) < 1e-12
 
 
 def test_angle_falls_and_ratio_rises_with_lambda(figure: dict[str, np.ndarray]) -> None:

@@ -10,7 +10,6 @@
 
 from __future__ import annotations
 
-import re
 from fractions import Fraction
 from math import comb
 
@@ -18,21 +17,17 @@ import numpy as np
 import pytest
 
 from kshm import dimensionless, harmonics
-from tests.textbook.book import rows_of, solution
-from tests.textbook.companions_book import beyond_a_unit, deviations, errata, minutes, number
-
-
-def multiple(ratio: float, column: str) -> float:
-    """n·p_m of table 1, 2 or 4 by the cut after sin⁸."""
-    if column == "k":
-        return harmonics.printed_coefficient(1 / ratio, 0)
-    factor, order = re.fullmatch(r"(\d*)p(\d)", column).groups()
-    return int(factor or 1) * harmonics.printed_coefficient(1 / ratio, int(order))
-
-
-def fastest(ratio: float, column: str) -> float:
-    angle, quotient = harmonics.max_velocity(np.array(1 / ratio))
-    return minutes(float(np.degrees(angle))) if column == "alpha1" else float(quotient)
+from reports.validation.companions import neiman_multiples, neiman_speeds
+from tests.textbook.book import (
+    beyond,
+    checks,
+    propagated,
+    recorded,
+    rows_of,
+    solution,
+    tolerance_of,
+)
+from tests.textbook.book import number as printed_number
 
 
 @pytest.mark.parametrize(
@@ -40,33 +35,27 @@ def fastest(ratio: float, column: str) -> float:
     [("neiman_t1", 35, 30), ("neiman_t2", 28, 20), ("neiman_t3", 14, 8), ("neiman_t4", 28, 14)],
 )
 def test_tables_within_a_unit(table: str, cells: int, good: int) -> None:
-    found = deviations(table, fastest if table == "neiman_t3" else multiple)
-    assert len(found) == cells
-    assert beyond_a_unit(found) == errata(table)
-    assert cells - len(beyond_a_unit(found)) == good
+    assert tolerance_of(table).units == 1
+    assert len(checks(table)) == cells
+    assert beyond(table) == recorded(table)
+    assert cells - len(beyond(table)) == good
 
 
 @pytest.mark.parametrize(("table", "good"), [("neiman_t2", 27), ("neiman_t4", 26)])
 def test_tables_2_and_4_are_multiples_of_the_printed_table_1(table: str, good: int) -> None:
-    first = {float(row["1/lambda"]): row for row in rows_of("neiman_t1")}
-
-    def propagated(ratio: float, column: str) -> float:
-        factor, name = re.fullmatch(r"(\d+)(p\d)", column).groups()
-        return int(factor) * float(first[ratio][name])
-
-    found = deviations(table, propagated)
     # 32.5 printed as 32 or 33: half a unit is agreement.
-    assert sum(value <= 0.5 + 1e-6 for value in found.values()) == good
+    assert sum(value <= 0.5 + 1e-6 for value in propagated(table, "neiman_t1")) == good
 
 
 def test_columns_of_the_solution_are_the_tables() -> None:
     columns = solution("gots-diesel").columns
-    for table, ours in (("neiman_t1", multiple), ("neiman_t2", multiple), ("neiman_t4", multiple)):
+    multiple, fastest = neiman_multiples(), neiman_speeds()
+    for table in ("neiman_t1", "neiman_t2", "neiman_t4"):
         for name, values in list(columns[table].items())[1:]:
-            expected = [ours(ratio, name) for ratio in columns[table]["inv_lambda"]]
+            expected = [multiple(str(ratio), name) for ratio in columns[table]["inv_lambda"]]
             assert values == pytest.approx(expected, rel=1e-12)
     packed = columns["neiman_t3"]["alpha1"]
-    expected = [fastest(ratio, "alpha1") for ratio in columns["neiman_t3"]["inv_lambda"]]
+    expected = [fastest(str(ratio), "alpha1") for ratio in columns["neiman_t3"]["inv_lambda"]]
     assert np.abs(60 * (packed // 100) + packed % 100 - expected).max() <= 0.5
 
 
@@ -95,10 +84,10 @@ def test_p6_and_p8_need_the_cut_after_sin_8() -> None:
     for column, cut, next_term in (("p6", 4, 0), ("p8", 6, 0)):
         close = dict.fromkeys((4, 5), 0)
         for row in rows_of("neiman_t1"):
-            printed, unit = number(row[column])
+            printed = printed_number(row[column])
             for terms in close:
                 ours = harmonics.coefficient(1 / float(row["1/lambda"]), int(column[1]), terms)
-                close[terms] += abs(printed - ours) <= unit * (1 + 1e-9)
+                close[terms] += abs(printed.value - ours) <= printed.unit * (1 + 1e-9)
         assert close == {4: cut, 5: next_term}
 
 
@@ -136,10 +125,9 @@ def test_the_binomial_terms_are_those_of_16_and_19() -> None:
 
 def test_percentages_of_the_text_at_1_to_34() -> None:
     """0.042 % and 0.68 % are met; 0.018 % is 0.0171 %, it comes from the wrong p₆."""
-    lam = 1 / 3.4
-    assert 100 * harmonics.printed_coefficient(lam, 4) == pytest.approx(0.042, abs=5e-4)
-    assert 1600 * harmonics.printed_coefficient(lam, 4) == pytest.approx(0.68, abs=5e-3)
-    assert 3600 * harmonics.printed_coefficient(lam, 6) == pytest.approx(0.0171, abs=5e-5)
+    assert beyond("neiman_text") == recorded("neiman_text") == {("j_order6", "")}
+    assert len(checks("neiman_text")) == 3
+    assert 3600 * harmonics.printed_coefficient(1 / 3.4, 6) == pytest.approx(0.0171, abs=5e-5)
     assert pytest.approx(0.018, abs=5e-4) == 100 * 36 * 5.01e-6
 
 

@@ -1,10 +1,9 @@
 """Table П3.1, piston of the designed diesel; book: see ``book``."""
 
-from tests.textbook.book import cells, disagreeing, errata, solution
+from tests.textbook.book import beyond, checks, recorded, tolerance_of
 
 
 def test_331_of_333_cells_agree_and_the_others_are_the_misprints() -> None:
-    found = cells("P3_1", solution("gots-p3").columns["P3_1"])
-    count, wrong = disagreeing(found, 1.5)
-    assert count == 333
-    assert wrong == errata("P3_1") == {(60.0, "s_mm"), (150.0, "j1_m_s2")}
+    assert tolerance_of("P3_1").units == 1.5
+    assert len(checks("P3_1")) == 333
+    assert beyond("P3_1") == recorded("P3_1") == {("60", "s_mm"), ("150", "j1_m_s2")}

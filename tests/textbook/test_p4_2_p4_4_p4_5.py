@@ -5,18 +5,17 @@ The program summed printed, rounded torques: half a newton metre each.
 
 import pytest
 
-from tests.textbook.book import cells, errata, rows_of, solution
+from tests.textbook.book import beyond, checks, recorded, rows_of, solution, tolerance_of
 
 
 @pytest.mark.parametrize(
     ("table", "count", "misprints"),
-    [("P4_2", 100, set()), ("P4_4", 125, set()), ("P4_5", 125, {(270.0, "Mpin2_Nm")})],
+    [("P4_2", 100, set()), ("P4_4", 125, set()), ("P4_5", 125, {("270", "Mpin2_Nm")})],
 )
 def test_within_one_newton_metre(table: str, count: int, misprints: set) -> None:
-    listed = list(cells(table, solution("gots-diesel").columns[table]))
-    wrong = {cell.name for cell in listed if abs(float(cell.printed) - cell.ours) > 1.0}
-    assert len(listed) == count
-    assert wrong == misprints == errata(table)
+    assert tolerance_of(table).absolute == 1.0
+    assert len(checks(table)) == count
+    assert beyond(table) == misprints == recorded(table)
 
 
 def test_sign_of_the_misprint() -> None:

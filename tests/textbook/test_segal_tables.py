@@ -13,12 +13,11 @@ import pytest
 
 from kshm import dimensionless as segal
 from kshm.solution import Solution
-from tests.textbook.book import solution
-from tests.textbook.companions_book import beyond_a_unit, deviations, errata, minutes
+from tests.textbook.book import beyond, checks, ours, recorded, solution, tolerance_of
 
 
 def exact_beta(row: float, column: str) -> float:
-    return minutes(np.degrees(np.arcsin(float(column) * np.sin(np.radians(row)))))
+    return float(60 * np.degrees(np.arcsin(float(column) * np.sin(np.radians(row)))))
 
 
 def exact_s(row: float, column: str) -> float:
@@ -26,17 +25,22 @@ def exact_s(row: float, column: str) -> float:
 
 
 def test_table_2_within_a_minute() -> None:
-    found = deviations("segal_t2", exact_beta)
+    found = checks("segal_t2")
+    assert tolerance_of("segal_t2").units == 1
     assert len(found) == 143
-    assert beyond_a_unit(found) == errata("segal_t2")
-    assert len(found) - len(beyond_a_unit(found)) == 135
+    for (row, column), check in found.items():
+        assert check.ours == pytest.approx(exact_beta(float(row), column), abs=1e-9)
+    assert beyond("segal_t2") == recorded("segal_t2")
+    assert beyond("segal_t2") == {
+        ("5", "0.24"), ("40", "0.16"), ("40", "0.18"), ("40", "0.303"), ("60", "0.22"),
+        ("70", "0.303"), ("80", "0.303"), ("90", "0.303"),
+    }  # fmt: skip
 
 
 def test_table_3_within_a_unit() -> None:
-    found = deviations("segal_t3", exact_s)
-    assert len(found) == 279
-    assert beyond_a_unit(found) == errata("segal_t3")
-    assert len(found) - len(beyond_a_unit(found)) == 277
+    assert tolerance_of("segal_t3").units == 1
+    assert len(checks("segal_t3")) == 279
+    assert beyond("segal_t3") == recorded("segal_t3") == {("60", "0.26"), ("70", "0.24")}
 
 
 @pytest.fixture(scope="module")
@@ -79,23 +83,13 @@ def error(name: str, degrees: float, lam: float) -> float:
     return 100 * abs(two_term(name, degrees, lam) / exact(name, degrees, lam) - 1)
 
 
-def test_example_1() -> None:
-    """λ = 0.25, s = 0.1: α = 0.4, 22.9°, cos α = 0.921, check 0.0979 (printed 0.0987), 2 %."""
-    lam = np.array(0.25)
-    alpha = float(segal.angle_small(np.array(0.1), lam))
-    assert alpha == pytest.approx(0.4, abs=1e-12)
-    assert np.degrees(alpha) == pytest.approx(22.9, abs=0.05)
-    assert np.cos(alpha) == pytest.approx(0.921, abs=5e-4)
-    check = two_term("displacement", np.degrees(alpha), 0.25)
-    assert check == pytest.approx(0.0979, abs=2e-4)
-    assert abs(check - 0.0987) > 5e-4  # the printed check gives no 2 %
-    assert 100 * (0.1 - check) / 0.1 == pytest.approx(2, abs=0.15)
-
-
-def test_errors_at_lambda_032() -> None:
-    """s 0.4 % and j 5 % at 90°."""
-    assert error("displacement", 90, 0.32) == pytest.approx(0.4, abs=0.05)
-    assert error("acceleration", 90, 0.32) == pytest.approx(5, abs=0.5)
+def test_numbers_of_the_text() -> None:
+    """Example 1 and the errors; four numbers cannot be what the formulas give."""
+    assert beyond("segal_text") == recorded("segal_text")
+    assert {row for row, _ in beyond("segal_text")} == {
+        "check", "v_error", "j_error_025", "j_change",
+    }  # fmt: skip
+    assert len(checks("segal_text")) == 12
 
 
 def test_errors_that_cannot_be_reproduced() -> None:
@@ -107,16 +101,15 @@ def test_errors_that_cannot_be_reproduced() -> None:
 
 
 def test_doubling_lambda_changes_more_than_the_text_says() -> None:
-    """ "Not more than 10 %" fails for j: 15.6 % of Rω² between λ = 0.16 and 0.303."""
-    alpha = np.radians(np.arange(0, 181))
-    changes = {
-        name: float(np.abs(getattr(segal, name)(alpha, np.array(0.303))
-                           - getattr(segal, name)(alpha, np.array(0.16))).max())
-        for name in ("displacement", "velocity", "acceleration")
-    }  # fmt: skip
-    assert changes["displacement"] < 0.10
-    assert changes["velocity"] < 0.10
-    assert changes["acceleration"] == pytest.approx(0.156, abs=0.002)
+    """ "Not more than 10 %" holds for s and v and fails for j: 15.6 % of Rω²."""
+    assert ours("segal_text", "s_change") < 10
+    assert ours("segal_text", "v_change") < 10
+    assert ours("segal_text", "j_change") == pytest.approx(15.6, abs=0.2)
+
+
+def test_the_printed_check_of_example_1_gives_no_2_percent() -> None:
+    assert ours("segal_text", "check") == pytest.approx(0.0979, abs=5e-5)
+    assert pytest.approx(1.3) == 100 * (0.1 - 0.0987) / 0.1
 
 
 def test_accelerations_of_the_summary() -> None:

@@ -348,6 +348,31 @@ def grade(
 
 
 @main.command(context_settings=_HELP)
+@_path_option("-o", "--output", "folder", default=Path(),
+              help="Папка для результатов (по умолчанию текущая).")  # fmt: skip
+@click.option(
+    "--only", type=click.Choice(["csv", "html", "pdf"]), help="Только один вид документа."
+)
+@_verbose
+def validate(folder: Path, only: str | None, verbose: bool) -> int:
+    """Пересчитать печатные таблицы пяти источников и показать, что с ними сходится."""
+    from reports.validation.write import KINDS, write
+
+    book, files, missing = write(folder, (only,) if only else KINDS)  # type: ignore[arg-type]
+    for path in files:
+        click.echo(f"{path}")
+    counts = book.counts
+    click.echo(f"чисел: {counts.total}, совпадает: {counts.agrees}")
+    if missing:
+        click.echo(missing, err=True)
+        return MISSING
+    if counts.needs_a_person:
+        click.echo("Есть отклонения без записанной причины: см. новое отклонение", err=True)
+        return LOOK
+    return DONE
+
+
+@main.command(context_settings=_HELP)
 @_verbose
 def doctor(verbose: bool) -> int:
     """Проверить, чего не хватает на этом компьютере."""

@@ -10,6 +10,8 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+from reports.errors import SystemPartMissing
+
 MIN_PYTHON = (3, 11)
 PANGO_COMMAND = "sudo apt-get install -y libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0"
 OFFICE_COMMAND = "sudo apt-get install -y libreoffice-calc-nogui python3-uno poppler-utils"
@@ -50,6 +52,16 @@ class Part:
 def check_system() -> list[Part]:
     """Return every part, present or missing, in the order to show."""
     return [_python(), _fonts(), _pango(), _office(), _uno()]
+
+
+def need_pango() -> None:
+    """Refuse a PDF where pango is not there.
+
+    Raises:
+        SystemPartMissing: pango is not on this machine.
+    """
+    if not pango_loads():
+        raise SystemPartMissing("pango", PANGO_COMMAND, purpose="нужен для PDF")
 
 
 def pango_loads() -> bool:

@@ -36,7 +36,6 @@ from reports.document.sections.chapter import Chapter
 from reports.document.sections.torque import worst
 from reports.document.terms import Terms
 from reports.document.writer import Draft, Writer
-from reports.errors import SystemPartMissing
 from reports.inputs.model import InputFile
 from reports.tables.spec import Model
 from reports.tables.values import Values
@@ -73,10 +72,9 @@ def report_pdf(model: Model, values: Values, *, source: Path, workbook: bytes) -
         RenderError: the page could not be set as the templates say.
         InputError: the folder of own templates is missing or one of them is wrong.
     """
-    from reports.doctor import PANGO_COMMAND, pango_loads
+    from reports.doctor import need_pango
 
-    if not pango_loads():
-        raise SystemPartMissing("pango", PANGO_COMMAND, purpose="нужен для PDF")
+    need_pango()
     files = [
         AttachedFile(f"исходные-данные{source.suffix}", source.read_bytes(), "Исходные данные"),
         AttachedFile(f"{source.stem}.xlsx", workbook, "Книга Excel с формулами", "Supplement"),

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from reports.errors import InputError, Problem, SystemPartMissing
+from reports.errors import InputError, Problem
 from reports.files import make_dir, write_bytes, write_text
 from reports.grading.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
 from reports.grading.issue import latin
@@ -215,11 +215,10 @@ class _Batch:
         Raises:
             SystemPartMissing: pango is not on this machine.
         """
-        from reports.doctor import PANGO_COMMAND, pango_loads
+        from reports.doctor import need_pango
         from reports.document.render import render
 
-        if not pango_loads():
-            raise SystemPartMissing("pango", PANGO_COMMAND, purpose="нужен для PDF")
+        need_pango()
         for result in self.ordered:
             page = self.folder / result["page"]
             made = render(page.read_text(encoding="utf-8"), variant=None)

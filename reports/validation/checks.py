@@ -38,7 +38,7 @@ class Tolerance:
 
     units: float | Mapping[str, float] = 0.5
     absolute: float | None = None
-    why: str = "округление печати"
+    why: str = "половина последнего знака"
 
     def of(self, cell: Cell, printed: Number) -> float:
         """Allowed distance of a cell."""

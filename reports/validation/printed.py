@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
+from kshm.cycle_names import OUTPUTS
 from reports.resources import validation_dir
 
 _MINUTES = re.compile(r"(\d+) (\d\d)")
@@ -22,19 +23,9 @@ class Number:
 
     value: float
     unit: float
+    decimals: int = 0
     minutes: bool = False
     bound: bool = False
-
-    @property
-    def decimals(self) -> int:
-        """Printed decimals."""
-        return max(0, round(-_log10(self.unit))) if self.unit < 1 else 0
-
-
-def _log10(value: float) -> float:
-    from math import log10
-
-    return log10(value)
 
 
 def number(text: str) -> Number | None:
@@ -44,10 +35,11 @@ def number(text: str) -> Number | None:
     if found := _MINUTES.fullmatch(text):
         return Number(60 * float(found[1]) + float(found[2]), 1.0, minutes=True)
     if found := _FRACTION.fullmatch(text):
-        return Number(float(found[1]) / float(found[2]), 1e-9)  # exact
+        return Number(float(found[1]) / float(found[2]), 1e-9, 3)  # exact
     if not _NUMBER.fullmatch(text):
         return None
-    return Number(float(text), 10.0 ** -len(text.partition(".")[2]), bound=bound)
+    decimals = len(text.partition(".")[2])
+    return Number(float(text), 10.0**-decimals, decimals, bound=bound)
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,9 +88,11 @@ def text_of(table: str) -> Iterator[Cell]:
 
 
 def outputs_of(table: str) -> Iterator[Cell]:
-    """Printed outputs of a program: key, value, what it is."""
+    """Printed outputs of the program: path of the number in the cycle, value."""
+    about = {quantity.key: quantity for quantity in OUTPUTS}
     for row in rows_of(table):
-        yield Cell(row["key"], "value", row["value"], row["what"].capitalize())
+        quantity = about[row["key"]]
+        yield Cell(row["key"], "value", row["value"], quantity.title, quantity.unit)
 
 
 def window_cells(table: str) -> Iterator[Cell]:

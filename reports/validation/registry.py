@@ -28,7 +28,9 @@ SHORT: dict[str, str] = {
     "chudakov": "Чудаков, Жарнов",
 }
 
-_DINN = Tolerance(1.5, why="программа считала с π = 3,14 или 0,017453 и округляла по пути")
+_DINN = Tolerance(1.5, why="1,5 единицы последнего знака: программа считала с π = 3,14 или "
+                  "0,017453 и округляла по пути")  # fmt: skip
+_PRINTED = Tolerance(1.5, why="1,5 единицы последнего знака: округлялись и слагаемые")
 _SUMMED = Tolerance(absolute=1.0, why="1 Н·м: складывались округлённые моменты")
 _BY_HAND = Tolerance(1.0, why="единица последнего знака: ручной счёт")
 _FIGURES = "формулы решателя kshm"
@@ -63,7 +65,7 @@ def _text(
 TABLES: tuple[Table, ...] = (
     *(
         Table(name, "gots", f"табл. {name.removeprefix('table_')}", title, _FIGURES,
-              partial(gots.reference, name), _DINN)
+              partial(gots.reference, name), _PRINTED)
         for name, title in _REFERENCE
     ),
     _text("text_1_2", "gots", "п. 1.2", gots_text.SECTION_1_2),
@@ -98,7 +100,9 @@ TABLES: tuple[Table, ...] = (
     Table("table_14", "gots", "табл. 14", "лучи, на которые действует сила, и суммы по лучам",
           "окна ±60° и суммы (kshm.wear) для напечатанных сил", gots.wear_windows,
           cells=window_cells,
-          notes=("Пустая клетка печати проверяется тоже: там силы быть не должно.",)),
+          notes=("Силы взяты напечатанные: проверяется, на какие лучи попадает каждая и какие "
+                 "суммы получаются. Пустая клетка печати проверяется тоже: там силы быть "
+                 "не должно.",)),
     Table("table_14_forces", "gots", "табл. 14, силы", "нагрузка на шатунную шейку",
           _DIESEL, gots.pin_forces, cells=lambda _name: force_cells("table_14"),
           notes=("Силы таблицы 14 принадлежат другому двигателю, чем приложение 1.",)),
@@ -116,7 +120,8 @@ TABLES: tuple[Table, ...] = (
           notes=("Без двух подобранных чисел с печатью совпадают 27 из 34.",)),
     Table("app2_diagram", "gots", "прил. 2, диаграмма", "индикаторная диаграмма",
           "расчёт цикла в режиме листинга", gots.cycle_diagram,
-          Tolerance({"volume_dm3": 0.505, "": 0.5}, why="округление печати; V(180°) = 0,60535"),
+          Tolerance({"volume_dm3": 0.505, "": 0.5}, why="половина последнего знака; "
+                    "V(180°) = 0,60535 округляется в обе стороны"),
           notes=("Столбец давления сведён из разных расчётов; по политропам самого листинга "
                  "посчитаны только 200, 350, 360…380, 410 и 450°.",)),
     Table("segal_t2", "segal", "табл. 2", "угол β", _FIGURES, companions.segal_angles, _BY_HAND),

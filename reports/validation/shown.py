@@ -1,0 +1,129 @@
+"""Printed and own numbers as people read them, and headings of rows and columns."""
+
+from __future__ import annotations
+
+import re
+
+from kshm.nomenclature import quantity
+from reports.document.numbers import MINUS, fixed
+from reports.validation.book import WORDS
+from reports.validation.checks import UNKNOWN, Check, Verdict
+from reports.validation.printed import Number, rows_of
+
+_ROW_HEADS = {"phi_deg": "φ, °", "alpha_deg": "α, °", "1/lambda": "1/λ"}
+_HEADS = {
+    "sign": "знак",
+    "sign_mirror": "знак при 360° − φ",
+    "piston_mm": "перемещение, мм",
+    "volume_dm3": "объём, дм³",
+    "pressure_MPa": "давление, МПа",
+    "temperature_K": "температура, К",
+    "alpha1": "α₁",
+    "ratio": "vmax/vср",
+    "k": "k",
+    "R_MPa": "R′ш.ш, МПа",
+    "value": "значение",
+}
+_LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+_MULTIPLE = re.compile(r"(\d*)p(\d)")
+_OUR_EXTRA = 1  # digits more than the book
+
+
+def printed(check: Check) -> str:
+    """The printed text with a decimal comma, a real minus and minutes of angles."""
+    text = check.cell.text
+    if check.printed is None:
+        return _plain(text) or "пусто"
+    if check.printed.minutes:
+        degrees, minutes = text.split()
+        return f"{degrees}°{minutes}′"
+    return _plain(text)
+
+
+def ours(check: Check) -> str:
+    """Our value with a digit more than the book has."""
+    if isinstance(check.ours, str):
+        return _plain(check.ours) or "пусто"
+    if check.printed is None:
+        return fixed(check.ours, 3)
+    return value(check.ours, check.printed)
+
+
+def value(number: float, like: Number) -> str:
+    """A number with a digit more than a printed one."""
+    digits = like.decimals + _OUR_EXTRA
+    if not like.minutes:
+        return fixed(number, digits, group=False)
+    tenths = round(10 * number)
+    degrees, left = divmod(tenths, 600)
+    return f"{degrees}°{left // 10:02d},{left % 10}′"
+
+
+def deviation(check: Check) -> str:
+    """Ours − book in the unit of the print."""
+    if check.deviation is None or check.printed is None:
+        return "—"
+    sign = "+" if check.deviation > 0 else ""
+    text = fixed(check.deviation, check.printed.decimals + _OUR_EXTRA, group=False)
+    text = f"{sign}{text}" if text.strip("0,") else text
+    return f"{text}′" if check.printed.minutes else text
+
+
+def tolerance(check: Check) -> str:
+    """Allowed deviation in the unit of the print."""
+    if check.tolerance is None or check.printed is None:
+        return "—"
+    if check.printed.unit < 10.0**-check.printed.decimals:
+        return "точно"
+    more = check.printed.decimals + _OUR_EXTRA
+    if round(check.tolerance, more) != round(check.tolerance, 12):
+        more += 2
+    text = fixed(check.tolerance, more, group=False)
+    return f"{text}′" if check.printed.minutes else text
+
+
+def verdict(check: Check) -> str:
+    """Verdict in words with its reason and what should stand there."""
+    word = WORDS[check.verdict]
+    return f"{word}: {check.reason}" if check.reason else word
+
+
+def row_head(check: Check) -> str:
+    """What a row is: the number in running text, the labelled row of a table."""
+    if check.cell.what:
+        unit = f", {check.cell.unit}" if check.cell.unit else ""
+        return check.cell.what + unit
+    return "сумма" if check.cell.row == "sum" else _plain(check.cell.row)
+
+
+def row_title(table: str) -> str:
+    """Heading of the first column of a table."""
+    if table == "table_14_forces":
+        table = "table_14"
+    return _ROW_HEADS.get(next(iter(rows_of(table)[0])), "")
+
+
+def column_head(column: str) -> str:
+    """Heading of a column: symbol and unit."""
+    if column in _HEADS:
+        return _HEADS[column]
+    if column.startswith("lambda_1/"):
+        return "λ = 1/" + _plain(column.removeprefix("lambda_1/"))
+    if found := _MULTIPLE.fullmatch(column):
+        return f"{found[1]}p{found[2].translate(_LOWERED)}"
+    if column.replace(".", "").isdigit():
+        return f"λ = {_plain(column)}"
+    return quantity(column).header
+
+
+def is_marked(check: Check) -> bool:
+    """Whether a cell is marked in its table."""
+    return check.verdict is not Verdict.AGREES
+
+
+def _plain(text: str) -> str:
+    if text == UNKNOWN:
+        return text
+    for dash in "-–—":
+        text = text.replace(dash, MINUS)
+    return text.replace(".", ",")

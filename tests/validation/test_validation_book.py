@@ -1,0 +1,172 @@
+"""The validation book: page, PDF, CSV, Markdown and the command."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from reports import cli
+from reports.resources import validation_dir
+from reports.validation import checks, write
+from reports.validation.book import WORDS, Book, Checked, validate
+from reports.validation.checks import Verdict, check_table
+from reports.validation.listing import HEAD, listing
+from reports.validation.markdown import markdown
+from reports.validation.page import validation_page
+from reports.validation.registry import TABLES, table
+from reports.validation.runs import solution
+from tests import browser
+from tests.document.pdftools import pages_of
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def page() -> str:
+    return validation_page(validate(), media="screen")
+
+
+def small() -> Book:
+    """A grid, numbers with minutes and running text."""
+    names = ("table_5", "neiman_t3", "text_1_4")
+    return Book(tuple(Checked(table(name), check_table(table(name))) for name in names))
+
+
+def test_counts_add_up_and_nothing_is_new() -> None:
+    book = validate()
+    counts = book.counts
+    assert counts.total == len(book.checks) == sum(counts.by_verdict.values()) > 3400
+    assert counts.by_verdict[Verdict.NEW] == 0
+    assert not counts.needs_a_person
+    assert counts.close <= counts.agrees
+    assert sum(book.counts_of(name).total for name in {t.source for t in TABLES}) == counts.total
+
+
+def test_docs_are_what_the_command_writes() -> None:
+    written = (ROOT / "docs" / "validation.md").read_text(encoding="utf-8")
+    assert written == markdown(validate()), (
+        "обновите: python -m reports.validation.markdown > docs/validation.md"
+    )
+
+
+def test_markdown_names_every_deviation_with_its_reason() -> None:
+    text = markdown(validate())
+    rows = [line for line in text.splitlines() if re.search(r"\| [^|]*: [^|]*\|$", line)]
+    deviating = [check for check in validate().checks if check.verdict is not Verdict.AGREES]
+    assert len(rows) >= len(deviating)
+    for check in deviating:
+        assert f"{WORDS[check.verdict]}: {check.reason} |" in text
+
+
+def test_every_file_of_printed_numbers_is_used() -> None:
+    used = {one.id for one in TABLES} | {"errata", "text", "app2_inputs"}
+    assert {path.stem for path in validation_dir().glob("*.csv")} <= used
+
+
+def test_csv_holds_every_number_once() -> None:
+    rows = list(csv.DictReader(io.StringIO(listing(validate()))))
+    assert tuple(rows[0]) == HEAD
+    assert len(rows) == validate().counts.total
+    assert len({(row["таблица"], row["строка"], row["столбец"]) for row in rows}) == len(rows)
+    for row in rows:
+        assert not row["в книге"].startswith(("=", "+", "@"))
+        if row["отклонение"]:
+            far = abs(float(row["отклонение"])) > float(row["допуск"]) * (1 + 1e-6)
+            assert far == (row["вердикт"] != "совпадает")
+        assert bool(row["причина"]) == (row["вердикт"] != "совпадает")
+
+
+def test_the_same_data_give_the_same_files(page: str) -> None:
+    before = listing(validate())
+    solution.cache_clear()
+    validate.cache_clear()
+    assert validation_page(validate(), media="screen") == page
+    assert listing(validate()) == before
+
+
+def test_the_page_needs_nothing_from_outside_and_says_verdicts_in_words(page: str) -> None:
+    assert not re.search(r"""(?:src|href)=["']?(?!data:|#)[^"'> ]+""", page)
+    assert not re.search(r"url\((?![\"']?data:)", page)
+    assert "<script" not in page
+    marked = re.findall(r'<span class="pair (\w+)">.*?<b>(.*?)</b></span>', page)
+    grids = [one for one in validate().tables if not one.is_text]
+    assert len(marked) == sum(len(one.deviating) for one in grids)
+    assert all(WORDS[Verdict(kind)] == word for kind, word in marked)
+    words = re.findall(r'<span class="word (\w+)">([^<]+)</span>', page)
+    assert all(WORDS[Verdict(kind)] == word for kind, word in words)
+    assert "□" not in re.sub(r"<style>.*?</style>", "", page, flags=re.S)
+
+
+@pytest.mark.parametrize("width", [390, 1280])
+def test_the_page_fits_a_phone_and_a_screen(page: str, width: int, tmp_path: Path) -> None:
+    found = browser.measure(page, width, tmp_path / "site")
+    assert found["scroll"] <= found["width"]
+    assert found["wide"] == []
+    assert "STIXGeneral" in found["fonts"]
+
+
+def test_pdf_of_a_few_tables(tmp_path: Path) -> None:
+    from reports.validation.page import validation_pdf
+
+    made = validation_pdf(small())
+    assert made.startswith(b"%PDF")
+    assert validation_pdf(small()) == made
+    text = " ".join(pages_of(made, tmp_path))
+    for word in ("Книга сверки", "опечатка", "75°10′", "2°52,0′", "0,381"):
+        assert word.casefold() in text.casefold(), word
+
+
+def run(*arguments: str) -> object:
+    return CliRunner().invoke(cli.main, ["validate", *arguments])
+
+
+def test_the_command_writes_what_is_asked(tmp_path: Path) -> None:
+    done = run("-o", str(tmp_path), "--only", "csv")
+    assert done.exit_code == 0
+    assert [path.name for path in tmp_path.iterdir()] == ["validation.csv"]
+    assert "совпадает" in done.output
+
+
+def test_everything_is_written_when_nothing_is_chosen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(write, "validate", small)
+    done = run("-o", str(tmp_path / "new"))
+    assert done.exit_code == 0
+    found = {path.name for path in (tmp_path / "new").iterdir()}
+    assert found == {"validation.csv", "validation.html", "validation.pdf"}
+
+
+def test_an_unrecorded_deviation_needs_a_person(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kept = {key: known for key, known in checks.errata().items() if key[0] != "table_5"}
+    monkeypatch.setattr(checks, "errata", lambda: kept)
+    monkeypatch.setattr(write, "validate", small)
+    done = run("-o", str(tmp_path), "--only", "html")
+    assert done.exit_code == 1
+    page = (tmp_path / "validation.html").read_text(encoding="utf-8")
+    assert '<span class="word new">новое отклонение</span>: отклонение без' in page
+
+
+def test_without_pango_the_rest_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from reports import doctor
+
+    monkeypatch.setattr(doctor, "pango_loads", lambda: False)
+    monkeypatch.setattr(write, "validate", small)
+    done = run("-o", str(tmp_path))
+    assert done.exit_code == 3
+    assert {path.name for path in tmp_path.iterdir()} == {"validation.csv", "validation.html"}
+    assert "pango" in done.stderr
+
+
+def test_a_folder_that_is_a_file_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "f").write_text("")
+    done = run("-o", str(tmp_path / "f"), "--only", "csv")
+    assert done.exit_code == 2
+    assert len(done.stderr.strip().splitlines()) == 1

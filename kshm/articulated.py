@@ -182,15 +182,15 @@ def hang(
     rods: ArticulatedArrays,
     phi: Array,
     eps: Array,
-    pressure: Callable[[Stroke], Array],
+    pressure: Callable[[Array, Stroke], Array],
     p_ambient: Array,
     omega: Array,
     area: Array,
 ) -> Hung:
     """Kinematics and forces of all articulated rods at their cylinders' angles ``phi``.
 
-    ``pressure`` gives the gas pressure for the motion of these pistons; their clearance
-    volume follows from their own stroke and the engine's compression ratio.
+    ``pressure`` gives the gas pressure for V/V_c at ``phi`` and the motion of these pistons;
+    their clearance volume follows from their own stroke and the engine's compression ratio.
     """
     link = rods.link
     tdc, bdc = dead_centres(link)
@@ -200,7 +200,8 @@ def hang(
         return volume_ratio(top - motion(angle, link).height[0], top - bottom, eps)
 
     found = motion(phi, link)
-    p = pressure(Stroke(ratio, tdc, bdc))
+    volume = volume_ratio(top - found.height[0], top - bottom, eps)
+    p = pressure(volume, Stroke(ratio, tdc, bdc))
     # The second derivative points up where the piston is thrown towards the head.
     inertia = rods.reciprocating * omega**2 * found.height[2] / area
     axial = p - p_ambient + inertia
@@ -210,7 +211,7 @@ def hang(
         stroke=top - bottom,
         tdc=tdc,
         bdc=bdc,
-        volume_ratio=ratio(phi),
+        volume_ratio=volume,
         p=p,
         p_inertia=inertia,
         N=axial * np.tan(found.beta),

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from operator import attrgetter
+from typing import Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kshm.arrangement import Arrangement, ArticulatedRod, Cylinder
 from kshm.articulated import Linkage
-from kshm.engine import Engine, PolytropicGas
+from kshm.engine import Engine, Geometry, PolytropicGas
 from kshm.gas import PolytropicArrays
-from kshm.inertia import point_masses, throw_mass
+from kshm.inertia import point_masses
 from kshm.journals import ThrowArrays
 
 Array = NDArray[np.float64]
+Part = TypeVar("Part")
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +38,7 @@ class Batch:
     exact: NDArray[np.bool_]
     k: Array  # relative offset e/r
     piston_stroke: Array
-    theta: Array  # (engines, cylinders, 1)
+    theta: Array  # (engines, cylinders, 1), (1, cylinders, 1) if equal in all engines
     force_theta: Array
     axis: Array  # of the cylinder from that of cylinder 1, (engines, cylinders, 1)
     pin_angle: Array  # of the split pin's half, (engines, cylinders, 1)
@@ -81,48 +84,83 @@ def stack(engines: Sequence[Engine]) -> Batch:
     if not engines:
         msg = "no engines to solve"
         raise ValueError(msg)
-    if len({structure(engine) for engine in engines}) > 1:
+    if len({structure(engine) for engine in _one_of_each_kind(engines)}) > 1:
         msg = "engines of one batch must have one structure: layout, strokes, step, rays, gas"
         raise ValueError(msg)
     first = engines[0]
+    geometry = _Parts([engine.geometry for engine in engines])
+    arrangement = _Parts([engine.arrangement for engine in engines])
+    throws = _stack_throws(engines)
+    degrees = np.arange(0, first.strokes * 180 + first.step_deg, first.step_deg, dtype=float)
+    theta = _Parts([engine.firing_offsets for engine in engines]).values(lambda t: t)
+    forced = _Parts([e.force_offsets or e.firing_offsets for e in engines]).values(lambda t: t)
+    masses = np.array([point_masses(e.masses, e.geometry.rod_length) for e in engines])
+    m_j, m_2 = masses[:, 0, None, None], masses[:, 1, None, None]
 
     def scalars(get: Callable[[Engine], float]) -> Array:
-        return np.array([get(engine) for engine in engines], dtype=float)[:, None, None]
+        return np.array([get(engine) for engine in engines])[:, None, None]
+
+    def of_geometry(get: Callable[[Geometry], float]) -> Array:
+        return geometry.values(get)[:, None, None]
 
     def per_cylinder(get: Callable[[Cylinder], float]) -> Array:
-        return np.array([[get(c) for c in engine.arrangement] for engine in engines])[:, :, None]
+        return arrangement.values(lambda cylinders: [get(c) for c in cylinders])[:, :, None]
 
-    masses = [point_masses(e.masses, e.geometry.rod_length) for e in engines]
-    degrees = np.arange(0, first.strokes * 180 + first.step_deg, first.step_deg, dtype=float)
-    theta = np.array([engine.firing_offsets for engine in engines])[:, :, None]
-    forced = np.array([engine.force_offsets or engine.firing_offsets for engine in engines])
     return Batch(
         engines=tuple(engines),
         phi=np.radians(degrees)[None, None, :],
-        r=scalars(lambda e: e.geometry.crank_radius),
-        lam=scalars(lambda e: e.geometry.lam),
-        eps=scalars(lambda e: e.geometry.compression_ratio),
-        area=scalars(lambda e: e.geometry.piston_area),
+        r=of_geometry(lambda g: g.crank_radius),
+        lam=of_geometry(lambda g: g.lam),
+        eps=of_geometry(lambda g: g.compression_ratio),
+        area=of_geometry(lambda g: g.piston_area),
         omega=scalars(lambda e: e.omega),
-        m_j=np.array([pair[0] for pair in masses])[:, None, None],
-        m_2=np.array([pair[1] for pair in masses])[:, None, None],
-        m_k=scalars(lambda e: throw_mass(e.crankshaft.throws[0])),
+        m_j=m_j,
+        m_2=m_2,
+        m_k=(throws.pin_mass + throws.web_mass.sum(axis=-1))[:, :1, None],
         exact=np.array([engine.method == "exact" for engine in engines])[:, None, None],
-        k=scalars(lambda e: e.geometry.relative_offset),
-        piston_stroke=scalars(lambda e: e.geometry.stroke),
-        theta=theta,
-        force_theta=forced[:, :, None],
+        k=of_geometry(lambda g: g.relative_offset),
+        piston_stroke=of_geometry(lambda g: g.stroke),
+        theta=_common(theta)[:, :, None],
+        force_theta=_common(forced)[:, :, None],
         axis=per_cylinder(lambda c: c.axis),
         pin_angle=per_cylinder(lambda c: c.pin_angle),
-        pin_mass=np.array([pair[1] for pair in masses])[:, None, None]
-        * per_cylinder(lambda c: float(c.master is None)),
+        pin_mass=m_2 * per_cylinder(lambda c: float(c.master is None)),
         arrangement=first.arrangement,
         articulated=_stack_articulated(engines),
         p_ambient=scalars(lambda e: e.gas.p_ambient),
         gas=_stack_gas(engines),
-        throws=_stack_throws(engines),
+        throws=throws,
         rays=first.rays,
     )
+
+
+class _Parts(Generic[Part]):
+    """One part of every engine; what engines share, as in a study of one key, is read once."""
+
+    def __init__(self, parts: Sequence[Part]) -> None:
+        self.distinct = {id(part): part for part in parts}
+        place = {key: number for number, key in enumerate(self.distinct)}
+        self._place = np.array([place[id(part)] for part in parts])
+
+    def values(self, get: Callable[[Part], object]) -> Array:
+        """What ``get`` gives for the part of every engine, engines first."""
+        values: Array = np.array([get(part) for part in self.distinct.values()], dtype=float)
+        each: Array = values[self._place]
+        return each
+
+
+def _one_of_each_kind(engines: Sequence[Engine]) -> Iterable[Engine]:
+    """Engines that differ in what their structure depends on; comparing all would be slow."""
+    return {
+        (e.cylinders, e.strokes, e.step_deg, e.rays, id(e.crankshaft), id(e.arrangement),
+         type(e.gas)): e
+        for e in engines
+    }.values()  # fmt: skip
+
+
+def _common(values: Array) -> Array:
+    """One row for all engines where they agree: what follows from it is computed once."""
+    return values[:1] if np.all(values == values[:1]) else values
 
 
 def _stack_articulated(engines: Sequence[Engine]) -> ArticulatedArrays | None:
@@ -161,27 +199,26 @@ def _stack_gas(engines: Sequence[Engine]) -> PolytropicArrays | None:
     gases = [engine.gas for engine in engines]
     if not all(isinstance(gas, PolytropicGas) for gas in gases):
         return None
-    polytropic = [gas for gas in gases if isinstance(gas, PolytropicGas)]
+    parts = _Parts(gases)
     names = PolytropicArrays.__dataclass_fields__
-    columns = {
-        name: np.array([getattr(gas, name) for gas in polytropic])[:, None, None] for name in names
-    }
+    columns = {name: _common(parts.values(attrgetter(name)))[:, None, None] for name in names}
     return PolytropicArrays(**columns)
 
 
 def _stack_throws(engines: Sequence[Engine]) -> ThrowArrays:
-    shafts = [engine.crankshaft for engine in engines]
-    webs = [[(t.left_web, t.right_web) for t in shaft.throws] for shaft in shafts]
-    ends = [(shaft.nose, shaft.rear) for shaft in shafts]
+    shafts = _Parts([engine.crankshaft for engine in engines])
 
     def per_web(name: str) -> Array:
-        return np.array([[[getattr(w, name) for w in pair] for pair in row] for row in webs])
+        get = attrgetter(name)
+        return shafts.values(lambda s: [(get(t.left_web), get(t.right_web)) for t in s.throws])
 
     def per_throw(name: str) -> Array:
-        return np.array([[getattr(t, name) for t in shaft.throws] for shaft in shafts])
+        get = attrgetter(name)
+        return shafts.values(lambda s: [get(t) for t in s.throws])
 
     def per_end(name: str) -> Array:
-        return np.array([[getattr(end, name) for end in pair] for pair in ends])
+        get = attrgetter(name)
+        return shafts.values(lambda s: (get(s.nose), get(s.rear)))
 
     return ThrowArrays(
         angle=per_throw("angle"),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from kshm.kinematics import CENTRAL
+from kshm.kinematics import Position
 
 Array = NDArray[np.float64]
 
@@ -22,19 +22,20 @@ class RodForces:
     T: Array
 
 
-def decompose(axial: Array, phi: Array, lam: Array, k: Array = CENTRAL) -> RodForces:
+def decompose(axial: Array, at: Position) -> RodForces:
     """Split the axial force P_s into N, S, K, T with the exact rod angle, Gots (34)-(37).
 
-    The rod pushes the crankpin along the unit vector from the piston pin to the
-    crankpin; K and T are its components towards the crank axis and along the
-    rotation, N is what the cylinder wall must carry.  Signs as in Gots 2.5.
+    The rod pushes the crankpin along the line from the piston pin to the crankpin, S; the
+    cylinder wall must carry its part across the cylinder, N.  K and T are the components
+    of the push towards the crank axis and along the rotation.  Signs as in Gots 2.5.
     """
-    # Plane with x along the rotation at TDC and y up the cylinder axis; lengths over L.
-    pin_x, pin_y = lam * np.sin(phi), lam * np.cos(phi)
-    rod_x = pin_x - lam * k  # the piston pin stands at the offset
-    rod_y = -np.sqrt(1 - rod_x**2)
-    thrust = -axial / rod_y
-    force_x, force_y = thrust * rod_x, thrust * rod_y
-    radial = (force_x * pin_x + force_y * pin_y) / lam
-    tangential = (force_x * pin_y - force_y * pin_x) / lam
-    return RodForces(N=force_x, S=thrust, K=-radial, T=tangential)
+    thrust = axial / at.cos_beta
+    side = thrust * at.sin_beta
+    # The push has the components N to the side of rotation and P_s down the cylinder; the
+    # crankpin stands at (sin φ, cos φ) and moves along (cos φ, −sin φ).
+    return RodForces(
+        N=side,
+        S=thrust,
+        K=axial * at.cos - side * at.sin,
+        T=axial * at.sin + side * at.cos,
+    )

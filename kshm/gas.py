@@ -13,6 +13,9 @@ Array = NDArray[np.float64]
 # Angles come from whole degrees: 1e-9 rad decides on which side of a switch a point lies.
 SLACK = 1e-9
 
+Mask = NDArray[np.bool_]
+EVERYWHERE: Mask = np.array(True)
+
 
 @dataclass(frozen=True, slots=True)
 class PolytropicArrays:
@@ -51,25 +54,35 @@ def volume_ratio(displacement: Array, stroke: Array, eps: Array) -> Array:
 
 
 def polytropic_pressure(
-    phi: Array, motion: Stroke, eps: Array, gas: PolytropicArrays, *, strokes: int = 4
-) -> Array:
-    """Absolute gas pressure [Pa] at the angles ``phi`` [rad] of the cylinder.
+    phi: Array, ratio: Array, motion: Stroke, eps: Array, gas: PolytropicArrays, *,
+    strokes: int = 4,
+) -> Array:  # fmt: skip
+    """Absolute gas pressure [Pa] at the angles ``phi`` [rad] of the cycle, V/V_c ``ratio``.
 
     The timing is counted from the dead centres that the mechanism has: an offset moves
     them, and the angles of ``gas`` with them.
     """
-    timing = _Timing(phi, motion, eps, gas, 2 * np.pi * (strokes // 2))
+    timing = _Timing(phi, ratio, motion, eps, gas, 2 * np.pi * (strokes // 2))
     return _two_stroke(timing) if strokes == 2 else _four_stroke(timing)
+
+
+def _power(base: Array, exponent: Array, where: Mask) -> Array:
+    """Powers are dear: taken where they are asked for, 1 elsewhere."""
+    result = np.ones(np.broadcast_shapes(base.shape, exponent.shape, where.shape))
+    np.power(base, exponent, out=result, where=where)
+    return result
 
 
 class _Timing:
     """Angles from the piston's TDC and the curves that both kinds of cycle share."""
 
     def __init__(
-        self, phi: Array, motion: Stroke, eps: Array, gas: PolytropicArrays, period: float
-    ) -> None:
-        self.angle = np.mod(phi - motion.tdc, period)
-        self.ratio = motion.ratio(phi)
+        self, phi: Array, ratio: Array, motion: Stroke, eps: Array, gas: PolytropicArrays,
+        period: float,
+    ) -> None:  # fmt: skip
+        # TDC of a central mechanism stands at 0, and its angles within the cycle as they are.
+        self.angle = np.mod(phi - motion.tdc, period) if np.any(motion.tdc) else phi
+        self.ratio = ratio
         self.half = motion.bdc - motion.tdc
         self.eps, self.gas, self._motion = eps, gas, motion
 
@@ -81,9 +94,9 @@ class _Timing:
         """Angle of the input, meant for a BDC half a turn after TDC, from this TDC."""
         return angle + (self.half - np.pi)
 
-    def compression(self, ratio: Array, begin: Array) -> Array:
-        """Polytrope n_1 from p_a at the ratio ``begin``."""
-        pressure: Array = self.gas.p_intake * (begin / ratio) ** self.gas.n_compression
+    def compression(self, ratio: Array, begin: Array, where: Mask = EVERYWHERE) -> Array:
+        """Polytrope n_1 from p_a at the ratio ``begin``; p_a where it is not asked for."""
+        pressure: Array = self.gas.p_intake * _power(begin / ratio, self.gas.n_compression, where)
         return pressure
 
     def rise(self, angle: Array, begin: Array) -> Array:
@@ -93,10 +106,12 @@ class _Timing:
         slope = (gas.p_max - at_start) / gas.ignition_advance
         return np.minimum(gas.p_max, at_start + slope * (angle - gas.combustion_start))
 
-    def expansion(self, ratio: Array) -> Array:
-        """Isobar to ρV_c and polytrope n_2."""
+    def expansion(self, ratio: Array, where: Mask = EVERYWHERE) -> Array:
+        """Isobar to ρV_c and polytrope n_2; p_z where it is not asked for."""
         gas = self.gas
-        return gas.p_max * np.minimum(1.0, (gas.rho / ratio) ** gas.n_expansion)
+        fall = _power(gas.rho / ratio, gas.n_expansion, where & (ratio > gas.rho))
+        pressure: Array = gas.p_max * fall
+        return pressure
 
     def line(self, begin: Array, from_: Array, end: Array, to: Array) -> Array:
         """Straight line of the pressure over the angle."""
@@ -116,25 +131,20 @@ def _four_stroke(t: _Timing) -> Array:
     gas, angle = t.gas, t.angle
     opens, closes = t.from_bdc(gas.exhaust_open), t.from_bdc(gas.exhaust_close)
     at_open = t.expansion(t.ratio_at(opens))
-    intake = np.broadcast_to(gas.p_intake, t.ratio.shape)
-    residual = np.broadcast_to(gas.p_residual, t.ratio.shape)
-    conditions = [
-        angle <= SLACK,
-        angle <= t.half + SLACK,
-        angle <= gas.combustion_start + SLACK,
-        angle <= 2 * np.pi + SLACK,
-        angle <= opens + SLACK,
-        angle <= closes + SLACK,
-    ]
+    taken_in = angle <= t.half + SLACK
+    compressed = angle <= gas.combustion_start + SLACK
+    burning = angle <= 2 * np.pi + SLACK
+    expanded = angle <= opens + SLACK
+    conditions = [angle <= SLACK, taken_in, compressed, burning, expanded, angle <= closes + SLACK]
     values = [
-        residual,
-        intake,
-        t.compression(t.ratio, t.eps),
+        gas.p_residual,
+        gas.p_intake,
+        t.compression(t.ratio, t.eps, compressed & ~taken_in),
         t.rise(angle, t.eps),
-        t.expansion(t.ratio),
+        t.expansion(t.ratio, expanded & ~burning),
         t.line(opens, at_open, closes, gas.p_residual),
     ]
-    return np.select(conditions, values, default=residual)
+    return np.select(conditions, values, default=gas.p_residual)
 
 
 def _two_stroke(t: _Timing) -> Array:

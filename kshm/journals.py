@@ -56,6 +56,8 @@ class Rods:
 
     def summed(self, values: Array, throws: int) -> Array:
         """Sum over the rods of every throw: (engines, cylinders, …) to (engines, throws, …)."""
+        if self.throw == tuple(range(throws)):  # a rod on each throw
+            return values
         total = np.zeros((values.shape[0], throws, *values.shape[2:]))
         for rod, throw in enumerate(self.throw):
             total[:, throw] += values[:, rod]
@@ -75,6 +77,8 @@ def in_throw_frame(K: Array, T: Array, turn: Array) -> tuple[Array, Array]:
 
     ``turn`` [rad] is how far the half stands ahead of the throw; it broadcasts.
     """
+    if not np.any(turn):
+        return K, T
     cos, sin = np.cos(turn), np.sin(turn)
     return K * cos + T * sin, T * cos - K * sin
 
@@ -177,20 +181,23 @@ def to_shaft_axes(vector: Array, gamma: Array) -> Array:
         vector: shape (..., 2).
         gamma: angle [rad], broadcasting with ``vector`` without its last axis.
     """
-    left, up = vector[..., 0], vector[..., 1]
+    return np.stack(_turned(vector[..., 0], vector[..., 1], gamma), axis=-1)
+
+
+def _turned(left: Array, up: Array, gamma: Array) -> tuple[Array, Array]:
     cos, sin = np.cos(gamma), np.sin(gamma)
-    return np.stack([left * cos - up * sin, left * sin + up * cos], axis=-1)
+    return left * cos - up * sin, left * sin + up * cos
 
 
 def main_reactions(
     K: Array, T: Array, throws: ThrowArrays, rods: Rods, constant: tuple[Array, Array]
 ) -> tuple[Array, Array, Array]:
-    """Reactions of every main bearing on its journal [N] in shaft axes, Gots (50)-(57).
+    """Reactions of every main bearing on its journal in shaft axes, Gots (50)-(57).
 
     Args:
-        K: force of each rod towards the crank axis in its throw's frame [N],
-            (engines, cylinders, angles).
-        T: force of each rod along the rotation in its throw's frame [N], same shape.
+        K: force of each rod towards the crank axis in its throw's frame,
+            (engines, cylinders, angles); all forces are in one unit.
+        T: force of each rod along the rotation in its throw's frame, same shape.
         throws: the throws.
         rods: the rods on the throws.
         constant: left and right centrifugal reactions, see ``centrifugal_reactions``.
@@ -202,19 +209,21 @@ def main_reactions(
     place = positions(throws)
     count = place.rod.shape[1]
     length = place.length[:, list(rods.throw)]
-    share = right_share(rods.places(place), length)[..., None, None]
+    share = right_share(rods.places(place), length)[..., None]
     # A push along T is answered against rotation ("left"), a push K inwards by "up".
-    answer = np.stack([T, K], axis=-1)
-    left = constant[0][:, :, None, :] + rods.summed((1 - share) * answer, count)
-    right = constant[1][:, :, None, :] + rods.summed(share * answer, count)
-    gamma = throws.angle[:, :, None]
-    left, right = to_shaft_axes(left, gamma), to_shaft_axes(right, gamma)
-    engines, count, angles, _ = left.shape
-    before = np.zeros((engines, count + 1, angles, 2))
-    after = np.zeros_like(before)
-    before[:, 1:] = right
-    after[:, :-1] = left
-    return before + after, before, after
+    answers = _turned(T, K, throws.angle[:, list(rods.throw)][:, :, None])
+    # x and y apart in memory: arithmetic runs over whole rows.
+    before = np.empty((2, K.shape[0], count + 1, K.shape[-1]))
+    after = np.empty_like(before)
+    before[:, :, 0], after[:, :, -1] = 0, 0
+    sides = ((after[:, :, :-1], constant[0], 1 - share), (before[:, :, 1:], constant[1], share))
+    for target, steady, part in sides:
+        still = _turned(steady[..., 0], steady[..., 1], throws.angle)
+        for axis in (0, 1):
+            moving = rods.summed(part * answers[axis], count)
+            np.add(still[axis][..., None], moving, out=target[axis])
+    total, first, second = (np.moveaxis(v, 0, -1) for v in (before + after, before, after))
+    return total, first, second
 
 
 def side_forces_left_of_pin(throws: ThrowArrays, r: Array, omega: Array) -> Array:

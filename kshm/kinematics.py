@@ -8,12 +8,34 @@ the relative offset of Gots 1.4; zero gives the central mechanism bit for bit.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
 CENTRAL: Array = np.zeros(())
+
+
+@dataclass(frozen=True, slots=True)
+class Position:
+    """Directions of crank and rod: sin φ, cos φ, sin β, cos β, all of one shape.
+
+    They are the costly part of everything below and are the same for all of it.
+    """
+
+    sin: Array
+    cos: Array
+    sin_beta: Array
+    cos_beta: Array
+
+    @classmethod
+    def at(cls, phi: Array, lam: Array, k: Array = CENTRAL) -> Position:
+        """The position at crank angle φ [rad], β by Gots (2), (13); |β| is below 90°."""
+        sin = np.sin(phi)
+        sin_beta = lam * (sin - k)
+        return cls(sin, np.cos(phi), sin_beta, np.sqrt(1 - sin_beta**2))
 
 
 def rod_angle(phi: Array, lam: Array, k: Array = CENTRAL) -> Array:
@@ -31,11 +53,15 @@ def dead_centres(lam: Array, k: Array) -> tuple[Array, Array]:
 
 def displacement_exact(phi: Array, r: Array, lam: Array, k: Array = CENTRAL) -> Array:
     """Piston displacement from TDC [m], exact, Gots (1), (12)."""
-    # Distance of the piston pin from the crank axis, straight from the triangle.
+    return displacement_at(Position.at(phi, lam, k), r, lam, k)
+
+
+def displacement_at(at: Position, r: Array, lam: Array, k: Array = CENTRAL) -> Array:
+    """Exact displacement [m] in a known position, Gots (1), (12)."""
     rod = r / lam
-    pin = r * np.cos(phi) + np.sqrt(rod**2 - (r * np.sin(phi) - k * r) ** 2)
     top = np.where(k == 0, r + rod, np.sqrt((r + rod) ** 2 - (k * r) ** 2))
-    displacement: Array = top - pin
+    # Less the distance of the piston pin from the crank axis, straight from the triangle.
+    displacement: Array = top - (r * at.cos + rod * at.cos_beta)
     return displacement
 
 
@@ -75,23 +101,40 @@ def velocity_offset(phi: Array, r: Array, lam: Array, omega: Array, k: Array) ->
 
 def acceleration_exact(phi: Array, r: Array, lam: Array, omega: Array, k: Array = CENTRAL) -> Array:
     """Piston acceleration [m/s²], exact: the second derivative of Gots (1), (12)."""
-    beta = rod_angle(phi, lam, k)
-    cos_b = np.cos(beta)
-    shape = np.cos(phi + beta) / cos_b + lam * np.cos(phi) ** 2 / cos_b**3
+    return acceleration_exact_at(Position.at(phi, lam, k), r, lam, omega)
+
+
+def acceleration_exact_at(at: Position, r: Array, lam: Array, omega: Array) -> Array:
+    """Exact acceleration [m/s²] in a known position."""
+    # cos(φ + β)/cos β, and what the turning of the rod adds.
+    shape = at.cos - at.sin * at.sin_beta / at.cos_beta + lam * at.cos**2 / at.cos_beta**3
     acceleration: Array = r * omega**2 * shape
     return acceleration
 
 
 def acceleration_orders(phi: Array, r: Array, lam: Array, omega: Array) -> tuple[Array, Array]:
     """First- and second-order piston acceleration [m/s²], the two terms of Gots (6)."""
-    centripetal = r * omega**2
-    return centripetal * np.cos(phi), centripetal * lam * (2 * np.cos(phi) ** 2 - 1)
+    return _orders(np.cos(phi), r * omega**2, lam)
+
+
+def _orders(cos: Array, centripetal: Array, lam: Array) -> tuple[Array, Array]:
+    return centripetal * cos, centripetal * lam * (2 * cos**2 - 1)
 
 
 def acceleration_offset(phi: Array, r: Array, lam: Array, omega: Array, k: Array) -> Array:
     """What an offset adds to the two-term acceleration [m/s²], Gots (16) less (6)."""
     added: Array = r * omega**2 * lam * k * np.sin(phi)
     return added
+
+
+def acceleration_two_term_at(
+    at: Position, r: Array, lam: Array, omega: Array, k: Array = CENTRAL
+) -> Array:
+    """Two-term acceleration [m/s²] in a known position, Gots (6), (16)."""
+    centripetal = r * omega**2
+    first, second = _orders(at.cos, centripetal, lam)
+    both = first + second
+    return both + centripetal * lam * k * at.sin if np.any(k) else both
 
 
 def rod_angular_velocity(

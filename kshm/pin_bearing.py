@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from kshm.arrangement import throws as throws_of
 from kshm.summary import first_extreme
-from kshm.wear import ray_sums
 
 if TYPE_CHECKING:
     from kshm.engine import Engine
@@ -69,7 +68,7 @@ def oil_hole(engine: Engine, raw: BatchSolution, index: int) -> float:
     """Angle of the oil hole from the crank against rotation [rad]: given, or by the wear."""
     if engine.oil_hole is not None:
         return engine.oil_hole
-    sums = ray_sums(raw.pin_rays[index, 0])
+    sums = raw.pin_wear[index, 0]
     least = sums.min() / 1e6
     ray = int(np.argmax(sums / 1e6 <= least + TIE * max(1.0, least)))
     return float(np.mod(2 * np.pi * ray / engine.rays + np.pi, 2 * np.pi))

@@ -46,20 +46,32 @@ def pin_forces(batch: Batch, rod: RodForces, unit: Array) -> PinForces:
     up = batch.pin_mass * unit / batch.area - rod.K
     groups = [list(group) for group in pins(batch.arrangement)]
     return PinForces(
-        up=np.stack([up[:, group].sum(axis=1) for group in groups], axis=1),
-        side=np.stack([rod.T[:, group].sum(axis=1) for group in groups], axis=1),
+        up=_summed(up, groups),
+        side=_summed(rod.T, groups),
     )
 
 
-def throw_forces(batch: Batch, rods: journals.Rods, rod: RodForces, unit: Array) -> ThrowForces:
+def _summed(values: Array, groups: list[list[int]]) -> Array:
+    if groups == [[rod] for rod in range(values.shape[1])]:
+        return values
+    return np.stack([values[:, group].sum(axis=1) for group in groups], axis=1)
+
+
+def throw_forces(batch: Batch, rods: journals.Rods, K: Array, T: Array, unit: Array) -> ThrowForces:
     """Sum over the rods of every throw and the force R_к on it, Gots (42).
 
     The throw's own mass is m_к of Gots (28), both webs taken along the crank; each half of a
     split pin has half of the pin's mass.
+
+    Args:
+        batch: the engines.
+        rods: the rods on the throws.
+        K: specific force of each rod towards the crank axis in its throw's frame [Pa].
+        T: specific force of each rod along the rotation in its throw's frame [Pa].
+        unit: rω² [m/s²].
     """
     throws = batch.throws
     count = throws.angle.shape[1]
-    K, T = journals.in_throw_frame(rod.K, rod.T, batch.pin_angle)
     K, T = rods.summed(K, count), rods.summed(T, count)
     cos, sin = np.cos(rods.turn), np.sin(rods.turn)
     carried = rods.summed(np.ones_like(cos), count)
@@ -70,4 +82,4 @@ def throw_forces(batch: Batch, rods: journals.Rods, rod: RodForces, unit: Array)
     centrifugal = unit / batch.area
     up = (turning[0] + throws.web_mass.sum(axis=-1))[..., None] * centrifugal - K
     side = T + turning[1][..., None] * centrifugal
-    return ThrowForces(K, T, np.hypot(up, side))
+    return ThrowForces(K, T, np.sqrt(up**2 + side**2))

@@ -83,11 +83,11 @@ class Solution:
             "P4_5": self._running_pin(),
             "P4_5s": self._running_pin_statics(),
             **{
-                wear_table(n): self._wear(self.raw.pin_rays[self._index, n])
+                wear_table(n): self._wear(self.raw.pin_rays(self._index, n))
                 for n in range(len(shown_pins(self.engine)))
             },
             **{
-                f"table_14_main_{k + 1}": self._wear(self.raw.journal_rays[self._index, k])
+                f"table_14_main_{k + 1}": self._wear(self.raw.journal_rays(self._index, k))
                 for k in range(self._journals)
             },
         }

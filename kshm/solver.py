@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,9 @@ from kshm.pins import pin_forces, throw_forces
 from kshm.solution import Solution
 
 Array = NDArray[np.float64]
+
+_CHUNK_VALUES = 2**17  # cylinders × angles of the engines in a chunk
+_KEPT_BYTES = 32 * 2**20
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,16 +59,49 @@ class BatchSolution:
     journal_after: Array
     journal_load: Array
     pin_wear: Array  # (engines, pins, rays)
-    pin_rays: Array
     journal_wear: Array
-    journal_rays: Array
     constants: tuple[Array, Array]  # centrifugal reactions left, right [N]
     hung: Hung | None  # the articulated rods
+
+    def pin_rays(self, engine: int, pin: int) -> Array:
+        """Force on a crankpin counted at each ray [Pa], (angles, rays), Gots table 14."""
+        up, side = self.pin_up[engine, pin], self.pin_side[engine, pin]
+        return wear.ray_loads(up, -side, self.batch.rays)
+
+    def journal_rays(self, engine: int, journal: int) -> Array:
+        """Reaction on a main journal counted at each ray [Pa], (angles, rays)."""
+        vector = self.journal[engine, journal]
+        return wear.ray_loads(vector[:, 1], vector[:, 0], self.batch.rays)
 
 
 def solve_batch(engines: Sequence[Engine]) -> BatchSolution:
     """Solve engines of one structure together; see ``Batch`` for the shapes."""
-    return _chain(stack(engines))
+    return solve_stacked(stack(engines))
+
+
+def solve_chunks(engines: Iterable[Engine], size: int | None = None) -> Iterator[BatchSolution]:
+    """Solve any number of engines of one structure, a chunk at a time, in their order.
+
+    Only one chunk is held; drop each before asking for the next.
+
+    Args:
+        engines: as many as there are, read as they are needed.
+        size: engines in a chunk; without it as many as fit the processor's cache.
+
+    Raises:
+        ValueError: the engines of a chunk differ in structure.
+    """
+    # The C library gives freed arrays back to the system and takes them again page by page,
+    # which costs more than the arithmetic; once a block of 32 MB was freed, it keeps them.
+    np.empty(_KEPT_BYTES, np.uint8)
+    rest = iter(engines)
+    while first := list(islice(rest, 1)):
+        count = size or max(1, _CHUNK_VALUES // (first[0].cylinders * _angles(first[0])))
+        yield solve_batch([*first, *islice(rest, count - 1)])
+
+
+def _angles(engine: Engine) -> int:
+    return engine.strokes * 180 // engine.step_deg + 1
 
 
 def solve(engine: Engine) -> Solution:
@@ -72,10 +109,10 @@ def solve(engine: Engine) -> Solution:
     return Solution(engine, solve_batch([engine]))
 
 
-def _pressure(batch: Batch, phi: Array, motion: gas.Stroke) -> Array:
+def _pressure(batch: Batch, phi: Array, ratio: Array, motion: gas.Stroke) -> Array:
     if batch.gas is not None:
         strokes = batch.engines[0].strokes
-        return gas.polytropic_pressure(phi, motion, batch.eps, batch.gas, strokes=strokes)
+        return gas.polytropic_pressure(phi, ratio, motion, batch.eps, batch.gas, strokes=strokes)
     rows = []
     for engine, angles in zip(
         batch.engines, np.broadcast_to(phi, (len(batch.engines), *phi.shape[1:])), strict=True
@@ -84,12 +121,15 @@ def _pressure(batch: Batch, phi: Array, motion: gas.Stroke) -> Array:
     return np.stack(rows)
 
 
+def _ratio(batch: Batch, displacement: Array) -> Array:
+    return gas.volume_ratio(displacement, batch.piston_stroke, batch.eps)
+
+
 def _motion(batch: Batch) -> gas.Stroke:
     """Volume over the crank angle and dead centres of every cylinder with its own rod."""
 
     def ratio(phi: Array) -> Array:
-        moved = kinematics.displacement_exact(phi, batch.r, batch.lam, batch.k)
-        return gas.volume_ratio(moved, batch.piston_stroke, batch.eps)
+        return _ratio(batch, kinematics.displacement_exact(phi, batch.r, batch.lam, batch.k))
 
     return gas.Stroke(ratio, *kinematics.dead_centres(batch.lam, batch.k))
 
@@ -109,25 +149,34 @@ class CylinderForces:
 
 def _cylinder_forces(batch: Batch, phi: Array) -> CylinderForces:
     """Gas pressure and specific forces of each cylinder at its own angle ``phi``."""
-    motion = _motion(batch)
-    pressure = _pressure(batch, phi, motion)
-    r, lam, omega, k = batch.r, batch.lam, batch.omega, batch.k
-    two_term = sum(kinematics.acceleration_orders(phi, r, lam, omega))
-    two_term = two_term + kinematics.acceleration_offset(phi, r, lam, omega, k)
-    exact = kinematics.acceleration_exact(phi, r, lam, omega, k)
-    acceleration = np.where(batch.exact, exact, two_term)
-    inertia = -batch.m_j * acceleration / batch.area
+    r, lam, k = batch.r, batch.lam, batch.k
+    at = kinematics.Position.at(phi, lam, k)
+    displacement = kinematics.displacement_at(at, r, lam, k)
+    ratio = _ratio(batch, displacement)
+    pressure = _pressure(batch, phi, ratio, _motion(batch))
+    inertia = (-batch.m_j / batch.area) * _acceleration(batch, at)
     p_gas = pressure - batch.p_ambient
     found = CylinderForces(
-        displacement=kinematics.displacement_exact(phi, r, lam, k),
-        volume_ratio=motion.ratio(phi),
+        displacement=displacement,
+        volume_ratio=ratio,
         p=pressure,
         p_gas=p_gas,
         p_inertia=inertia,
-        rod=forces.decompose(p_gas + inertia, phi, lam, k),
+        rod=forces.decompose(p_gas + inertia, at),
         hung=None,
     )
     return found if batch.articulated is None else _with_articulated(batch, phi, found)
+
+
+def _acceleration(batch: Batch, at: kinematics.Position) -> Array:
+    """Acceleration of the pistons by the method of each engine [m/s²]."""
+    values = batch.r, batch.lam, batch.omega
+    if batch.exact.all():
+        return kinematics.acceleration_exact_at(at, *values)
+    two_term = kinematics.acceleration_two_term_at(at, *values, batch.k)
+    if not batch.exact.any():
+        return two_term
+    return np.where(batch.exact, kinematics.acceleration_exact_at(at, *values), two_term)
 
 
 def _with_articulated(batch: Batch, phi: Array, own: CylinderForces) -> CylinderForces:
@@ -137,12 +186,13 @@ def _with_articulated(batch: Batch, phi: Array, own: CylinderForces) -> Cylinder
         return own
     at = list(rods.cylinders)
     hung = hang(
-        rods, phi[:, at], batch.eps, lambda motion: _pressure(batch, phi[:, at], motion),
+        rods, phi[:, at], batch.eps,
+        lambda ratio, motion: _pressure(batch, phi[:, at], ratio, motion),
         batch.p_ambient, batch.omega, batch.area,
     )  # fmt: skip
 
     def put(values: Array, new: Array) -> Array:
-        result = np.array(np.broadcast_to(values, phi.shape))
+        result = np.array(values)
         result[:, at] = new
         return result
 
@@ -171,12 +221,12 @@ def _rods(batch: Batch) -> journals.Rods:
     )
 
 
-def _chain(batch: Batch) -> BatchSolution:
+def solve_stacked(batch: Batch) -> BatchSolution:
     period = batch.engines[0].period
     local = np.mod(batch.phi - batch.theta, period)
     found = _cylinder_forces(batch, local)
     rod = found.rod
-    M = rod.T * batch.area * batch.r
+    M = rod.T * (batch.area * batch.r)
     rods, throws = _rods(batch), batch.throws
     count = throws.angle.shape[1]
     throw_torque = rods.summed(M, count)
@@ -184,30 +234,28 @@ def _chain(batch: Batch) -> BatchSolution:
 
     unit = batch.r * batch.omega**2
     pins = pin_forces(batch, rod, unit)
-    on_throws = throw_forces(batch, rods, rod, unit)
+    own_K, own_T = journals.in_throw_frame(rod.K, rod.T, batch.pin_angle)
+    on_throws = throw_forces(batch, rods, own_K, own_T, unit)
 
-    r, omega, area = batch.r[:, :, 0], batch.omega[:, :, 0], batch.area[:, :, :, None]
+    r, omega = batch.r[:, :, 0], batch.omega[:, :, 0]
     constants = journals.centrifugal_reactions(throws, r, omega, rods)
     forced = _journal_forces(batch, period, rod)
     K, T = journals.in_throw_frame(forced.K, forced.T, batch.pin_angle)
-    total, before, after = journals.main_reactions(
-        K * batch.area, T * batch.area, throws, rods, constants
-    )
-    journal = total / area
+    steady = (constants[0] / batch.area, constants[1] / batch.area)
+    journal, before, after = journals.main_reactions(K, T, throws, rods, steady)
     side = journals.side_forces_left_of_pin(throws, r, omega)
     place = journals.positions(throws)
     length = place.length[:, list(rods.throw)]
     left_share = 1 - journals.right_share(rods.places(place), length)
-    own_T = journals.in_throw_frame(rod.K, rod.T, batch.pin_angle)[1]
-    tangential = rods.summed(left_share[..., None] * own_T * batch.area, count)
+    tangential = rods.summed((left_share[..., None] * batch.area) * own_T, count)
     tangential = tangential + (constants[0][..., 0] + side)[..., None]
 
-    pin_rays = wear.ray_loads(pins.up, -pins.side, batch.rays)
-    journal_rays = wear.ray_loads(journal[..., 1], journal[..., 0], batch.rays)
+    pin_load = _length(pins.up, pins.side)
+    journal_load = _length(journal[..., 0], journal[..., 1])
     result = BatchSolution(
         batch=batch,
         phi=batch.phi[0, 0],
-        local_phi=local,
+        local_phi=np.broadcast_to(local, M.shape),
         displacement=found.displacement,
         volume_ratio=found.volume_ratio,
         p=found.p,
@@ -227,19 +275,17 @@ def _chain(batch: Batch) -> BatchSolution:
         ),
         pin_up=pins.up,
         pin_side=pins.side,
-        pin_load=np.hypot(pins.up, pins.side),
+        pin_load=pin_load,
         throw_K=on_throws.K,
         throw_T=on_throws.T,
         throw_load=on_throws.load,
         throw_torque=throw_torque,
         journal=journal,
-        journal_before=before / area,
-        journal_after=after / area,
-        journal_load=np.hypot(journal[..., 0], journal[..., 1]),
-        pin_wear=wear.ray_sums(pin_rays),
-        pin_rays=pin_rays,
-        journal_wear=wear.ray_sums(journal_rays),
-        journal_rays=journal_rays,
+        journal_before=before,
+        journal_after=after,
+        journal_load=journal_load,
+        pin_wear=wear.ray_sums(pins.up, -pins.side, pin_load, batch.rays),
+        journal_wear=wear.ray_sums(journal[..., 1], journal[..., 0], journal_load, batch.rays),
         constants=constants,
         hung=found.hung,
     )
@@ -247,6 +293,12 @@ def _chain(batch: Batch) -> BatchSolution:
         if isinstance(value, np.ndarray):
             value.flags.writeable = False
     return result
+
+
+def _length(x: Array, y: Array) -> Array:
+    """Length of vectors of moderate size: faster than hypot, which guards against overflow."""
+    length: Array = np.sqrt(x**2 + y**2)
+    return length
 
 
 def _journal_forces(batch: Batch, period: float, rod: forces.RodForces) -> forces.RodForces:

@@ -35,7 +35,53 @@ def ray_loads(up: Array, against: Array, rays: int) -> Array:
     return np.where(inside, size[..., None], 0.0)
 
 
-def ray_sums(loads: Array) -> Array:
-    """Sum over one cycle for each ray; the repeated last angle is left out. Shape (..., rays)."""
-    sums: Array = loads[..., :-1, :].sum(axis=-2)
+def ray_sums(up: Array, against: Array, size: Array, rays: int) -> Array:
+    """Sum of ``ray_loads`` over one cycle; the repeated last angle is left out.
+
+    Which rays count a force depends only on the sector that it points into, so the forces
+    are summed by sectors first.  The edges of all windows are directions of rays, because
+    60° is a multiple of the angle between them.
+
+    Args:
+        up: force component along ray I, shape (..., angles).
+        against: component a quarter turn from it against rotation, same shape.
+        size: length of the force, same shape.
+        rays: number of rays, 12 or 18.
+
+    Returns:
+        Shape (..., rays) in the unit of the components.
+    """
+    count = 2 * rays + 1
+    row = count * np.arange(size[..., 0].size).reshape(*size.shape[:-1], 1)
+    once = size.copy()
+    once[..., -1] = 0
+    sector = row + _sectors(up, against, size, rays).astype(np.int64)
+    by_sector = np.bincount(sector.ravel(), weights=once.ravel(), minlength=count * row.size)
+    sums: Array = by_sector.reshape(*size.shape[:-1], count) @ _counted_at(rays)
     return sums
+
+
+def _sectors(up: Array, against: Array, size: Array, rays: int) -> NDArray[np.int8]:
+    """Sector of each force: 2k along ray k within rounding, 2k + 1 between it and the next.
+
+    The rays are symmetric about both axes, so the edges of one quadrant suffice.  Sums of
+    truth values stay bytes, which is what makes them cheap.
+    """
+    along, across = np.abs(up), np.abs(against)
+    slack = size * (EDGE / np.sin(HALF_WINDOW))  # the edge of ``ray_loads`` as an angle
+    found: NDArray[np.int8] = (across > slack).view(np.int8)
+    for angle in ray_angles(rays)[1 : rays // 4 + 1]:
+        beyond = across * np.cos(angle) - along * np.sin(angle)
+        found += (beyond > slack).view(np.int8)
+        beyond += slack
+        found += (beyond >= 0).view(np.int8)
+    found += (up < 0).view(np.int8) * (np.int8(rays) - 2 * found)
+    found += (against < 0).view(np.int8) * (np.int8(2 * rays) - 2 * found)
+    return found
+
+
+def _counted_at(rays: int) -> Array:
+    """1 where a ray counts the forces of a sector, shape (sectors, rays); the last is the first."""
+    between = (np.arange(2 * rays + 1)[:, None] - 2 * np.arange(rays)) % (2 * rays)
+    reach = 2 * rays // 6  # sectors are half as wide as the angle between rays
+    return ((between <= reach) | (between >= 2 * rays - reach)).astype(float)

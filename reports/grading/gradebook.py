@@ -86,7 +86,7 @@ def gradebook_xlsx(rows: Sequence[dict[str, Any]], maximum: float) -> bytes:
     sheet.auto_filter.ref = sheet.dimensions
     stream = io.BytesIO()
     book.save(stream)
-    return finish(stream.getvalue(), {})
+    return finish(stream.getvalue())
 
 
 def _blocks(rows: Sequence[dict[str, Any]]) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from copy import copy
 from dataclasses import replace
 
@@ -35,6 +36,17 @@ _LEGEND = (
 
 class _HandoutWriter(Writer):
     """Writes numbers where the solved book has formulas, and nothing where they are hidden."""
+
+    def column(
+        self,
+        sheet: Worksheet,
+        index: int,
+        texts: Sequence[str | None],
+        values: Sequence[float],
+        look: tuple[str, str],
+    ) -> None:
+        """Cell by cell: what is to be filled in gets its own look afterwards."""
+        self.cells(sheet, index, dict(enumerate(texts)), values, look)
 
     def formula(
         self, sheet: Worksheet, row: int, column: int, text: str, value: float | str

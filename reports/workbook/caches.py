@@ -10,14 +10,19 @@ import io
 import math
 import zipfile
 from posixpath import join, normpath
+from xml.sax.saxutils import escape
 
 from lxml import etree
+from openpyxl.utils import coordinate_to_tuple, get_column_letter
 
-from reports.workbook.sheets import CacheValues
+from reports.workbook.sheets import CacheValues, FilledColumn
 
 _MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
 _REL = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
 _PACKAGE = "http://schemas.openxmlformats.org/package/2006/relationships"
+_CHART = "http://schemas.openxmlformats.org/drawingml/2006/chart"
+_CHARTS = "xl/charts/chart"
+_VALUE = f"{{{_MAIN}}}v"
 _DCTERMS = "http://purl.org/dc/terms/"
 _EPOCH = (1980, 1, 1, 0, 0, 0)
 
@@ -39,12 +44,13 @@ def sheet_parts(archive: zipfile.ZipFile) -> dict[str, str]:
     return parts
 
 
-def finish(book: bytes, caches: CacheValues) -> bytes:
+def finish(book: bytes, caches: CacheValues | None = None) -> bytes:
     """Fill the cached value of every formula cell and fix all times.
 
     Raises:
         CacheError: a formula without a value, or a value that is not finite.
     """
+    caches = caches or CacheValues()
     result = io.BytesIO()
     with (
         zipfile.ZipFile(io.BytesIO(book)) as source,
@@ -54,7 +60,9 @@ def finish(book: bytes, caches: CacheValues) -> bytes:
         for name in source.namelist():
             data = source.read(name)
             if name in titles:
-                data = _fill(data, titles[name], caches.get(titles[name], {}))
+                data = _fill(data, titles[name], caches)
+            elif name.startswith(_CHARTS):
+                data = _fill_chart(data, caches.ranges)
             elif name == "xl/styles.xml":
                 data = _order_fonts(data)
             elif name == "docProps/core.xml":
@@ -63,25 +71,73 @@ def finish(book: bytes, caches: CacheValues) -> bytes:
     return result.getvalue()
 
 
-def _fill(data: bytes, title: str, values: dict[str, float | str]) -> bytes:
+def _fill(data: bytes, title: str, caches: CacheValues) -> bytes:
     root = etree.fromstring(data)
-    formula_tag, value_tag = f"{{{_MAIN}}}f", f"{{{_MAIN}}}v"
-    for formula in root.iter(formula_tag):
+    values = caches.values.get(title, {})
+    for formula in root.iter(f"{{{_MAIN}}}f"):
         cell = formula.getparent()
         where = cell.get("r")
-        value = values.get(where)
-        if value is None or (isinstance(value, float) and not math.isfinite(value)):
-            msg = f"formula without a finite value: {title}!{where}: {value!r}"
-            raise CacheError(msg)
-        element = cell.find(value_tag)
+        value = _checked(values.get(where), f"{title}!{where}")
+        element = cell.find(_VALUE)
         if element is None:
-            element = etree.SubElement(cell, value_tag)
+            element = etree.SubElement(cell, _VALUE)
         if isinstance(value, str):
             cell.set("t", "str")
             element.text = value
         else:
             cell.attrib.pop("t", None)
             element.text = repr(float(value))
+    _add_columns(root, title, caches.columns.get(title, []))
+    return bytes(etree.tostring(root, xml_declaration=True, encoding="UTF-8", standalone=True))
+
+
+def _checked(value: float | str | None, where: str) -> float | str:
+    if value is None or (isinstance(value, float) and not math.isfinite(value)):
+        msg = f"formula without a finite value: {where}: {value!r}"
+        raise CacheError(msg)
+    return value
+
+
+def _add_columns(root: etree._Element, title: str, columns: list[FilledColumn]) -> None:
+    """Rows of formula cells as text, which lxml reads faster than elements can be made."""
+    if not columns:
+        return
+    data = root.find(f"{{{_MAIN}}}sheetData")
+    rows = {int(row.get("r")): row for row in data}
+    looks = {c.get("r"): c.get("s") for row in data for c in row}
+    texts: dict[int, list[str]] = {}
+    for column in sorted(columns, key=lambda c: c.index):
+        letter = get_column_letter(column.index)
+        style = looks[f"{letter}{column.first_row - 1}"]
+        for row, (formula, value) in enumerate(column.cells, column.first_row):
+            _checked(value, f"{title}!{letter}{row}")
+            texts.setdefault(row, []).append(
+                f'<c r="{letter}{row}" s="{style}"><f>{escape(formula[1:])}</f><v>{value!r}</v></c>'
+            )
+    made = "".join(f'<row r="{row}">{"".join(cells)}</row>' for row, cells in texts.items())
+    for row in etree.fromstring(f'<sheetData xmlns="{_MAIN}">{made}</sheetData>'):
+        number = int(row.get("r"))
+        old = rows.setdefault(number, row)
+        if old is not row:
+            old[:] = sorted([*old, *row], key=lambda c: coordinate_to_tuple(c.get("r"))[1])
+    data[:] = [rows[number] for number in sorted(rows)]
+
+
+def _fill_chart(data: bytes, ranges: dict[str, list[float]]) -> bytes:
+    """Put the numbers of its ranges into a chart, for viewers that do not compute."""
+    root = etree.fromstring(data)
+    for reference in root.iter(f"{{{_CHART}}}numRef"):
+        numbers = ranges[reference.findtext(f"{{{_CHART}}}f")]
+        # Cells still to be filled in have no value.
+        points = "".join(
+            f'<pt idx="{i}"><v>{n!r}</v></pt>' for i, n in enumerate(numbers) if math.isfinite(n)
+        )
+        reference.append(
+            etree.fromstring(
+                f'<numCache xmlns="{_CHART}"><formatCode>General</formatCode>'
+                f'<ptCount val="{len(numbers)}"/>{points}</numCache>'
+            )
+        )
     return bytes(etree.tostring(root, xml_declaration=True, encoding="UTF-8", standalone=True))
 
 

@@ -1,11 +1,9 @@
-"""Native Excel charts from chart specifications, caches filled."""
+"""Native Excel charts from chart specifications; the finishing pass fills their caches."""
 
 from __future__ import annotations
 
-import math
-
 from openpyxl.chart import ScatterChart
-from openpyxl.chart.data_source import AxDataSource, NumData, NumDataSource, NumRef, NumVal
+from openpyxl.chart.data_source import AxDataSource, NumDataSource, NumRef
 from openpyxl.chart.layout import Layout as PlotLayout
 from openpyxl.chart.layout import ManualLayout
 from openpyxl.chart.marker import Marker
@@ -41,7 +39,10 @@ def size(spec: ChartSpec) -> tuple[float, float]:
 
 
 def make_chart(spec: ChartSpec, layout: Layout, values: Values) -> ScatterChart:
-    """A scatter chart with straight lines; polar and path charts are square."""
+    """A scatter chart with straight lines; polar and path charts are square.
+
+    It comes without numbers: openpyxl takes long for each, see ``ranges_of``.
+    """
     chart = ScatterChart()
     chart.scatterStyle = "lineMarker"
     chart.style = 2
@@ -49,7 +50,7 @@ def make_chart(spec: ChartSpec, layout: Layout, values: Values) -> ScatterChart:
     chart.title = _title(f"{spec.title} (рис. {spec.figure})" if spec.figure else spec.title, 1200)
     chart.width, chart.height = size(spec)
     for number, series in enumerate(spec.series):
-        chart.series.append(_series(series, number, layout, values, spec))
+        chart.series.append(_series(series, number, layout, spec))
     chart.display_blanks = "gap"
     _axes(chart, spec, values)
     if spec.kind == "line" and len(spec.series) > 1:
@@ -105,13 +106,11 @@ def _axes(chart: ScatterChart, spec: ChartSpec, values: Values) -> None:
         chart.y_axis.scaling.orientation = "maxMin"
 
 
-def _series(
-    series: SeriesSpec, number: int, layout: Layout, values: Values, spec: ChartSpec
-) -> XYSeries:
+def _series(series: SeriesSpec, number: int, layout: Layout, spec: ChartSpec) -> XYSeries:
     made = XYSeries(idx=number, order=number)
     made.tx = SeriesLabel(v=series.name or quantity(series.y.split(".")[1]).symbol)
-    made.xVal = AxDataSource(numRef=_reference(series.x, layout, values))
-    made.yVal = NumDataSource(numRef=_reference(series.y, layout, values))
+    made.xVal = AxDataSource(numRef=NumRef(f=layout.range_of(series.x)))
+    made.yVal = NumDataSource(numRef=NumRef(f=layout.range_of(series.y)))
     made.smooth = False
     line = LineProperties(w=_LINE, solidFill=_COLOURS[number % len(_COLOURS)])
     line.prstDash = _DASHES[number % len(_DASHES)]
@@ -122,16 +121,14 @@ def _series(
     return made
 
 
-def _reference(key: str, layout: Layout, values: Values) -> NumRef:
-    table, column = key.split(".")
-    if table in values.columns:
-        numbers = [float(value) for value in values.columns[table][column]]
-    else:
-        numbers = [float(values.scalars[name]) for name in layout.keys_of_run(key)]
-    cache = NumData(
-        formatCode="General",
-        ptCount=len(numbers),
-        # Cells still to be filled in have no value.
-        pt=[NumVal(idx=i, v=repr(n)) for i, n in enumerate(numbers) if math.isfinite(n)],
-    )
-    return NumRef(f=layout.range_of(key), numCache=cache)
+def ranges_of(spec: ChartSpec, layout: Layout, values: Values) -> dict[str, list[float]]:
+    """Range of each series → its numbers, which the finishing pass puts into the chart."""
+    found = {}
+    for key in (key for series in spec.series for key in (series.x, series.y)):
+        table, column = key.split(".")
+        if table in values.columns:
+            numbers = values.columns[table][column].astype(float).tolist()
+        else:
+            numbers = [float(values.scalars[name]) for name in layout.keys_of_run(key)]
+        found[layout.range_of(key)] = numbers
+    return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import ceil
 
@@ -30,23 +31,39 @@ from reports.workbook import styles
 # Characters of a line in the columns of titles and sources, height of a line [pt].
 _TITLE_CHARS, _SOURCE_CHARS, _LINE_HEIGHT = 58, 24, 15
 
-CacheValues = dict[str, dict[str, float | str]]
+
+@dataclass(frozen=True, slots=True)
+class FilledColumn:
+    """Formula cells below one written by openpyxl, which they look like."""
+
+    index: int
+    first_row: int
+    cells: Sequence[tuple[str, float]]  # formula with its =, value
+
+
+@dataclass
+class CacheValues:
+    """What the finishing pass adds to each sheet."""
+
+    values: dict[str, dict[str, float | str]] = field(default_factory=dict)  # by coordinate
+    columns: dict[str, list[FilledColumn]] = field(default_factory=dict)
+    ranges: dict[str, list[float]] = field(default_factory=dict)  # of charts, by their formula
 
 
 @dataclass
 class Writer:
-    """Writes blocks; collects sheet → coordinate → cached value of every formula cell."""
+    """Writes blocks; collects what openpyxl does not write: values, cells inside columns."""
 
     layout: Layout
     values: Values
-    caches: CacheValues = field(default_factory=dict)
+    caches: CacheValues = field(default_factory=CacheValues)
 
     def formula(
         self, sheet: Worksheet, row: int, column: int, text: str, value: float | str
     ) -> None:
         """A formula cell with its value for the cache."""
         cell = sheet.cell(row, column, text)
-        self.caches.setdefault(sheet.title, {})[cell.coordinate] = value
+        self.caches.values.setdefault(sheet.title, {})[cell.coordinate] = value
 
     def table(self, sheet: Worksheet, table: TableSpec) -> None:
         """An angle table: titles, headers with comments, formulas row by row."""
@@ -68,21 +85,53 @@ class Writer:
                 if column.expr is not None
                 else None
             )
-            for row in rows:
-                if template is not None:
-                    text = at_row(template, row, last=row == last)
-                elif row == FIRST_ROW:
-                    text = None
-                else:
-                    text = self.layout.step_formula(table, row, index)
-                value = float(values[row - FIRST_ROW])
-                if text is None:
-                    sheet.cell(row, index, value)
-                else:
-                    self.formula(sheet, row, index, text, value)
-                cell = sheet.cell(row, index)
-                cell.style = style
-                cell.number_format = column.quantity.fmt
+            texts: list[str | None] = [
+                at_row(template, row, last=row == last)
+                if template is not None
+                else self.layout.step_formula(table, row, index)
+                if row > FIRST_ROW
+                else None
+                for row in rows
+            ]
+            look = (style, column.quantity.fmt)
+            self.column(sheet, index, texts, values.astype(float).tolist(), look)
+
+    def column(
+        self,
+        sheet: Worksheet,
+        index: int,
+        texts: Sequence[str | None],
+        values: Sequence[float],
+        look: tuple[str, str],
+    ) -> None:
+        """Cells of a column from ``FIRST_ROW`` down; a cell without a text is a number.
+
+        Only the ends are cells of openpyxl, which takes most of its time for cells; the
+        finishing pass fills in those between, alike but for formula and value.
+        """
+        last = len(texts) - 1
+        self.cells(sheet, index, {0: texts[0], last: texts[last]}, values, look)
+        between = [(text or "", value) for text, value in zip(texts, values, strict=True)][1:-1]
+        filled = FilledColumn(index, FIRST_ROW + 1, between)
+        self.caches.columns.setdefault(sheet.title, []).append(filled)
+
+    def cells(
+        self,
+        sheet: Worksheet,
+        index: int,
+        texts: Mapping[int, str | None],
+        values: Sequence[float],
+        look: tuple[str, str],
+    ) -> None:
+        """Some cells of a column by their offsets from ``FIRST_ROW``."""
+        for offset, text in texts.items():
+            row = FIRST_ROW + offset
+            if text is None:
+                sheet.cell(row, index, values[offset])
+            else:
+                self.formula(sheet, row, index, text, values[offset])
+            cell = sheet.cell(row, index)
+            cell.style, cell.number_format = look
 
     def scalar(self, sheet: Worksheet, scalar: Scalar) -> None:
         """The value cell of a scalar."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import zipfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil
@@ -12,8 +13,10 @@ from openpyxl.formatting.rule import CellIsRule
 from openpyxl.styles import Alignment, Font, PatternFill
 from openpyxl.utils import get_column_letter
 from openpyxl.workbook.defined_name import DefinedName
+from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.pagebreak import Break
 from openpyxl.worksheet.worksheet import Worksheet
+from openpyxl.writer.excel import ExcelWriter
 
 from reports.layout import (
     CONTENTS_SHEET,
@@ -36,7 +39,7 @@ from reports.tables.spec import Grid, Model, ScalarTable, TableSpec
 from reports.tables.values import Values, evaluate_model
 from reports.workbook import styles
 from reports.workbook.caches import finish
-from reports.workbook.charts import make_chart, size
+from reports.workbook.charts import make_chart, ranges_of, size
 from reports.workbook.inputs import write_inputs
 from reports.workbook.sheets import CacheValues, Writer
 
@@ -76,7 +79,7 @@ def assemble(
     for sheet in book.worksheets:
         _page(sheet, model, layout)
     for title in model.sheets:
-        _charts(book[title], model, layout, writer.values)
+        _charts(book[title], model, writer)
     for name, address in layout.defined_names().items():
         if name in model.fields or name in model.scalars:
             book.defined_names[name] = DefinedName(name, attr_text=address)
@@ -89,7 +92,9 @@ def assemble(
 def saved(book: Workbook, caches: CacheValues) -> bytes:
     """The bytes of a workbook with the values of its formulas."""
     stream = io.BytesIO()
-    book.save(stream)
+    # As ``book.save`` does, but for the compression, which the finishing pass brings.
+    with zipfile.ZipFile(stream, "w", zipfile.ZIP_STORED) as archive:
+        ExcelWriter(book, archive).save()
     return finish(stream.getvalue(), caches)
 
 
@@ -172,7 +177,8 @@ def _contents(sheet: Worksheet, model: Model, legend: Sequence[tuple[str, str]])
     sheet.column_dimensions["B"].width = 95
 
 
-def _charts(sheet: Worksheet, model: Model, layout: Layout, values: Values) -> None:
+def _charts(sheet: Worksheet, model: Model, writer: Writer) -> None:
+    layout = writer.layout
     specs = [spec for spec in model.charts if spec.sheet == sheet.title]
     if not specs:
         return
@@ -183,7 +189,8 @@ def _charts(sheet: Worksheet, model: Model, layout: Layout, values: Values) -> N
         if offset % page.rows + height > page.rows:  # not across a page break
             offset = page.rows * ceil(offset / page.rows)
         place = Cell(sheet.title, FIRST_ROW + offset, column)
-        sheet.add_chart(make_chart(spec, layout, values), place.coordinate)
+        sheet.add_chart(make_chart(spec, layout, writer.values), place.coordinate)
+        writer.caches.ranges |= ranges_of(spec, layout, writer.values)
         offset += height
     columns = round(max(size(spec)[0] for spec in specs) / _COLUMN_CM) + 1
     last = Cell(sheet.title, FIRST_ROW + offset - 1, column + columns)
@@ -265,5 +272,8 @@ def _note(sheet: Worksheet, text: str) -> None:
     cell = sheet.cell(NOTE_ROW, 3, text)
     cell.style = styles.NOTE
     cell.alignment = Alignment(wrap_text=True, vertical="top")
-    sheet.merge_cells(start_row=NOTE_ROW, start_column=3, end_row=NOTE_ROW, end_column=last)
+    # Not merge_cells, which compares the borders of cells that have none.
+    area = CellRange(min_row=NOTE_ROW, min_col=3, max_row=NOTE_ROW, max_col=last)
+    sheet.merged_cells.add(area)
+    sheet.cell(NOTE_ROW, last)  # the note's width counts as the sheet's
     sheet.row_dimensions[NOTE_ROW].height = 14 * ceil(len(text) / ((last - 2) * 13)) + 4

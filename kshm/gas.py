@@ -49,7 +49,7 @@ class Stroke:
 
 def volume_ratio(displacement: Array, stroke: Array, eps: Array) -> Array:
     """Cylinder volume over clearance volume V/V_c [-]; V_c from the piston's own stroke."""
-    ratio: Array = 1 + (eps - 1) * displacement / stroke
+    ratio: Array = 1 + displacement * ((eps - 1) / stroke)
     return ratio
 
 

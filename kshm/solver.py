@@ -19,7 +19,7 @@ from kshm.solution import Solution
 Array = NDArray[np.float64]
 
 _CHUNK_VALUES = 2**17  # cylinders × angles of the engines in a chunk
-_KEPT_BYTES = 32 * 2**20
+_KEPT_BYTES = 24 * 2**20  # above 32 MB the C library does not learn
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,16 +92,18 @@ def solve_chunks(engines: Iterable[Engine], size: int | None = None) -> Iterator
         ValueError: the engines of a chunk differ in structure.
     """
     # The C library gives freed arrays back to the system and takes them again page by page,
-    # which costs more than the arithmetic; once a block of 32 MB was freed, it keeps them.
+    # which costs more than the arithmetic; once a great block was freed, it keeps them.
     np.empty(_KEPT_BYTES, np.uint8)
     rest = iter(engines)
     while first := list(islice(rest, 1)):
-        count = size or max(1, _CHUNK_VALUES // (first[0].cylinders * _angles(first[0])))
+        count = size or chunk_size(first[0])
         yield solve_batch([*first, *islice(rest, count - 1)])
 
 
-def _angles(engine: Engine) -> int:
-    return engine.strokes * 180 // engine.step_deg + 1
+def chunk_size(engine: Engine) -> int:
+    """How many engines of its structure make a chunk that the processor's cache holds."""
+    angles = engine.strokes * 180 // engine.step_deg + 1
+    return max(1, _CHUNK_VALUES // (engine.cylinders * angles))
 
 
 def solve(engine: Engine) -> Solution:
@@ -143,6 +145,7 @@ class CylinderForces:
     p: Array
     p_gas: Array
     p_inertia: Array
+    p_sum: Array
     rod: forces.RodForces
     hung: Hung | None
 
@@ -156,13 +159,15 @@ def _cylinder_forces(batch: Batch, phi: Array) -> CylinderForces:
     pressure = _pressure(batch, phi, ratio, _motion(batch))
     inertia = (-batch.m_j / batch.area) * _acceleration(batch, at)
     p_gas = pressure - batch.p_ambient
+    p_sum = p_gas + inertia
     found = CylinderForces(
         displacement=displacement,
         volume_ratio=ratio,
         p=pressure,
         p_gas=p_gas,
         p_inertia=inertia,
-        rod=forces.decompose(p_gas + inertia, at),
+        p_sum=p_sum,
+        rod=forces.decompose(p_sum, at),
         hung=None,
     )
     return found if batch.articulated is None else _with_articulated(batch, phi, found)
@@ -202,6 +207,7 @@ def _with_articulated(batch: Batch, phi: Array, own: CylinderForces) -> Cylinder
         p=put(own.p, hung.p),
         p_gas=put(own.p_gas, hung.p - batch.p_ambient),
         p_inertia=put(own.p_inertia, hung.p_inertia),
+        p_sum=put(own.p_sum, hung.p - batch.p_ambient + hung.p_inertia),
         rod=forces.RodForces(
             N=put(own.rod.N, hung.N),
             S=put(own.rod.S, hung.S),
@@ -222,6 +228,7 @@ def _rods(batch: Batch) -> journals.Rods:
 
 
 def solve_stacked(batch: Batch) -> BatchSolution:
+    """The whole chain for engines that are stacked already, Gots (1)-(60)."""
     period = batch.engines[0].period
     local = np.mod(batch.phi - batch.theta, period)
     found = _cylinder_forces(batch, local)
@@ -261,7 +268,7 @@ def solve_stacked(batch: Batch) -> BatchSolution:
         p=found.p,
         p_gas=found.p_gas,
         p_inertia=found.p_inertia,
-        p_sum=found.p_gas + found.p_inertia,
+        p_sum=found.p_sum,
         N=rod.N,
         S=rod.S,
         K=rod.K,
@@ -269,7 +276,7 @@ def solve_stacked(batch: Batch) -> BatchSolution:
         torque=M,
         torque_sum=M.sum(axis=1),
         running_main=running_main,
-        running_pin=torque.running_on_pin(throw_torque),
+        running_pin=torque.running_on_pin(running_main[:, :-1], throw_torque),
         running_pin_statics=torque.running_on_pin_statics(
             running_main[:, :-1], tangential, batch.r
         ),

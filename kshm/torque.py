@@ -18,17 +18,22 @@ def running_on_main(torque: Array) -> Array:
         Shape (engines, throws + 1, angles): zero on the first journal, the whole
         engine torque on the last.
     """
-    zero = np.zeros_like(torque[:, :1])
-    return np.concatenate([zero, np.cumsum(torque, axis=1)], axis=1)
+    engines, throws, angles = torque.shape
+    running = np.zeros((engines, throws + 1, angles))
+    np.cumsum(torque, axis=1, out=running[:, 1:])
+    return running
 
 
-def running_on_pin(torque: Array) -> Array:
+def running_on_pin(before: Array, torque: Array) -> Array:
     """Torque running on to each crankpin [N·m] by the book's rule, Gots table 13.
 
     The torque on the main journal before plus half of the throw's own.
-    Shape (engines, throws, angles).
+
+    Args:
+        before: running-on torque on the main journal before the throw [N·m].
+        torque: torque of each throw [N·m], shape (engines, throws, angles).
     """
-    return running_on_main(torque)[:, :-1] + torque / 2
+    return before + torque / 2
 
 
 def running_on_pin_statics(before: Array, tangential: Array, r: Array) -> Array:

@@ -70,11 +70,13 @@ def _sectors(up: Array, against: Array, size: Array, rays: int) -> NDArray[np.in
     along, across = np.abs(up), np.abs(against)
     slack = size * (EDGE / np.sin(HALF_WINDOW))  # the edge of ``ray_loads`` as an angle
     found: NDArray[np.int8] = (across > slack).view(np.int8)
-    for angle in ray_angles(rays)[1 : rays // 4 + 1]:
-        beyond = across * np.cos(angle) - along * np.sin(angle)
-        found += (beyond > slack).view(np.int8)
-        beyond += slack
-        found += (beyond >= 0).view(np.int8)
+    least, most = across - slack, across + slack
+    for angle in ray_angles(rays)[1 : (rays + 3) // 4]:
+        edge = along * np.tan(angle)
+        found += (least > edge).view(np.int8)
+        found += (most >= edge).view(np.int8)
+    if rays % 4 == 0:  # a ray stands at 90°
+        found += (along <= slack).view(np.int8)
     found += (up < 0).view(np.int8) * (np.int8(rays) - 2 * found)
     found += (against < 0).view(np.int8) * (np.int8(2 * rays) - 2 * found)
     return found

@@ -1,12 +1,16 @@
-"""Run the benchmarks named on the command line, or all: ``python -m tests.bench report``."""
+"""Run the benchmarks named on the command line, or all: ``python -m tests.bench solver``."""
 
 from __future__ import annotations
 
+import argparse
 import importlib
 import pkgutil
 import sys
+from dataclasses import replace
+from pathlib import Path
 
 import tests.bench as bench
+from tests.bench._figure import keep
 
 
 def names() -> list[str]:
@@ -14,16 +18,25 @@ def names() -> list[str]:
     return sorted(item.name for item in pkgutil.iter_modules(bench.__path__) if item.name[0] != "_")
 
 
-def main(wanted: list[str]) -> int:
-    """Print the rows of each benchmark."""
+def main(arguments: list[str]) -> int:
+    """Print the figures of each benchmark; keep them where asked."""
     known = names()
-    for name in wanted or known:
-        if name not in known:
-            print(f"нет замера {name}; есть: {', '.join(known)}", file=sys.stderr)
-            return 2
+    parser = argparse.ArgumentParser(prog="./run bench", description="Замеры времени и памяти.")
+    parser.add_argument("names", nargs="*", metavar="ЗАМЕР", help=f"из: {', '.join(known)}")
+    parser.add_argument("--history", type=Path, metavar="ФАЙЛ.csv", help="дописать строки в CSV")
+    asked = parser.parse_args(arguments)
+    unknown = [name for name in asked.names if name not in known]
+    if unknown:
+        print(f"нет замера {unknown[0]}; есть: {', '.join(known)}", file=sys.stderr)
+        return 2
+    for name in asked.names or known:
         print(f"== {name}", flush=True)
-        for label, value in importlib.import_module(f"tests.bench.{name}").rows():
-            print(f"{label:<60} {value}", flush=True)
+        found = []
+        for figure in importlib.import_module(f"tests.bench.{name}").figures():
+            print(figure, flush=True)
+            found.append(replace(figure, name=f"{name}: {figure.name}"))
+        if asked.history:
+            keep(asked.history, found)
     return 0
 
 

@@ -17,6 +17,7 @@ from reports.grading.issue import assignment_for, issue
 from reports.grading.register import Register
 from reports.recalculation.by_libreoffice import LibreOffice
 from reports.resources import samples_dir
+from tests.bench._figure import Figure, costs
 from tests.bench._process import Cost, kshm, run
 from tests.grading.fill import filled_book
 
@@ -25,15 +26,15 @@ FEW, MANY = 40, 240
 OFFICE = 4
 
 
-def rows() -> Iterator[tuple[str, str]]:
-    """Labels and figures."""
+def figures() -> Iterator[Figure]:
+    """Figures."""
     workers = len(os.sched_getaffinity(0))
     with tempfile.TemporaryDirectory(prefix="kshm-bench-") as name:
         folder = Path(name)
         started = time.perf_counter()
         register = _issued(folder)
         each = (time.perf_counter() - started) / STUDENTS
-        yield "выдача одной рабочей книги", f"{each:.2f} с"
+        yield Figure("выдача одной рабочей книги", each, "с")
         empty = [
             filled_book(
                 (folder / "issued" / book.folder / book.file).read_bytes(),
@@ -44,18 +45,17 @@ def rows() -> Iterator[tuple[str, str]]:
         books = LibreOffice().converted(empty)
         few, many = _graded(folder, books, FEW), _graded(folder, books, MANY)
         for count, cost in ((FEW, few), (MANY, many)):
-            yield f"проверка {count} книг, процессов {workers}, с их запуском", str(cost)
+            yield from costs(f"проверка {count} книг, процессов {workers}, с их запуском", cost)
         # The start of the processes costs the same for any number of books.
         speed = (MANY - FEW) / (many.wall - few.wall)
-        yield "скорость проверки без запуска", f"{speed:.1f} книг/с"
+        yield Figure("скорость проверки без запуска", speed, "книг/с")
         processor = (many.cpu - few.cpu) / (MANY - FEW)
-        yield "процессорное время на книгу", f"{processor:.3f} с ({workers / processor:.1f} книг/с)"
+        yield Figure("процессорное время на книгу", processor, "с",
+                     f"{workers / processor:.1f} книг/с")  # fmt: skip
         office = _office(books)
-        yield (
-            "пересчёт книги в LibreOffice без запуска",
-            f"{office:.2f} с ({1 / office:.1f} книг/с)",
-        )
-        yield "проверка быстрее пересчёта в LibreOffice", f"в {speed * office:.1f} раза"
+        yield Figure("пересчёт книги в LibreOffice без запуска", office, "с",
+                     f"{1 / office:.1f} книг/с")  # fmt: skip
+        yield Figure("пересчёт в LibreOffice / проверка", speed * office, "раз")
 
 
 def _issued(folder: Path) -> Register:

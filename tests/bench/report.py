@@ -7,10 +7,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from reports.resources import samples_dir
-from tests.bench._process import Cost, kshm, median, run
+from tests.bench._figure import Figure, costs
+from tests.bench._process import kshm, median, run
 
 
-def rows() -> Iterator[tuple[str, str]]:
+def figures() -> Iterator[Figure]:
     """Times of whole commands; medians of three but for the first report."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -24,16 +25,14 @@ def rows() -> Iterator[tuple[str, str]]:
             more = ("--only", only) if only else ()
             return kshm("build", str(folder / f"{kind}.toml"), "-o", str(folder / "out"), *more)
 
-        yield "только книга", str(median(build("full", "xlsx"), env=keep))
+        yield from costs("только книга", median(build("full", "xlsx"), env=keep))
         first = run(build("full"), keep)
-        yield "книга и отчёт, первый раз", str(first)
+        yield from costs("книга и отчёт, первый раз", first)
         full = median(build("full"), env=keep)
-        yield "книга и отчёт, снова", f"{full}; {_share(full, first)} первого раза"
+        yield from costs("книга и отчёт, снова", full)
+        yield Figure("снова / первый раз", full.wall / first.wall, "раз")
         short = median(build("short"), env=keep)
-        yield "книга и краткий отчёт, снова", f"{short}; {_share(short, full)} полного"
-        size = (folder / "out" / "full.pdf").stat().st_size // 1024
-        yield "полный отчёт с вложенной книгой", f"{size} КБ"
-
-
-def _share(one: Cost, other: Cost) -> str:
-    return f"{one.wall / other.wall:.2f}"
+        yield from costs("книга и краткий отчёт, снова", short)
+        yield Figure("краткий / полный", short.wall / full.wall, "раз")
+        size = (folder / "out" / "full.pdf").stat().st_size
+        yield Figure("полный отчёт с вложенной книгой", size / 1024, "КБ")

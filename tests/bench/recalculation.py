@@ -1,0 +1,46 @@
+"""Recalculating a workbook: formualizer beside LibreOffice.
+
+The book is the textbook's diesel at 10°.  LibreOffice is timed with one book and with
+three, so that its start can be taken out.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+
+from reports.recalculation.by_formualizer import Formualizer
+from reports.recalculation.by_libreoffice import LibreOffice, find_soffice
+from tests.bench._figure import Figure, interleaved, median, memory
+from tests.bench.workbook import ours
+
+MORE = 2
+
+
+def by_formualizer() -> None:
+    """One book."""
+    Formualizer().recalculate([ours()])
+
+
+def figures() -> Iterator[Figure]:
+    """Figures."""
+    book, fast = ours(), Formualizer()
+    if find_soffice() is None:
+        actions = {"formualizer": lambda: fast.recalculate([book])}
+    else:
+        office = LibreOffice()
+        actions = {
+            "formualizer": lambda: fast.recalculate([book]),
+            "one": lambda: office.recalculate([book]),
+            "more": lambda: office.recalculate([book] * (1 + MORE)),
+        }
+    times = interleaved(actions, rounds=3, clock=time.perf_counter)
+    yield Figure("formualizer", median(times["formualizer"]), "с")
+    if "one" in times:
+        own = median((b - a) / MORE for a, b in zip(times["one"], times["more"], strict=True))
+        yield Figure("LibreOffice с запуском", median(times["one"]), "с")
+        yield Figure("LibreOffice, каждая следующая книга", own, "с")
+        yield Figure("LibreOffice без запуска / formualizer", own / median(times["formualizer"]),
+                     "раз")  # fmt: skip
+    yield memory("formualizer с изготовлением книги",
+                 "from tests.bench.recalculation import by_formualizer as f; f()")  # fmt: skip

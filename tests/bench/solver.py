@@ -1,0 +1,110 @@
+"""The solver beside the bare cost of its trigonometry.
+
+A crank mechanism needs sin φ, cos φ, sin β and cos β of every cylinder at every angle, so
+the measure is numpy's sin and cos of two arrays (engines × cylinders × angles), φ and β,
+taken in the same chunks of engines: 4 × 3 × 73 values an engine for the textbook's diesel
+with a table every 10°.  Nothing else is counted on that side, while the solver's side
+gives all arrays of ``BatchSolution``: pressures, forces, torques, reactions of all
+journals, crankpin loads and the sums of all wear diagrams.  The ten thousand engines differ in
+speed, bore, length of the rod and reciprocating mass.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from kshm import solve
+from kshm.batch import stack
+from kshm.engine import Engine
+from kshm.solver import chunk_size, solve_batch, solve_chunks, solve_stacked
+from reports.inputs.convert import to_engine
+from reports.inputs.load import load_toml
+from reports.resources import samples_dir
+from tests.bench._figure import Figure, interleaved, median, memory, ratio
+
+SIDE = 10  # values of each of four keys
+
+
+def base() -> Engine:
+    """The textbook's diesel."""
+    return to_engine(load_toml(samples_dir() / "gots-diesel.toml").model)
+
+
+def family(side: int = SIDE) -> Iterator[Engine]:
+    """Engines of a grid over four keys."""
+    first = base()
+    steps = np.linspace(0.8, 1.2, side)
+    for speed, bore, rod, mass in itertools.product(steps, steps, steps, steps):
+        geometry = replace(
+            first.geometry,
+            bore=first.geometry.bore * bore,
+            rod_length=first.geometry.rod_length * rod,
+        )
+        masses = replace(first.masses, reciprocating=first.masses.reciprocating * mass)
+        yield replace(first, omega=first.omega * speed, geometry=geometry, masses=masses)
+
+
+def solve_all() -> None:
+    """All engines, one chunk after another."""
+    for _ in solve_chunks(family()):
+        pass
+
+
+def figures() -> Iterator[Figure]:
+    """Figures."""
+    engines = list(family())
+    one = engines[0]
+    values = np.random.default_rng(1).uniform(0, 6, (one.cylinders, 73))
+
+    def bare(count: int) -> None:
+        phi = np.broadcast_to(values, (count, *values.shape)).copy()
+        beta = phi / 20
+        for part in (phi, beta):
+            np.sin(part)
+            np.cos(part)
+
+    size = chunk_size(one)
+    batches = [stack(engines[i : i + size]) for i in range(0, len(engines), size)]
+    phi = [np.array(np.broadcast_to(values, (len(b.engines), *values.shape))) for b in batches]
+    beta = [part / 20 for part in phi]
+
+    def trigonometry() -> None:
+        for part in itertools.chain(phi, beta):
+            np.sin(part)
+            np.cos(part)
+
+    def from_arrays() -> None:
+        for batch in batches:
+            solve_stacked(batch)
+
+    def from_objects() -> None:
+        for _ in solve_chunks(engines):
+            pass
+
+    solve_all()
+    times = interleaved(
+        {"bare": trigonometry, "arrays": from_arrays, "objects": from_objects}, rounds=7
+    )
+    count = len(engines)
+    for name, label in (
+        ("bare", "один sin и cos φ и β"), ("arrays", "решение из массивов"),
+        ("objects", "решение из объектов Engine"),
+    ):  # fmt: skip
+        yield Figure(f"{count} двигателей, {label}", median(times[name]), "с",
+                     f"{median(times[name]) / count * 1e6:.1f} мкс на двигатель")  # fmt: skip
+    yield Figure("решение из массивов / sin и cos", ratio(times, "arrays", "bare"), "раз",
+                 "цель 4")  # fmt: skip
+    yield Figure("решение из объектов Engine / sin и cos", ratio(times, "objects", "bare"), "раз")
+    single = interleaved(
+        {"bare": lambda: bare(1), "batch": lambda: solve_batch([one]),
+         "tables": lambda: solve(one).columns}, rounds=51
+    )  # fmt: skip
+    yield Figure("один двигатель", median(single["batch"]) * 1e3, "мс")
+    yield Figure("один двигатель / sin и cos", ratio(single, "batch", "bare"), "раз",
+                 "почти всё время — вызовы numpy")  # fmt: skip
+    yield Figure("один двигатель со всеми таблицами", median(single["tables"]) * 1e3, "мс")
+    yield memory(f"{count} двигателей", "from tests.bench.solver import solve_all; solve_all()")

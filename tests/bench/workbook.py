@@ -1,0 +1,91 @@
+"""The workbook with its caches beside XlsxWriter writing the same.
+
+Both write every cell of the textbook's diesel at 10°: formulas with their values, numbers,
+texts, number formats and the comments of headers, with compression, to memory.  XlsxWriter
+gets the finished texts and values; ours compiles its formulas from the expressions and
+also draws all charts, which the other does not.  With default settings XlsxWriter looks
+for newer functions in every formula, which is most of its time.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from functools import lru_cache
+from typing import Any
+
+import openpyxl
+import xlsxwriter
+
+from reports.inputs.load import load_toml
+from reports.resources import samples_dir
+from reports.tables.registry import build_model
+from reports.tables.spec import Model
+from reports.tables.values import Values, evaluate_model
+from reports.workbook.write import workbook_bytes
+from tests.bench._figure import Figure, interleaved, median, memory, ratio
+
+Written = tuple[int, int, Any, Any, tuple[str, str], str | None]
+
+
+@lru_cache
+def solved() -> tuple[Model, Values]:
+    """The model and its values, calculated before the clock starts."""
+    model = build_model(load_toml(samples_dir() / "gots-diesel.toml").model)
+    return model, evaluate_model(model)
+
+
+def ours() -> bytes:
+    """The workbook as ``kshm build`` writes it."""
+    return workbook_bytes(*solved())
+
+
+def cells_of(book: bytes) -> dict[str, list[Written]]:
+    """All cells of each sheet: place, formula or value, cached value, look, comment."""
+    formulas = openpyxl.load_workbook(io.BytesIO(book))
+    values = openpyxl.load_workbook(io.BytesIO(book), data_only=True)
+    return {
+        sheet.title: [
+            (c.row - 1, c.column - 1, c.value, values[sheet.title][c.coordinate].value,
+             (c.style, c.number_format), c.comment.text if c.comment else None)
+            for row in sheet.iter_rows() for c in row if c.value is not None
+        ]
+        for sheet in formulas.worksheets
+    }  # fmt: skip
+
+
+def theirs(sheets: dict[str, list[Written]]) -> bytes:
+    """The same cells by XlsxWriter."""
+    stream = io.BytesIO()
+    book = xlsxwriter.Workbook(stream, {"in_memory": True})
+    looks: dict[tuple[str, str], Any] = {}
+    for title, cells in sheets.items():
+        sheet = book.add_worksheet(title)
+        for row, column, value, cached, look, comment in cells:
+            if look not in looks:
+                looks[look] = book.add_format(
+                    {"num_format": look[1], "font_name": "Times New Roman", "border": 1}
+                )
+            if isinstance(value, str) and value.startswith("="):
+                sheet.write_formula(row, column, value, looks[look], cached)
+            elif isinstance(value, str):
+                sheet.write_string(row, column, value, looks[look])
+            else:
+                sheet.write_number(row, column, value, looks[look])
+            if comment:
+                sheet.write_comment(row, column, comment)
+    book.close()
+    return stream.getvalue()
+
+
+def figures() -> Iterator[Figure]:
+    """Figures."""
+    cells = cells_of(ours())
+    count = sum(len(each) for each in cells.values())
+    times = interleaved({"ours": ours, "theirs": lambda: theirs(cells)}, rounds=5)
+    yield Figure("книга с кэшами и диаграммами", median(times["ours"]), "с",
+                 f"{count} ячеек, {len(solved()[0].charts)} диаграмм")  # fmt: skip
+    yield Figure("XlsxWriter, те же ячейки без диаграмм", median(times["theirs"]), "с")
+    yield Figure("книга / XlsxWriter", ratio(times, "ours", "theirs"), "раз", "цель 0,5")
+    yield Figure("на ячейку", median(times["ours"]) / count * 1e6, "мкс")
+    yield memory("книга", "from tests.bench.workbook import ours; ours()")

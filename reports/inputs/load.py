@@ -65,7 +65,7 @@ SECTION_MODELS: dict[str, type[Strictly]] = {
     "reference": ReferenceSection,
 }
 _OPTIONAL_SECTIONS = ("report", "calculation", "cycle", "articulated", "balance", "reference")
-_GASES: dict[str, type[Strictly]] = {
+GAS_MODELS: dict[str, type[Strictly]] = {
     "polytropic": PolytropicGasSection,
     "table": TableGasSection,
     "cycle": CycleGasSection,
@@ -183,7 +183,7 @@ class _Reader:
     def from_cells(self, data: dict[str, Any]) -> dict[str, Any]:
         source = str(data["gas"].get("source")) if isinstance(data.get("gas"), dict) else ""
         source = next((key for key, label in SOURCES.items() if source == label), source)
-        known = {**SECTION_MODELS, "gas": _GASES.get(source, PolytropicGasSection)}
+        known = {**SECTION_MODELS, "gas": GAS_MODELS.get(source, PolytropicGasSection)}
         if self.regime is not None:
             known["regime"] = RegimeValues
         result, empty = cells.from_cells(data, known)
@@ -259,12 +259,12 @@ class _Reader:
         if name != "gas":
             return SECTION_MODELS[name]
         source = raw.get("source")
-        if isinstance(source, str) and source in _GASES:
-            return _GASES[source]
+        if isinstance(source, str) and source in GAS_MODELS:
+            return GAS_MODELS[source]
         what = "обязательный ключ не задан"
         if "source" in raw:
             what = f"недопустимое значение {messages.shown(source)}"
-        hint = "допустимо: " + ", ".join((*_GASES, "file"))
+        hint = "допустимо: " + ", ".join((*GAS_MODELS, "file"))
         if ("gas", "source") not in self.empty:
             self.problems.append(self.problem(("gas", "source"), what, hint))
         return None

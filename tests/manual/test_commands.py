@@ -1,0 +1,128 @@
+"""Every command of the README and of the manual, run as a reader would run it.
+
+The commands share a folder, in the order of the pages; what was run once is not run
+again.  ``./run`` is a stand-in that calls the same program with this interpreter:
+making an environment is tested with the script itself.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from reports.grading.issue import assignment_for
+from reports.grading.register import load_register
+from tests.grading.fill import filled_book
+from tests.manual.pages import DOCS, PAGES, READMES, ROOT, blocks, commands
+
+# What a test cannot run, and why.
+LEFT_OUT = {
+    "./run test": "the command that runs this test",
+    "./run bench report": "timings do not belong to tests",
+    "./run bench grading": "timings do not belong to tests",
+}
+CHAINS = {
+    "class": re.compile(r"^./run (issue|grade)\b"),
+    "project": re.compile(r"my-engine|blank"),
+    "others": re.compile(r""),
+}
+_RUN = """#!/bin/sh
+if [ "$1" = docs ]; then
+    shift
+    exec "{python}" -m reports.manual "{folder}/docs" "$@"
+fi
+exec "{python}" -m reports "$@"
+"""
+
+
+def chain_of(command: str) -> str:
+    return next(name for name, pattern in CHAINS.items() if pattern.search(command))
+
+
+def all_commands() -> list[str]:
+    order = (*READMES, DOCS / "first-project.md", DOCS / "grading.md", *PAGES)
+    found = dict.fromkeys(command for page in order for command in commands(page))
+    return [command for command in found if command not in LEFT_OUT]
+
+
+def submitted(folder: Path) -> None:
+    """Two students' books, filled in and handed in."""
+    target = folder / "submitted"
+    target.mkdir()
+    register = load_register(folder / "issued")
+    for book in register.books[:2]:
+        handout = (folder / "issued" / book.folder / book.file).read_bytes()
+        filled = filled_book(handout, assignment_for(book, register.rubric))
+        (target / book.file).write_bytes(filled)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="the blocks are of a POSIX shell")
+@pytest.mark.parametrize("chain", CHAINS)
+def test_commands(tmp_path, chain):
+    shutil.copytree(ROOT / "samples", tmp_path / "samples")
+    shutil.copytree(DOCS, tmp_path / "docs")
+    (tmp_path / "templates").symlink_to(ROOT / "templates")  # pages link to it
+    for page in READMES:
+        shutil.copy2(page, tmp_path)
+    run = tmp_path / "run"
+    run.write_text(_RUN.format(python=sys.executable, folder=tmp_path))
+    run.chmod(0o755)
+    env = {**os.environ, "PYTHONPATH": str(ROOT), "HOME": str(tmp_path / "home")}
+    env.pop("XDG_CONFIG_HOME", None)
+    chosen = [command for command in all_commands() if chain_of(command) == chain]
+    assert chosen
+    for command in chosen:
+        if command.startswith("./run grade") and not (tmp_path / "submitted").exists():
+            submitted(tmp_path)
+        done = subprocess.run(
+            ["bash", "-c", command],
+            check=False,
+            cwd=tmp_path,
+            env=env,
+            capture_output=True,
+            text=True,
+        )
+        # 1 says that something needs a person's eye: three of five students handed nothing in.
+        allowed = (0, 1) if command.startswith("./run grade") else (0,)
+        assert done.returncode in allowed, f"{command}\n{done.stdout}{done.stderr}"
+        assert "Traceback" not in done.stderr, command
+    for name in EXPECTED[chain]:
+        assert (tmp_path / name).exists(), name
+
+
+EXPECTED = {
+    "class": ("issued/register.json", "graded/gradebook.xlsx", "graded/moodle.csv"),
+    "project": ("out/my-engine.xlsx", "out/my-engine.pdf", "out2/my-engine.pdf", "results.json"),
+    "others": ("out/gots-diesel.xlsx", "out/gots-diesel.pdf", "out/docs/index.html"),
+}
+
+
+def test_what_is_left_out_is_still_written_somewhere():
+    written = {command for page in PAGES for command in commands(page)}
+    texts = "".join(page.read_text(encoding="utf-8") for page in PAGES)
+    for command in LEFT_OUT:
+        assert command in written or command in texts
+
+
+def test_the_message_shown_is_the_message_given(tmp_path):
+    text = (ROOT / "samples" / "gots-diesel.toml").read_text(encoding="utf-8")
+    assert "\nbore_mm = 88.0" in text
+    wrong = text.replace("\nbore_mm = 88.0", "\nbore_mm = -88.0")
+    (tmp_path / "my-engine.toml").write_text(wrong, encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, "-m", "reports", "check", "my-engine.toml"],
+        check=False,
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+    )
+    (shown,) = blocks(DOCS / "first-project.md", "text")
+    assert done.stderr == shown
+    assert done.returncode == 2

@@ -1,0 +1,80 @@
+"""The example of ``docs/new-table.md``: run, recalculated, issued and graded."""
+
+from __future__ import annotations
+
+import io
+import tomllib
+from dataclasses import replace
+from pathlib import Path
+
+import openpyxl
+import pytest
+
+from reports.grading import issue
+from reports.grading.issue import assignment_for
+from reports.grading.marking import Marker
+from reports.grading.submissions import Submission
+from reports.recalculation.by_formualizer import Formualizer
+from reports.tables.registry import build_model
+from tests.grading.classroom import issue_class
+from tests.grading.fill import filled_book
+from tests.manual.pages import DOCS, ROOT, blocks
+from tests.referee.compare import differences_from_caches, errors_in
+
+PAGE = DOCS / "new-table.md"
+SHEET = "Опрокидывание"
+
+
+@pytest.fixture(scope="module")
+def example():
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(ROOT)
+        names: dict[str, object] = {}
+        for block in blocks(PAGE, "python"):
+            exec(block, names)
+        yield names
+
+
+def test_the_sheet_has_live_formulas(example):
+    book = example["book"]
+    sheet = openpyxl.load_workbook(io.BytesIO(book))[SHEET]
+    formulas = [cell.value for row in sheet.iter_rows() for cell in row if cell.data_type == "f"]
+    assert len(formulas) == 4 * 73 - 1  # φ of the first row is a number
+    (recalculated,) = Formualizer().recalculate([book])
+    assert errors_in(recalculated) == []
+    assert differences_from_caches(book, recalculated) == []
+
+
+def test_the_report_takes_the_formula_from_the_description(example):
+    assert r"N_{\mathrm{уд}}" in example["formula"]
+    assert r"\cos 30^{\circ}" in example["numbers"]
+    assert len(example["printed"].rows) == 25  # each third of 73 and the last
+
+
+def test_the_table_is_graded_by_its_name_in_the_rubric(example, monkeypatch, tmp_path):
+    (rubric,) = blocks(PAGE, "toml")
+    assert "tilting" in tomllib.loads(rubric)["work"]["fill"]
+
+    def with_table(model):
+        built = build_model(model)
+        table = example["tilting_table"](built.tables["P4_1"].rows)
+        return replace(built, blocks=(*built.blocks, table))
+
+    monkeypatch.setattr(issue, "build_model", with_table)
+    register = issue_class(tmp_path, 1, rubric).register
+    (book,) = register.books
+    handout = (tmp_path / "issued" / book.folder / book.file).read_bytes()
+    assert SHEET in openpyxl.load_workbook(io.BytesIO(handout)).sheetnames
+    assignment = assignment_for(book, register.rubric)
+
+    def verdict_of(changes):
+        filled = filled_book(handout, assignment, changes)
+        result = Marker(register).mark(Submission("a.xlsx", Path("a.xlsx"), None, None), filled)
+        return {line["id"]: line["verdict"] for line in result["items"]}
+
+    right = verdict_of({})
+    assert right["tilting.Mopr_side_Nm"] == "right"
+    assert set(right.values()) == {"right"}
+    typed = verdict_of({"tilting.Mopr_side_Nm": [1.0] * 25})
+    assert typed["tilting.Mopr_side_Nm"] == "wrong"
+    assert typed["tilting.Mopr_gap_Nm"] == "carried"

@@ -1,0 +1,89 @@
+"""Pages of the documentation: current, linked, readable, complete."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from reports.inputs.fields import SECTIONS
+from reports.inputs.load import GAS_MODELS, SECTION_MODELS, load_toml
+from reports.inputs.meta import Strictly, hints, submodel
+from reports.inputs.template import list_samples
+from reports.manual.build import pages
+from reports.manual.links import broken_links, slug
+from reports.manual.site import write_site
+from reports.resources import samples_dir
+from reports.tables.registry import build_model
+from tests.browser import measure
+from tests.manual.pages import DOCS, PAGES
+
+
+def test_generated_pages_are_current():
+    stale = [
+        name for name, text in pages().items() if (DOCS / name).read_text(encoding="utf-8") != text
+    ]
+    assert stale == [], "./run docs обновит"
+
+
+def test_no_link_leads_nowhere():
+    assert broken_links(PAGES) == []
+
+
+def test_a_dead_link_is_seen(tmp_path):
+    page = tmp_path / "page.md"
+    page.write_text("# Одна\n\n[a](no.md) [b](#другая) [c](#одна) ![d](no.png)\n", encoding="utf-8")
+    assert broken_links([page]) == ["page.md: no.md", "page.md: #другая", "page.md: no.png"]
+
+
+def test_every_page_has_an_english_overview():
+    own = list(DOCS.glob("*.md"))
+    assert len(own) > 8
+    missing = [p.name for p in own if "> In English: " not in p.read_text(encoding="utf-8")[:1200]]
+    assert missing == []
+
+
+def test_every_page_stands_in_the_contents():
+    contents = (DOCS / "index.md").read_text(encoding="utf-8")
+    missing = [p.name for p in DOCS.glob("*.md") if p.stem != "index" and p.name not in contents]
+    assert missing == []
+
+
+def test_every_key_is_explained():
+    text = pages()["input.md"]
+    models: list[type[Strictly]] = [*SECTION_MODELS.values(), *GAS_MODELS.values()]
+    for model in models:
+        for key, annotation in hints(model).items():
+            inner = submodel(annotation)
+            if inner is None:
+                assert f"| `{key}`" in text, key
+            else:
+                assert f".{key}]]" in text, key
+    for section in SECTIONS:
+        assert f"## [{section}]" in text
+
+
+def test_every_sheet_is_described():
+    headings = set(re.findall(r"^## (.+)$", pages()["sheets.md"], re.M))
+    headings = {re.sub(r"\d+", "#", h) for h in headings}
+    for sample in list_samples():
+        for sheet in build_model(load_toml(samples_dir() / f"{sample}.toml").model).sheets:
+            if not re.search(r" р\d+$", sheet):
+                assert re.sub(r"\d+", "#", sheet) in headings, sheet
+
+
+def test_headings_make_the_anchors_of_code_hosts():
+    assert slug("[gas] — газы") == "gas--газы"
+    assert slug("1. Возьмите похожий двигатель") == "1-возьмите-похожий-двигатель"
+
+
+@pytest.mark.parametrize("width", [390, 1280])
+def test_html_fits_the_window(tmp_path, width):
+    written = write_site(DOCS, tmp_path / "site")
+    assert {path.stem for path in written} == {page.stem for page in DOCS.glob("*.md")}
+    page = (tmp_path / "site" / "sheets.html").read_text(encoding="utf-8")
+    assert 'href="input.html"' in page
+    found = measure(page, width, tmp_path / "browser", boxes="table, pre")
+    assert found["scroll"] <= found["width"]
+    assert found["wide"] == []
+    assert found["scripts"] == 0

@@ -8,10 +8,13 @@ from pathlib import Path
 from reports.files import write_text
 from reports.manual.input_page import input_page
 from reports.manual.sheets_page import sheets_page
+from reports.validation.book import validate
+from reports.validation.markdown import markdown
 
 GENERATED: Mapping[str, Callable[[], str]] = {
     "input.md": input_page,
     "sheets.md": sheets_page,
+    "validation.md": lambda: markdown(validate()),
 }
 
 

@@ -1,29 +1,27 @@
 """``docs/validation.md``: counts, deviations and numbers of running text.
 
-``python -m reports.validation.markdown > docs/validation.md`` renews it.
+``./run docs`` renews it.
 """
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable, Iterator, Sequence
 
 from reports.validation import shown
-from reports.validation.book import Book, Checked, validate
+from reports.validation.book import Book, Checked
 from reports.validation.checks import Check
 from reports.validation.page import COUNT_HEADS, count_cells
 from reports.validation.registry import SHORT, SOURCES
 
 _HEAD = """# Сверка с печатными источниками
 
-*English overview: every printed table and number of the five sources that the software covers,
-recomputed; what deviates is a misprint, belongs to another run or cannot be reproduced, each with
-its reason. Generated from the data of `kshm validate`, which also lists the numbers that agree.*
+> In English: every printed table and number of the five sources that the software covers,
+> recomputed; what deviates is a misprint, belongs to another run or cannot be reproduced, each with
+> its reason. Generated from the data of `kshm validate`, which also lists the numbers that agree.
 
-Файл составлен командой `python -m reports.validation.markdown > docs/validation.md`; тест следит,
-чтобы он не устарел. Все числа по одному, с отклонением и допуском, даёт `kshm validate -o DIR`
-(`validation.html`, `validation.pdf`, `validation.csv`). Печатные числа и записанные причины лежат
-в `reports/validation/data/`, что чем считается — в `reports/validation/registry.py`.
+Файл составлен командой `./run docs`; тест следит, чтобы он не устарел. Все числа по одному, с
+отклонением и допуском, даёт `kshm validate -o DIR` (`validation.html`, `validation.pdf`, `validation.csv`). Печатные числа и записанные
+причины лежат в `reports/validation/data/`, что чем считается — в `reports/validation/registry.py`.
 
 «Совпадает» — в пределах допуска таблицы, он назван у каждой; «до знака» — расчёт, округлённый до
 напечатанных знаков, отличается не больше чем на половину последнего."""
@@ -93,7 +91,3 @@ def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]
     yield "|" + "---|" * len(heads)
     for row in rows:
         yield "| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |"
-
-
-if __name__ == "__main__":
-    sys.stdout.write(markdown(validate()))

@@ -49,9 +49,7 @@ def test_counts_add_up_and_nothing_is_new() -> None:
 
 def test_docs_are_what_the_command_writes() -> None:
     written = (ROOT / "docs" / "validation.md").read_text(encoding="utf-8")
-    assert written == markdown(validate()), (
-        "обновите: python -m reports.validation.markdown > docs/validation.md"
-    )
+    assert written == markdown(validate()), "./run docs обновит"
 
 
 def test_markdown_names_every_deviation_with_its_reason() -> None:

@@ -20,8 +20,9 @@ _HEAD = """# Сверка с печатными источниками
 > its reason. Generated from the data of `kshm validate`, which also lists the numbers that agree.
 
 Файл составлен командой `./run docs`; тест следит, чтобы он не устарел. Все числа по одному, с
-отклонением и допуском, даёт `kshm validate -o DIR` (`validation.html`, `validation.pdf`, `validation.csv`). Печатные числа и записанные
-причины лежат в `reports/validation/data/`, что чем считается — в `reports/validation/registry.py`.
+отклонением и допуском, даёт `kshm validate -o DIR` (`validation.html`, `validation.pdf`,
+`validation.csv`). Печатные числа и записанные причины лежат в `reports/validation/data/`, что чем
+считается — в `reports/validation/registry.py`.
 
 «Совпадает» — в пределах допуска таблицы, он назван у каждой; «до знака» — расчёт, округлённый до
 напечатанных знаков, отличается не больше чем на половину последнего."""

@@ -69,8 +69,9 @@ def wear_windows() -> Lookup:
         up.append(size * np.cos(middle))
         against.append(size * np.sin(middle))
     # The last row of a table repeats the first and is not counted.
-    loads = ray_loads(np.array([*up, up[0]]), np.array([*against, against[0]]), _RAYS)
-    sums = ray_sums(loads)
+    x, y = np.array([*up, up[0]]), np.array([*against, against[0]])
+    loads = ray_loads(x, y, _RAYS)
+    sums = ray_sums(x, y, np.hypot(x, y), _RAYS)
     places = {row["phi_deg"]: index for index, row in enumerate(rows)}
 
     def look(row: str, column: str) -> Ours:

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import ast
+import operator
 from collections.abc import Callable
+from functools import reduce
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -47,14 +50,33 @@ def _spline(x: Value, knots: Value, c0: Value, c1: Value, c2: Value, c3: Value) 
     return first + u * (second + u * (third + u * fourth))
 
 
-_FUNCTIONS |= {"element": _element, "spline": _spline}
+def _rounded(value: Value) -> Value:
+    # As a spreadsheet rounds: halves away from zero.
+    return np.copysign(np.floor(np.abs(value) + 0.5), value)
+
+
+def _following(column: Value) -> Value:
+    return np.append(column[1:], column[-1])
+
+
+_FUNCTIONS |= {"element": _element, "spline": _spline, "round": _rounded}
+_FUNCTIONS |= {"following": _following, "running_sum": np.cumsum}
 _FUNCTIONS |= {"fourier_cos": _fourier(np.cos), "fourier_sin": _fourier(np.sin)}
+
+_JOINS: dict[str, Callable[[Value, Value], Value]] = {
+    "min": np.minimum, "max": np.maximum, "total": np.add,
+}  # fmt: skip
 
 _OPERATORS: dict[type[ast.AST], Callable[[Value, Value], Value]] = {
     ast.Add: np.add, ast.Sub: np.subtract, ast.Mult: np.multiply, ast.Div: np.divide,
     ast.Pow: np.power, ast.Lt: np.less, ast.LtE: np.less_equal, ast.Gt: np.greater,
     ast.GtE: np.greater_equal, ast.Eq: np.equal, ast.NotEq: np.not_equal,
 }  # fmt: skip
+
+# A part of an expression as a function of what its names are looked up in.
+Compiled = Callable[[Any], Value]
+# How a name is looked up.
+Reading = Callable[[str], Compiled]
 
 
 def evaluate(text: str, resolve: Resolver) -> Value:
@@ -71,43 +93,70 @@ def evaluate(text: str, resolve: Resolver) -> Value:
 
 def evaluate_tree(tree: ast.expr, resolve: Resolver) -> Value:
     """Value of a parsed expression, see ``evaluate``."""
-    return _value(tree, resolve)
+    return _made(tree, lambda name: lambda _: resolve(name))(None)
 
 
-def _value(node: ast.expr, resolve: Resolver) -> Value:
-    match node:  # the most frequent first
+def compiled(text: str, key_of: Callable[[str], str]) -> Compiled:
+    """An expression as a function of a dict of values; ``key_of`` gives the key of a name.
+
+    Raises:
+        FormulaError: a construct or function outside the language.
+    """
+    return _made(parse(text), lambda name: itemgetter(key_of(name)))
+
+
+def _made(node: ast.expr, read: Reading) -> Compiled:
+    """A part of an expression: its tree is walked once, not for each value."""
+    match node:
         case ast.BinOp(left=left, op=op, right=right):
-            first, second = _value(left, resolve), _value(right, resolve)
-            return _OPERATORS[type(op)](first, second)
+            return _pair(_OPERATORS[type(op)], _made(left, read), _made(right, read))
         case ast.Constant(value=literal):
-            return float(literal) if isinstance(literal, (int, float)) else literal
+            constant = float(literal) if isinstance(literal, (int, float)) else literal
+            return lambda _: constant
         case ast.Name(id="pi"):
-            return np.pi
+            return lambda _: np.pi
         case ast.Name(id=name):
-            return resolve(name)
+            return read(name)
         case ast.Attribute(value=ast.Name(id=table), attr=column):
-            return resolve(f"{table}.{column}")
+            return read(f"{table}.{column}")
         case ast.UnaryOp(op=ast.USub(), operand=operand):
-            return -_value(operand, resolve)
+            return _applied(operator.neg, [_made(operand, read)])
         case ast.UnaryOp(op=ast.Not(), operand=operand):
-            return np.logical_not(_value(operand, resolve))
+            return _applied(np.logical_not, [_made(operand, read)])
         case ast.Compare(left=left, ops=[op], comparators=[right]):
-            first, second = _value(left, resolve), _value(right, resolve)
-            if isinstance(first, str) or isinstance(second, str):
-                return (first == second) == isinstance(op, ast.Eq)
-            return _OPERATORS[type(op)](first, second)
+            return _comparison(type(op), _made(left, read), _made(right, read))
         case ast.BoolOp(op=op, values=values):
             join = np.logical_and if isinstance(op, ast.And) else np.logical_or
-            result = _value(values[0], resolve)
-            for value in values[1:]:
-                result = join(result, _value(value, resolve))
-            return result
+            parts = [_made(value, read) for value in values]
+            return _applied(lambda *found: reduce(join, found), parts)
         case ast.IfExp(test=test, body=body, orelse=orelse):
-            return _choose(_value(test, resolve), _value(body, resolve), _value(orelse, resolve))
+            return _applied(_choose, [_made(part, read) for part in (test, body, orelse)])
         case ast.Call(func=ast.Name(id=name), args=args):
-            return _call(name, [_value(arg, resolve) for arg in args])
+            return _applied(_function(name), [_made(arg, read) for arg in args])
     msg = f"unexpected node {ast.dump(node)}"
     raise AssertionError(msg)
+
+
+def _pair(act: Callable[[Value, Value], Value], left: Compiled, right: Compiled) -> Compiled:
+    return lambda values: act(left(values), right(values))
+
+
+def _applied(act: Callable[..., Value], parts: list[Compiled]) -> Compiled:
+    if len(parts) == 1:
+        (only,) = parts
+        return lambda values: act(only(values))
+    return lambda values: act(*[part(values) for part in parts])
+
+
+def _comparison(op: type[ast.cmpop], left: Compiled, right: Compiled) -> Compiled:
+    act = _OPERATORS[op]
+
+    def compare(first: Value, second: Value) -> Value:
+        if isinstance(first, str) or isinstance(second, str):
+            return (first == second) == (op is ast.Eq)
+        return act(first, second)
+
+    return _pair(compare, left, right)
 
 
 def _choose(test: Value, body: Value, orelse: Value) -> Value:
@@ -119,26 +168,18 @@ def _choose(test: Value, body: Value, orelse: Value) -> Value:
     return chosen if chosen.ndim else float(chosen)
 
 
-def _call(name: str, args: list[Value]) -> Value:
+def _function(name: str) -> Callable[..., Value]:
+    """The function of a name of the language."""
     if name in SCALE_FUNCTIONS:
         way, unit = name.split("_", 1)
-        return args[0] / SCALES[unit] if way == "to" else args[0] * SCALES[unit]
-    if name == "following":
-        return np.append(args[0][1:], args[0][-1])
-    if name == "running_sum":
-        return np.cumsum(args[0])
-    if name == "round":
-        # As a spreadsheet rounds: halves away from zero.
-        return np.copysign(np.floor(np.abs(args[0]) + 0.5), args[0])
+        scale = SCALES[unit]
+        return (lambda value: value / scale) if way == "to" else (lambda value: value * scale)
     if name in AGGREGATES:
-        return _aggregate(name, np.asarray(args[0], dtype=float))
-    if name in ("min", "max", "total"):
-        result = args[0]
-        joins = {"min": np.minimum, "max": np.maximum, "total": np.add}
-        for value in args[1:]:
-            result = joins[name](result, value)
-        return result
-    return _FUNCTIONS[name](*args)
+        return lambda column: _aggregate(name, np.asarray(column, dtype=float))
+    if name in _JOINS:
+        join = _JOINS[name]
+        return lambda *values: reduce(join, values)
+    return _FUNCTIONS[name]
 
 
 def _aggregate(name: str, column: NDArray[np.float64]) -> float:

@@ -21,8 +21,7 @@ from reports.grading.student import Student
 from reports.grading.submissions import collect
 from reports.grading.verdicts import WORDS, WRONG, Judgement, judge, tolerance
 from reports.layout import Layout, RowReferences, at_row
-from reports.recalculation.by_columns import read_grid
-from reports.recalculation.by_columns.grid import BadBook
+from reports.recalculation.by_columns import BadBook, read_grid
 from reports.recalculation.by_columns.syntax import column_number, render
 from reports.workbook.intake import check_data
 
@@ -46,12 +45,12 @@ def explain(
         raise InputError(Problem(str(file), "нет такого файла", "проверьте путь"))
     submission = collect(file)[0]
     data = submission.read()
-    check_data(data, file.name)
+    package = check_data(data, file.name)
     try:
-        grid = read_grid(data)
+        grid = read_grid(package)
     except BadBook as error:
         raise InputError(Problem(file.name, str(error), "сдайте его заново")) from None
-    match = find_owner(register, submission, grid, data)
+    match = find_owner(register, submission, grid, package)
     if match.book is None:
         raise InputError(Problem(file.name, "; ".join(match.doubts), "проверьте файл"))
     marker = Marker(register)

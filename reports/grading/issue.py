@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ from reports.grading.register import FILE, Issued, Register, ticket_of
 from reports.grading.roster import Student, read_roster
 from reports.grading.rubric import Rubric, load_rubric
 from reports.grading.ticket import make_secret, read_secret, secret_path
+from reports.inputs.fields import Field, Value, iter_fields
 from reports.inputs.load import load_mapping
 from reports.inputs.model import InputFile
 from reports.progress import Progress
@@ -87,9 +89,24 @@ def student_model(raw: dict[str, Any], student: Student, number: int) -> InputFi
     return load_mapping(_with_title(raw, student, number), source=student.full).model
 
 
-def assignment_for(book: Issued, rubric: Rubric) -> Assignment:
-    """The tables of an issued work-book."""
-    return assignment_of(build_model(student_model(book.raw, book.student, book.number)), rubric)
+def assignment_for(book: Issued, rubric: Rubric, like: Assignment | None = None) -> Assignment:
+    """The tables of an issued work-book; ``like`` is another student's, for the same rubric."""
+    model = student_model(book.raw, book.student, book.number)
+    if like is not None:
+        fields = tuple(iter_fields(model))
+        if _shape(fields) == _shape(like.model.inputs):
+            return like.with_model(like.model.with_inputs(model, fields))
+    return assignment_of(build_model(model), rubric)
+
+
+def _shape(fields: Iterable[Field]) -> list[tuple[str, Value | None]]:
+    """All that the tables of an input follow from: everything but its plain numbers."""
+    return [(field.name, field.value if _shapes(field) else None) for field in fields]
+
+
+def _shapes(field: Field) -> bool:
+    text = isinstance(field.value, str) and field.path[0] != "report"
+    return field.structural or text
 
 
 def _with_title(raw: dict[str, Any], student: Student, number: int) -> dict[str, Any]:

@@ -54,6 +54,8 @@ class Assignment:
 
     def ancestors(self, item: Item) -> frozenset[str]:
         """Every node and input that an item depends on."""
+        if len(item.nodes) == 1:
+            return self.graph.ancestors(item.nodes[0])
         return frozenset().union(*(self.graph.ancestors(node) for node in item.nodes))
 
     @cached_property
@@ -91,6 +93,14 @@ class Assignment:
     def kept_model(self) -> Model:
         """The model of the work-book: only the blocks that stand in it."""
         return replace(self.model, blocks=self.blocks)
+
+    def with_model(self, model: Model) -> Assignment:
+        """The same tables for a model with the same blocks."""
+        made = Assignment(model, self.rubric, self.fill, self.given)
+        for name in ("graph", "items", "points", "blocks", "fill_nodes", "given_nodes"):
+            made.__dict__[name] = getattr(self, name)
+        made.__dict__["kept_model"] = self.kept_model.with_inputs(model.input, model.inputs)
+        return made
 
     @staticmethod
     def nodes(block: Block) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
 from typing import Any
 
@@ -34,9 +34,9 @@ from reports.grading.verdicts import (
 from reports.inputs.fields import cell_name
 from reports.inputs.ranges import Range
 from reports.layout import Layout
-from reports.recalculation.by_columns import Grid, read_grid
-from reports.recalculation.by_columns.grid import BadBook
+from reports.recalculation.by_columns import BadBook, Grid, read_grid
 from reports.workbook.intake import check_data
+from reports.workbook.package import Package
 
 FORMAT = 1
 SHOWN_ROWS = 12  # wrong cells shown in the feedback of an item
@@ -70,15 +70,16 @@ class Marker:
 
     def __post_init__(self) -> None:
         self._assignments: dict[int, tuple[Assignment, Layout]] = {}
+        self._first: tuple[Assignment, Layout] | None = None  # the others are mostly alike
 
     def mark(self, submission: Submission, data: bytes) -> Result:
         """The result of one file; whatever is wrong with it is part of the result."""
         result = blank_result(submission)
         result["sha256"] = hashlib.sha256(data).hexdigest()
         try:
-            check_data(data, submission.label)
-            grid = read_grid(data)
-            match = find_owner(self.register, submission, grid, data)
+            package = check_data(data, submission.label)
+            grid = read_grid(package)
+            match = find_owner(self.register, submission, grid, package)
         except InputError as error:
             problem = error.problems[0]
             hint = f"; {problem.hint}" if problem.hint else ""
@@ -90,9 +91,9 @@ class Marker:
             result["status"] = "unmatched"
             result["manual"].append("не удалось установить, чья это работа")
             return result
-        result["properties"] = file_properties(data)
+        result["properties"] = file_properties(package)
         assignment, layout = self.assignment(match.book)
-        self._grade(result, assignment, layout, grid, match.book, data)
+        self._grade(result, assignment, layout, grid, match.book, package)
         _score(result, self.register.rubric, submission.time)
         return result
 
@@ -100,10 +101,17 @@ class Marker:
         """The tables of a student's work-book and where they were issued."""
         found = self._assignments.get(book.number)
         if found is None:
-            assignment = assignment_for(book, self.register.rubric)
+            like, layout = self._first or (None, None)
+            assignment = assignment_for(book, self.register.rubric, like)
+            if layout is None or like is None or assignment.fill is not like.fill:
+                layout = Layout.of(assignment.model)
+            self._first = self._first or (assignment, layout)
             if len(self._assignments) > 8:  # a class must not fill the memory
                 self._assignments.clear()
-            found = self._assignments[book.number] = assignment, Layout.of(assignment.model)
+            found = self._assignments[book.number] = (
+                assignment,
+                replace(layout, model=assignment.model),
+            )
         return found
 
     def refused(self, result: Result, submission: Submission, why: str) -> Result:
@@ -126,7 +134,7 @@ class Marker:
         layout: Layout,
         grid: Grid,
         book: Issued,
-        data: bytes,
+        package: Package,
     ) -> None:
         student, helped = self.student(book, grid)
         judgements = judge_all(student)
@@ -141,7 +149,7 @@ class Marker:
                 {"where": c.where, "name": c.name, "was": c.was, "now": c.now}
                 for c in student.changed[:50]
             ],
-            "altered": altered(student, read_grid(data) if student.changed else None)[:50],
+            "altered": altered(student, read_grid(package) if student.changed else None)[:50],
             "helped": helped,
         }
         notes = result["notes"]
@@ -279,12 +287,11 @@ def altered(student: Student, original: Grid | None) -> list[str]:
     for place in columns.values():
         column = grid.column(place.sheet, place.column)
         for run in column.runs:
-            cached = [column.cached.get(row) for row in range(run.first, run.last + 1)]
-            claims = _claims(cached)
+            claims = column.saved_of(run)
             if np.isnan(claims).all():
                 continue
             try:
-                values, _ = engine.values(place.sheet, place.column, run.first, run.last)
+                values = engine.all_of(run)
             except (UnknownFormula, RecursionError):
                 continue
             known = np.abs(values[np.isfinite(values)])
@@ -297,13 +304,6 @@ def altered(student: Student, original: Grid | None) -> list[str]:
                 now, was = values[index], claims[index]
                 found.append(f"{place.sheet}!{where}: сохранено {was:g}, формула даёт {now:g}")
     return found
-
-
-def _claims(cached: list[Any]) -> np.ndarray[Any, np.dtype[np.float64]]:
-    """Saved numbers; NaN where nothing or something else was saved."""
-    if any(isinstance(claim, (str, bool)) for claim in cached):
-        cached = [claim if isinstance(claim, float) else None for claim in cached]
-    return np.array(cached, dtype=float)
 
 
 def _score(result: Result, rubric: Rubric, time: datetime | None) -> None:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import io
 import re
 import unicodedata
-import zipfile
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -14,8 +12,9 @@ from reports.grading.issue import latin
 from reports.grading.register import Issued, Register
 from reports.grading.submissions import Submission
 from reports.grading.ticket import PATTERN
-from reports.recalculation.by_columns import Grid
-from reports.recalculation.by_columns.grid import BadBook, parse_xml
+from reports.recalculation.by_columns import BadBook, Grid
+from reports.recalculation.by_columns.sheet_xml import parse_xml
+from reports.workbook.package import Package
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,9 +26,9 @@ class Match:
     doubts: tuple[str, ...]
 
 
-def find_owner(register: Register, submission: Submission, grid: Grid, data: bytes) -> Match:
+def find_owner(register: Register, submission: Submission, grid: Grid, package: Package) -> Match:
     """Match a readable workbook with the register."""
-    tickets = _tickets(grid, data)
+    tickets = _tickets(grid, package)
     by_ticket = {book.ticket: book for book in register.books}
     known = {text: where for text, where in tickets.items() if text in by_ticket}
     named = _by_name(register, submission)
@@ -67,13 +66,13 @@ def find_by_name(register: Register, submission: Submission) -> Match:
     return Match(named[0], (named[1],), ()) if named else Match(None, (), ())
 
 
-def _tickets(grid: Grid, data: bytes) -> dict[str, str]:
+def _tickets(grid: Grid, package: Package) -> dict[str, str]:
     """Identifiers in a workbook → where they stand."""
     found: dict[str, str] = {}
     at = grid.names.get(TICKET_NAME.casefold())
     if at is not None:
         _take(found, grid.constant(*at), f"ячейка с именем {TICKET_NAME}")
-    _take(found, _property(data), "свойство файла")
+    _take(found, _property(package), "свойство файла")
     if not found:
         for columns in grid.sheets.values():
             for number, column in columns.items():
@@ -90,10 +89,9 @@ def _take(found: dict[str, str], text: object, where: str) -> None:
         found.setdefault(text.strip(), where)
 
 
-def _property(data: bytes) -> str | None:
+def _property(package: Package) -> str | None:
     try:
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            root = parse_xml(archive.read("docProps/custom.xml"))
+        root = parse_xml(package.read("docProps/custom.xml"))
     except (KeyError, BadBook):
         return None
     for item in root.iter("{*}property"):
@@ -102,12 +100,11 @@ def _property(data: bytes) -> str | None:
     return None
 
 
-def file_properties(data: bytes) -> dict[str, str]:
+def file_properties(package: Package) -> dict[str, str]:
     """Who made and last saved a workbook, and when, as the file claims."""
     wanted = {"creator", "lastModifiedBy", "created", "modified"}
     try:
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            root = parse_xml(archive.read("docProps/core.xml"))
+        root = parse_xml(package.read("docProps/core.xml"))
     except (KeyError, BadBook):
         return {}
     found = {}

@@ -32,6 +32,29 @@ class Place:
     column: int
     rows: tuple[int | None, ...]
     by: str  # "name" or "header"
+    span: Span | None
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """First and last row of a place; ``whole`` where all rows between belong to it."""
+
+    first: int
+    last: int
+    whole: bool
+
+
+def span_of(rows: tuple[int | None, ...]) -> Span | None:
+    """Where some rows begin and end; None where all are lost."""
+    found = [row for row in rows if row is not None]
+    if not found:
+        return None
+    first, last = min(found), max(found)
+    return Span(first, last, len(found) == len(rows) == last - first + 1)
+
+
+def _one_cell(at: tuple[str, int, int], by: str) -> Place:
+    return Place(at[0], at[2], (at[1],), by, Span(at[1], at[1], True))
 
 
 @dataclass
@@ -57,7 +80,7 @@ def find_places(model: Model, layout: Layout, grid: Grid) -> Placement:
         if at is None and search.same_headers(model, layout, key):
             at = (cell.sheet, cell.row, cell.column)
         if at is not None:
-            found.places[key] = Place(at[0], at[2], (at[1],), by)
+            found.places[key] = _one_cell(at, by)
             if by == "header":
                 found.moved.append(f"{key}: найдено по подписи, {at[0]}")
     for name, item in model.fields.items():
@@ -67,7 +90,7 @@ def find_places(model: Model, layout: Layout, grid: Grid) -> Placement:
             key = ".".join(str(p + 1 if isinstance(p, int) else p) for p in item.path)
             at, by = search.beside(key, VALUE_COLUMN - KEY_COLUMN), "header"
         if at is not None:
-            found.places[name] = Place(at[0], at[2], (at[1],), by)
+            found.places[name] = _one_cell(at, by)
     _report_sheets(model, layout, found)
     return found
 
@@ -93,10 +116,11 @@ def _find_table(table: TableSpec, layout: Layout, search: _Search, found: Placem
     first = layout.rows_of(table)[0]
     if any(r is not None and r != first + i for i, r in enumerate(rows)):
         found.moved.append(f"таблица {table.number}: строки сдвинуты")
+    span = span_of(rows)
     for index, (title, _, at_column) in heads.items():
         if title == sheet:
             key = f"{table.id}.{table.columns[index].key}"
-            found.places[key] = Place(title, at_column, rows, by)
+            found.places[key] = Place(title, at_column, rows, by, span)
 
 
 def _rows(
@@ -107,6 +131,9 @@ def _rows(
     constants = dict(known.constants)
     if known.runs:  # angles calculated from the row above
         constants |= _calculated(grid, sheet, header, column)
+    expected = tuple(range(header + 2, header + 2 + len(wanted)))
+    if tuple(map(constants.get, expected)) == wanted:
+        return expected
     rows = sorted(r for r in constants if header + 1 < r <= header + _SEARCH_ROWS)
     found: list[int | None] = []
     at = 0

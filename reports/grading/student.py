@@ -93,16 +93,23 @@ class Student:
             if isinstance(value, str):
                 self._put(place, 0, node, value)
                 continue
-            column = self.grid.sheets[place.sheet].get(place.column)
-            values = np.ravel(value).tolist()
-            for index, (row, given) in enumerate(zip(place.rows, values, strict=True)):
-                if row is None:
-                    continue
-                if column is not None and not column.runs and not column.errors:
-                    found = column.constants.get(row)
-                    if isinstance(found, float) and abs(found - given) <= 1e-9 * max(1, abs(given)):
-                        continue
-                self._put(place, index, node, given)
+            values = np.ravel(value)
+            if self._as_issued(place, values):
+                continue
+            for index, given in enumerate(values.tolist()):
+                if place.rows[index] is not None:
+                    self._put(place, index, node, given)
+
+    def _as_issued(self, place: Place, values: Array) -> bool:
+        """Whether these very numbers stand in the cells of a place."""
+        column = self.grid.column(place.sheet, place.column)
+        if column.runs or column.errors:
+            return False
+        found = [column.constants.get(row, "") for row in place.rows if row is not None]
+        if len(found) < len(values) or any(type(number) is not float for number in found):
+            return False
+        far = np.abs(np.array(found) - values) > 1e-9 * np.maximum(1, np.abs(values))
+        return not far.any()
 
     def _put(self, place: Place, index: int, name: str, value: float | str) -> None:
         row = place.rows[index]
@@ -139,20 +146,21 @@ class Student:
         if place is None:
             return Answer(None, np.full(count, np.nan), LOST * count, np.zeros(count, dtype=bool))
         column = self.grid.column(place.sheet, place.column)
-        rows = [row for row in place.rows if row is not None]
-        if not rows:
+        span = place.span
+        if span is None:
             return Answer(place, np.full(count, np.nan), LOST * count, np.zeros(count, dtype=bool))
-        first, last = min(rows), max(rows)
+        first, last = span.first, span.last
         try:
             numbers, kinds = self.engine.values(place.sheet, place.column, first, last)
         except (UnknownFormula, RecursionError) as problem:
             blank = np.zeros(count, dtype=bool)
             return Answer(place, np.full(count, np.nan), ERROR * count, blank, str(problem) or "?")
         typed = column.constants
-        if len(rows) == count == last - first + 1:
-            letters = "".join(kinds)
-            marks = np.fromiter((r in typed for r in rows), dtype=bool, count=count)
-            return Answer(place, numbers, letters, marks)
+        if span.whole:
+            marks = np.zeros(count, dtype=bool)
+            if typed:
+                marks[:] = [row in typed for row in place.rows]
+            return Answer(place, numbers, "".join(kinds), marks)
         at = [None if row is None else row - first for row in place.rows]
         values = np.array([np.nan if i is None else numbers[i] for i in at])
         letters = "".join(LOST if i is None else kinds[i] for i in at)
@@ -164,9 +172,15 @@ class Student:
         place = self.placement.places.get(node)
         if place is None:
             return []
-        rows = {row for row in place.rows if row is not None}
+        span = place.span
         column = self.grid.column(place.sheet, place.column)
-        return [run for run in column.runs if not rows.isdisjoint(range(run.first, run.last + 1))]
+        if span is None:
+            return []
+        near = [run for run in column.runs if run.first <= span.last and run.last >= span.first]
+        if span.whole:
+            return near
+        rows = {row for row in place.rows if row is not None}
+        return [run for run in near if not rows.isdisjoint(range(run.first, run.last + 1))]
 
     # --- what formulas refer to -------------------------------------------------------
 
@@ -175,9 +189,8 @@ class Student:
         """Nodes of each column with their first and last row."""
         found: dict[tuple[str, int], list[tuple[str, int, int, Place]]] = {}
         for node, place in self.placement.places.items():
-            rows = [row for row in place.rows if row is not None]
-            if rows:
-                entry = (node, min(rows), max(rows), place)
+            if place.span is not None:
+                entry = (node, place.span.first, place.span.last, place)
                 found.setdefault((place.sheet, place.column), []).append(entry)
         return found
 
@@ -255,7 +268,9 @@ class Student:
         """The workbook with the right values typed into all cells to fill in."""
         sheets = {
             title: {
-                number: Column(dict(c.constants), dict(c.errors), [_fresh(r) for r in c.runs])
+                number: Column(
+                    dict(c.constants), dict(c.errors), [r.part(r.first, r.count) for r in c.runs]
+                )
                 for number, c in columns.items()
             }
             for title, columns in self.grid.sheets.items()
@@ -283,14 +298,10 @@ class Student:
 def _covered(low: int, high: int, taken: list[tuple[int, int, Place]]) -> bool:
     """Whether all rows belong to nodes."""
     for first, last, place in taken:
-        if first <= low and high <= last and last - first + 1 == len(place.rows):
+        if first <= low and high <= last and place.span is not None and place.span.whole:
             return True
     rows = {row for _, _, place in taken for row in place.rows}
     return all(row in rows for row in range(low, high + 1))
-
-
-def _fresh(run: Run) -> Run:
-    return Run(run.sheet, run.column, run.first, run.count, run.pattern, run.text, run.problem)
 
 
 def _without(run: Run, rows: set[int]) -> list[Run]:
@@ -302,9 +313,7 @@ def _without(run: Run, rows: set[int]) -> list[Run]:
         if outside and start is None:
             start = row
         elif not outside and start is not None:
-            made = _fresh(run)
-            made.first, made.count = start, row - start
-            parts.append(made)
+            parts.append(run.part(start, row - start))
             start = None
     return parts
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,12 +56,18 @@ def tolerance(item: Item, expected: Array, student: Student) -> float:
     for pattern, value in rules.items.items():
         if re.fullmatch(pattern.replace(".", r"\.").replace("*", ".*"), item.id):
             return float(value)
-    digits = item.quantity.fmt.partition(";")[0].partition(".")[2]
-    unit = 10.0 ** -sum(sign in "0#" for sign in digits.partition("E")[0])
+    unit = _last_digit(item.quantity.fmt)
     finite = np.abs(expected[np.isfinite(expected)])
     largest = float(finite.max()) if finite.size else 0.0
     # A double carries about sixteen digits: results that differ in the tenth are equal.
     return max(min(rules.units * unit * (1 + 1e-9), rules.share * largest), 1e-10 * largest, 1e-12)
+
+
+@lru_cache(maxsize=256)
+def _last_digit(fmt: str) -> float:
+    """A unit of the last digit that a number format shows."""
+    digits = fmt.partition(";")[0].partition(".")[2]
+    return float(10.0 ** -sum(sign in "0#" for sign in digits.partition("E")[0]))
 
 
 def close(item: Item, values: Array, expected: Array, allowed: float) -> NDArray[np.bool_]:
@@ -75,10 +82,10 @@ def close(item: Item, values: Array, expected: Array, allowed: float) -> NDArray
 def judge(item: Item, student: Student) -> Judgement:
     """The verdict on one item."""
     answers = [student.answers[node] for node in item.nodes]
-    if any(isinstance(student.expected.value(node), str) for node in item.nodes):
+    right = [student.expected.value(node) for node in item.nodes]
+    if any(isinstance(value, str) for value in right):
         return _judge_text(item, student, answers)
-    expected = np.concatenate([np.ravel(student.expected.value(node)) for node in item.nodes])
-    expected = np.asarray(expected, dtype=float)
+    expected = np.asarray(np.concatenate([np.ravel(value) for value in right]), dtype=float)
     values = np.concatenate([answer.values for answer in answers])
     kinds = "".join(answer.kinds for answer in answers)
     typed = tuple(np.flatnonzero(np.concatenate([answer.typed for answer in answers])).tolist())

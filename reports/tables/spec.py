@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
+from typing import Any, Literal
 
 from kshm.nomenclature import Quantity, quantity
 from reports.inputs.fields import Field
@@ -171,6 +171,37 @@ class Model:
     def sheets(self) -> tuple[str, ...]:
         """Titles of the sheets that carry blocks, in order."""
         return tuple(dict.fromkeys(block.sheet for block in self.blocks))
+
+    @cached_property
+    def nodes(self) -> Mapping[str, Scalar | Column]:
+        """Scalars by key and columns as ``table.column``."""
+        found: dict[str, Scalar | Column] = dict(self.scalars)
+        for table in self.tables.values():
+            found.update({f"{table.id}.{column.key}": column for column in table.columns})
+        return found
+
+    @cached_property
+    def grid_runs(self) -> Mapping[str, tuple[str, ...]]:
+        """Keys of the scalars of a grid's row, as ``grid.quantity``."""
+        return {
+            f"{block.id}.{row.of}": tuple(cell.key for cell in row.cells if cell is not None)
+            for block in self.blocks
+            if isinstance(block, Grid)
+            for row in block.rows
+        }
+
+    @cached_property
+    def programs(self) -> dict[str, Any]:
+        """How nodes are calculated, as ``reports.tables.values`` finds it out."""
+        return {}
+
+    def with_inputs(self, input_file: InputFile, inputs: tuple[Field, ...]) -> Model:
+        """The same specifications for an input of the same structure."""
+        made = Model(input_file, inputs, self.blocks, self.charts)
+        # What follows from the blocks and from the names of the inputs is the same as well.
+        for name in ("tables", "scalars", "input_runs", "sheets", "nodes", "grid_runs", "programs"):
+            made.__dict__[name] = getattr(self, name)
+        return made
 
 
 def scalars_of(block: Block) -> Iterator[Scalar]:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.formula.numeric import evaluate
-from reports.tables.spec import Column, Grid, Model, Scalar
+from reports.formula.numeric import compiled
+from reports.formula.parse import names
+from reports.tables.spec import Column, Model
 
 Array = NDArray[np.float64]
 
@@ -36,23 +37,14 @@ class Evaluation:
         self.model = model
         self.done: dict[str, Any] = {}
         self.running: set[str] = set()
-        self.nodes: dict[str, Scalar | Column] = dict(model.scalars)
-        for table in model.tables.values():
-            for column in table.columns:
-                self.nodes[f"{table.id}.{column.key}"] = column
-        self.runs = {
-            f"{block.id}.{row.of}": [cell.key for cell in row.cells if cell is not None]
-            for block in model.blocks
-            if isinstance(block, Grid)
-            for row in block.rows
-        }
+        self.nodes, self.runs, self.programs = model.nodes, model.grid_runs, model.programs
         for field in model.inputs:
             value = field.value
             if field.choices is not None and isinstance(value, str):
                 value = field.choices[value]
             self.done[field.name] = value
-        for key, names in model.input_runs.items():
-            points = [model.fields[name].value for name in names]
+        for key, cells in model.input_runs.items():
+            points = [model.fields[name].value for name in cells]
             self.done[key] = np.array(points, dtype=float)
         self.inputs = dict(self.done)
         self.done.update(known or {})
@@ -61,7 +53,7 @@ class Evaluation:
         """The same model with other known values, nothing else evaluated yet."""
         other = Evaluation.__new__(Evaluation)
         other.model, other.nodes, other.running = self.model, self.nodes, set()
-        other.inputs, other.runs = self.inputs, self.runs
+        other.inputs, other.runs, other.programs = self.inputs, self.runs, self.programs
         other.done = {**self.inputs, **known}
         return other
 
@@ -69,30 +61,60 @@ class Evaluation:
         """Value of a node or input: a number, a text, or an array of one value per row."""
         if key in self.done:
             return self.done[key]
+        if not self.running:
+            with np.errstate(all="ignore"):  # branches not taken may divide by zero
+                return self._calculated(key)
+        return self._calculated(key)
+
+    def _calculated(self, key: str) -> Any:  # noqa: ANN401
+        done = self.done
         if key in self.runs:
-            self.done[key] = np.array([self.value(name) for name in self.runs[key]], dtype=float)
-            return self.done[key]
+            done[key] = np.array([self.value(name) for name in self.runs[key]], dtype=float)
+            return done[key]
         if key in self.running:
             msg = f"the formulas refer to each other in a circle at {key}"
             raise ValueError(msg)
         self.running.add(key)
-        node = self.nodes[key]
-        table = key.split(".", maxsplit=1)[0] if isinstance(node, Column) else ""
-        if node.expr is None:
-            result: Any = np.array(self.model.tables[table].rows)
-        else:
-            result = evaluate(node.expr, lambda name: self.value(self._global(name, table)))
-            if isinstance(node, Column):
-                count = len(self.model.tables[table].rows)
-                result = np.broadcast_to(np.asarray(result), (count,))
+        program = self.programs.get(key)
+        if program is None:
+            program = self.programs[key] = _program(self.model, key)
+        for name in program.needs:
+            if name not in done:
+                self._calculated(name)
+        result = program.act(done)
+        if program.rows:
+            result = np.asarray(result)
+            if result.shape != (program.rows,):
+                result = np.broadcast_to(result, (program.rows,))
         self.running.discard(key)
-        self.done[key] = result
+        done[key] = result
         return result
 
-    def _global(self, name: str, table: str) -> str:
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """How a node is calculated; ``rows`` of a column, 0 of a scalar."""
+
+    needs: tuple[str, ...]
+    act: Callable[[dict[str, Any]], Any]
+    rows: int
+
+
+def _program(model: Model, key: str) -> Program:
+    node = model.nodes[key]
+    if not isinstance(node, Column):
+        return Program(tuple(names(node.expr)), compiled(node.expr, str), 0)
+    table = model.tables[key.split(".", maxsplit=1)[0]]
+    if node.expr is None:
+        return Program((), lambda _: np.array(table.rows), len(table.rows))
+
+    def key_of(name: str) -> str:
         """A bare name is a column of the same table first, then a scalar."""
-        local = f"{table}.{name}"
-        return local if table and local in self.nodes else name
+        local = f"{table.id}.{name}"
+        return local if local in model.nodes else name
+
+    needs = tuple(key_of(name) for name in names(node.expr))
+    return Program(needs, compiled(node.expr, key_of), len(table.rows))
 
 
 def evaluate_model(model: Model) -> Values:

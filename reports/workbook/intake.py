@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import re
 import zipfile
 import zlib
@@ -10,6 +9,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from reports.errors import InputError, Problem
+from reports.workbook.package import Package
 
 MAX_FILE = 30 * 2**20
 MAX_UNPACKED = 300 * 2**20
@@ -18,6 +18,7 @@ MAX_RATIO = 400
 _OLE2 = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
 _ZIP = b"PK\x03\x04"
 _HEAD = 4096
+_CHUNK = 2**20
 _DAMAGED = (
     zipfile.BadZipFile,
     zlib.error,
@@ -46,11 +47,11 @@ def check_package(path: Path) -> bytes:
     return data
 
 
-def check_data(data: bytes, name: str) -> None:
-    """Refuse what ``check_package`` refuses; ``name`` stands in the message.
+def check_data(data: bytes, name: str) -> Package:
+    """The parts of a workbook that is safe to hand to a parser; ``name`` stands in messages.
 
     Raises:
-        InputError: as ``check_package``.
+        InputError: what ``check_package`` refuses.
     """
     if len(data) > MAX_FILE:
         _refuse(name, f"файл больше {MAX_FILE // 2**20} МБ", "это не книга kshm")
@@ -61,14 +62,15 @@ def check_data(data: bytes, name: str) -> None:
     if not data.startswith(_ZIP):
         _refuse(name, "это не книга .xlsx", "сохраните её как .xlsx")
     try:
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            _check_parts(name, archive)
+        package = Package(data)
+        _check_parts(name, package)
     except _DAMAGED:
         _refuse(name, "файл .xlsx повреждён", "сохраните его заново")
+    return package
 
 
-def _check_parts(name: str, archive: zipfile.ZipFile) -> None:
-    infos = archive.infolist()
+def _check_parts(name: str, package: Package) -> None:
+    infos = package.infos()
     names = [info.filename for info in infos]
     if len(infos) > MAX_PARTS or len(set(names)) != len(names):
         _refuse(name, "в книге слишком много частей", "это не книга kshm")
@@ -80,16 +82,20 @@ def _check_parts(name: str, archive: zipfile.ZipFile) -> None:
         _refuse(name, "книга ссылается на другие файлы", "разорвите связи и сохраните")
     total = 0
     for info in infos:
-        size = 0
-        with archive.open(info) as stream:
-            head = stream.read(_HEAD)
-            size = len(head)
+        with package.open(info) as stream:
             # The directory may lie about sizes: count what really comes out.
-            while chunk := stream.read(2**20):
-                size += len(chunk)
+            part = stream.read(_CHUNK)
+            size = len(part)
+            chunk = part
+            while chunk:
                 if total + size > MAX_UNPACKED:
                     _refuse(name, "книга распаковывается сверх меры", "это не книга kshm")
+                chunk = stream.read(_CHUNK) if len(chunk) == _CHUNK else b""
+                size += len(chunk)
         total += size
+        head = part[:_HEAD]
+        if size == len(part) and info.filename.endswith((".xml", ".rels")):
+            package.keep(info.filename, part)
         if size > 2**20 and size > MAX_RATIO * max(1, info.compress_size):
             _refuse(name, "книга распаковывается сверх меры", "это не книга kshm")
         if info.filename.endswith((".xml", ".rels")) and re.search(rb"<!(DOCTYPE|ENTITY)", head):

@@ -7,7 +7,8 @@ with anything else is handed to formualizer by the caller.
 """
 
 from reports.recalculation.by_columns.engine import Engine
-from reports.recalculation.by_columns.grid import Grid, read_grid
+from reports.recalculation.by_columns.grid import BadBook, Grid
+from reports.recalculation.by_columns.reading import read_grid
 from reports.recalculation.by_columns.syntax import UnknownFormula
 
-__all__ = ["Engine", "Grid", "UnknownFormula", "read_grid"]
+__all__ = ["BadBook", "Engine", "Grid", "UnknownFormula", "read_grid"]

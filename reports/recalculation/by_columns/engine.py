@@ -8,34 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.recalculation.by_columns.functions import (
-    AGGREGATES,
-    BINARY,
-    SINGLE,
-    Array,
-    Value,
-    aggregate,
-    finite,
-    index,
-    match,
-    numeric,
-)
-from reports.recalculation.by_columns.grid import MAX_COLUMN, MAX_ROW, Grid, Run
-from reports.recalculation.by_columns.syntax import (
-    Binary,
-    Call,
-    Name,
-    Node,
-    Number,
-    Range,
-    Ref,
-    Text,
-    Unary,
-    UnknownFormula,
-    parse,
-)
+from reports.recalculation.by_columns.evaluation import At, Evaluation
+from reports.recalculation.by_columns.functions import Array, Value, finite, numeric
+from reports.recalculation.by_columns.grid import Column, Grid, Run
+from reports.recalculation.by_columns.syntax import Name, Range, Ref, UnknownFormula
 
-MAX_BLOCK = 2_000_000  # numbers in an intermediate array
+_Block = tuple[Array, NDArray[np.bool_] | None, dict[int, str]]
 
 
 class _Again(Exception):  # noqa: N818 - a signal, no error
@@ -57,16 +35,6 @@ class Area:
     last_column: int
 
 
-@dataclass(slots=True)
-class _At:
-    """The cells under evaluation: rows of one column from ``row``."""
-
-    sheet: str
-    row: int
-    column: int
-    count: int
-
-
 class Engine:
     """Values of a grid's cells.
 
@@ -76,6 +44,8 @@ class Engine:
 
     def __init__(self, grid: Grid) -> None:
         self.grid = grid
+        # Typed-in columns as arrays: formulas read the same cells again and again.
+        self._typed: dict[tuple[str, int, int, int], _Block] = {}
 
     def evaluate_all(self) -> None:
         """Evaluate every run."""
@@ -121,31 +91,30 @@ class Engine:
                         kinds[row - first] = "t" if row in run.texts else "n" if good else "e"
         return numbers, kinds
 
+    def all_of(self, run: Run) -> Array:
+        """Numbers of all cells of a run, NaN where there is none."""
+        with np.errstate(all="ignore"):
+            return self._part(run, run.first, run.last)
+
     def once(self, run: Run) -> Array:
         """Values that a run's formula would have on this grid, which need not hold the run."""
-        if run.pattern is None:
+        if run.formula is None:
             raise UnknownFormula(run.problem)
-        tree = parse(run.pattern)
+        tree = run.formula.tree
         values = np.empty(run.count)
+        step = run.count if run.formula.at_once else 1
         with np.errstate(all="ignore"):
-            if _fits(tree):
-                at = _At(run.sheet, run.first, run.column, run.count)
-                found = np.asarray(numeric(_Evaluation(self, at).value(tree)), dtype=float)
-                values[:] = found.reshape(-1)
-            else:
-                for i in range(run.count):
-                    at = _At(run.sheet, run.first + i, run.column, 1)
-                    found = np.asarray(numeric(_Evaluation(self, at).value(tree)), dtype=float)
-                    values[i] = found.reshape(-1)[0]
+            for i in range(0, run.count, step):
+                at = At(run.sheet, run.first + i, run.column, step)
+                found = np.asarray(numeric(Evaluation(self, at).value(tree)), dtype=float)
+                values[i : i + step] = found.reshape(-1)
         return np.where(np.isfinite(values), values, np.nan)
 
     def areas(self, run: Run) -> Iterator[Area]:
         """All rectangles that a run refers to, over all its rows."""
-        if run.pattern is None:
+        if run.formula is None:
             return
-        stack: list[Node] = [parse(run.pattern)]
-        while stack:
-            node = stack.pop()
+        for node in run.formula.references:
             match node:
                 case Ref():
                     yield self._area(node, node, run)
@@ -155,14 +124,6 @@ class Engine:
                     cell = self.grid.names.get(name.casefold())
                     if cell is not None:
                         yield Area(cell[0], cell[1], cell[1], cell[2], cell[2])
-                case Unary(_, operand):
-                    stack.append(operand)
-                case Binary(_, left, right):
-                    stack += [left, right]
-                case Call(_, args):
-                    stack += args
-                case _:
-                    pass
 
     def _area(self, first: Ref, last: Ref, run: Run) -> Area:
         rows = []
@@ -173,10 +134,15 @@ class Engine:
             else:
                 rows += [run.first + ref.row, run.last + ref.row]
             columns.append(ref.column if ref.column_fixed else run.column + ref.column)
-        title = self._sheet(first.sheet, run.sheet)
+        title = self.sheet(first.sheet, run.sheet)
         return Area(title, min(rows), max(rows), min(columns), max(columns))
 
-    def _sheet(self, named: str | None, own: str) -> str:
+    def sheet(self, named: str | None, own: str) -> str:
+        """Title of the sheet that a reference names.
+
+        Raises:
+            UnknownFormula: there is no such sheet.
+        """
         if named is None:
             return own
         title = self.grid.title(named)
@@ -196,7 +162,7 @@ class Engine:
                 raise _Again(run)
             self._cells(run, run.first, run.last)
             return
-        if run.pattern is None or run.state == "unknown":
+        if run.formula is None or run.state == "unknown":
             raise UnknownFormula(run.problem)
         run.state = "running"
         try:
@@ -220,13 +186,13 @@ class Engine:
         run.done = np.zeros(run.count, dtype=bool)
 
     def _evaluate(self, run: Run, row: int, count: int) -> Value:
-        assert run.pattern is not None
-        tree = parse(run.pattern)
-        if count > 1 and not _fits(tree):
+        assert run.formula is not None
+        tree = run.formula.tree
+        if count > 1 and not run.formula.at_once:
             self._start_cells(run)
             self._cells(run, run.first, run.last)
             return run.values
-        return _Evaluation(self, _At(run.sheet, row, run.column, count)).value(tree)
+        return Evaluation(self, At(run.sheet, row, run.column, count)).value(tree)
 
     def _keep(self, run: Run, row: int, result: Value, count: int) -> None:
         if run.values is None:
@@ -269,19 +235,27 @@ class Engine:
 
     # --- reading ----------------------------------------------------------------------
 
-    def block(
-        self, sheet: str, first_row: int, last_row: int, column: int
-    ) -> tuple[Array, NDArray[np.bool_] | None, dict[int, str]]:
+    def block(self, sheet: str, first_row: int, last_row: int, column: int) -> _Block:
         """Numbers of a column's cells (blank 0), where they are numbers, and its texts."""
+        key = (sheet, first_row, last_row, column)
+        found = self._typed.get(key)
+        if found is not None:
+            return found
         known = self.grid.column(sheet, column)
         for run in known.runs:
             if run.first <= first_row and last_row <= run.last:
                 part = self._part(run, first_row, last_row)
                 texts = {r: t for r, t in run.texts.items() if first_row <= r <= last_row}
                 return part, None, texts
+        found = self._mixed(known, first_row, last_row)
+        if not known.runs:
+            self._typed[key] = found
+        return found
+
+    def _mixed(self, known: Column, first_row: int, last_row: int) -> _Block:
         numbers = np.zeros(last_row - first_row + 1)
         there = np.zeros(len(numbers), dtype=bool)
-        texts = {}
+        texts: dict[int, str] = {}
         rows = known.constants
         inside = (
             [r for r in rows if first_row <= r <= last_row]
@@ -308,248 +282,3 @@ class Engine:
                         texts[row] = text
                         there[row - first_row] = False
         return numbers, there, texts
-
-
-def _fits(node: Node) -> bool:
-    """Whether all rows of a run can be taken at once: no range that grows or slides."""
-    match node:
-        case Range(first, last):
-            return first.row_fixed == last.row_fixed and (first.row_fixed or first.row == last.row)
-        case Unary(_, operand):
-            return _fits(operand)
-        case Binary(_, left, right):
-            return _fits(left) and _fits(right)
-        case Call(_, args):
-            return all(_fits(arg) for arg in args)
-    return True
-
-
-class _Evaluation:
-    """One formula over the rows of a run."""
-
-    def __init__(self, engine: Engine, at: _At) -> None:
-        self.engine, self.at = engine, at
-
-    def value(self, node: Node, *, block: bool = False) -> Value:
-        if isinstance(node, Binary):
-            return self._binary(node.op, node.left, node.right, block)
-        if isinstance(node, Ref):
-            return self._cell(node)
-        if isinstance(node, (Number, Text)):
-            return node.value
-        if isinstance(node, Call):
-            return self._call(node.name, node.args, block)
-        if isinstance(node, Name):
-            return self._name(node.name)
-        if isinstance(node, Unary):
-            value = numeric(self.value(node.operand, block=block))
-            return value if node.op == "+" else value / 100 if node.op == "%" else -1.0 * value
-        if not block:
-            msg = "a range where one value is wanted"
-            raise UnknownFormula(msg)
-        return self._range(node)[0]
-
-    def _binary(self, op: str, left: Node, right: Node, block: bool) -> Value:
-        first, second = self.value(left, block=block), self.value(right, block=block)
-        if op in ("=", "<>") and (_is_text(first) or _is_text(second)):
-            return self._same_text(first, second) == (op == "=")
-        if op not in BINARY:
-            msg = f"operator {op}"
-            raise UnknownFormula(msg)
-        result = BINARY[op](numeric(first), numeric(second))
-        self._check_size(result)
-        if op in "<=>=<>":
-            errors = np.isnan(first) | np.isnan(second)
-            return np.where(errors, np.nan, result) if np.any(errors) else result
-        return finite(result) if op in "/^" else result
-
-    @staticmethod
-    def _same_text(first: Value, second: Value) -> Value:
-        if not (_is_text(first) and _is_text(second)):
-            msg = "text against a number"
-            raise UnknownFormula(msg)
-        if isinstance(first, str) and isinstance(second, str):
-            return first.casefold() == second.casefold()
-        return np.char.lower(np.asarray(first, dtype=str)) == np.char.lower(
-            np.asarray(second, dtype=str)
-        )
-
-    def _call(self, name: str, args: tuple[Node, ...], block: bool) -> Value:
-        if name in SINGLE:
-            function, least, most = SINGLE[name]
-            if not least <= len(args) <= most:
-                msg = f"{name} with {len(args)} arguments"
-                raise UnknownFormula(msg)
-            return finite(function(*(numeric(self.value(arg, block=block)) for arg in args)))
-        if name in AGGREGATES:
-            return aggregate(name, [self._counted(arg) for arg in args])
-        special = getattr(self, f"_{name.lower()}", None)
-        if special is None or name not in ("IF", "AND", "OR", "NOT", "IFERROR", "SUMPRODUCT",
-                                           "INDEX", "MATCH"):  # fmt: skip
-            msg = f"function {name}"
-            raise UnknownFormula(msg)
-        return special(args)
-
-    def _counted(self, node: Node) -> tuple[Array, NDArray[np.bool_]]:
-        """Numbers for an aggregate, and which of them count."""
-        if isinstance(node, Range):
-            return self._range(node)
-        if isinstance(node, Ref):
-            return self._range(Range(node, node))
-        value = np.asarray(numeric(self.value(node, block=False)), dtype=float)
-        value = value.reshape((-1, 1, 1)) if value.ndim < 3 else value
-        return value, np.ones(value.shape, dtype=bool)
-
-    def _if(self, args: tuple[Node, ...]) -> Value:
-        if not 2 <= len(args) <= 3:
-            msg = "IF"
-            raise UnknownFormula(msg)
-        test = numeric(self.value(args[0]))
-        if np.ndim(test) == 0 or np.size(test) == 1:
-            number = float(np.asarray(test).reshape(-1)[0])
-            if np.isnan(number):
-                return np.nan
-            if number:
-                return self.value(args[1])
-            return self.value(args[2]) if len(args) == 3 else False
-        good = self.value(args[1])
-        bad = self.value(args[2]) if len(args) == 3 else False
-        chosen = np.asarray(test, dtype=float)
-        if _is_text(good) or _is_text(bad):
-            result = np.where(chosen != 0, np.asarray(good, object), np.asarray(bad, object))
-            return np.where(np.isnan(chosen), np.asarray(np.nan, object), result)
-        return np.where(np.isnan(chosen), np.nan, np.where(chosen != 0, good, bad))
-
-    def _logic(self, args: tuple[Node, ...], both: bool) -> Value:
-        result: Value = both
-        for arg in args:
-            value = np.asarray(numeric(self.value(arg)), dtype=float)
-            now = np.logical_and(result, value) if both else np.logical_or(result, value)
-            known = np.asarray(result, dtype=float)
-            result = np.where(np.isnan(value) | np.isnan(known), np.nan, now)
-        return result
-
-    def _and(self, args: tuple[Node, ...]) -> Value:
-        return self._logic(args, True)
-
-    def _or(self, args: tuple[Node, ...]) -> Value:
-        return self._logic(args, False)
-
-    def _not(self, args: tuple[Node, ...]) -> Value:
-        value = np.asarray(numeric(self.value(args[0])), dtype=float)
-        return np.where(np.isnan(value), np.nan, value == 0)
-
-    def _iferror(self, args: tuple[Node, ...]) -> Value:
-        value = numeric(self.value(args[0]))
-        return np.where(np.isnan(value), numeric(self.value(args[1])), value)
-
-    def _sumproduct(self, args: tuple[Node, ...]) -> Value:
-        product: Value = 1.0
-        for arg in args:
-            product = product * np.asarray(numeric(self.value(arg, block=True)), dtype=float)
-            self._check_size(product)
-        return np.asarray(product).sum(axis=(1, 2)).reshape(-1, 1, 1)
-
-    def _match(self, args: tuple[Node, ...]) -> Value:
-        if len(args) not in (2, 3) or not isinstance(args[1], Range):
-            msg = "MATCH"
-            raise UnknownFormula(msg)
-        kind = float(np.asarray(self.value(args[2])).reshape(-1)[0]) if len(args) == 3 else 1.0
-        block, there = self._range(args[1])
-        if block.shape[0] != 1 or not there.all():
-            msg = "MATCH in a sliding range or among blanks"
-            raise UnknownFormula(msg)
-        return match(numeric(self.value(args[0])), block, kind)
-
-    def _index(self, args: tuple[Node, ...]) -> Value:
-        if len(args) not in (2, 3) or not isinstance(args[0], Range):
-            msg = "INDEX"
-            raise UnknownFormula(msg)
-        block, _ = self._range(args[0])
-        if block.shape[0] != 1:
-            msg = "INDEX in a sliding range"
-            raise UnknownFormula(msg)
-        column = numeric(self.value(args[2])) if len(args) == 3 else None
-        return index(block, numeric(self.value(args[1])), column)
-
-    # --- references -------------------------------------------------------------------
-
-    def _name(self, name: str) -> Value:
-        if name.upper() in ("TRUE", "FALSE"):
-            return name.upper() == "TRUE"
-        cell = self.engine.grid.names.get(name.casefold())
-        if cell is None:
-            msg = f"name {name}"
-            raise UnknownFormula(msg)
-        return self._rows(cell[0], cell[1], cell[1], cell[2])
-
-    def _cell(self, ref: Ref) -> Value:
-        at = self.at
-        column = ref.column if ref.column_fixed else at.column + ref.column
-        sheet = self.engine._sheet(ref.sheet, at.sheet)
-        if ref.row_fixed:
-            return self._rows(sheet, ref.row, ref.row, column)
-        first = at.row + ref.row
-        return self._rows(sheet, first, first + at.count - 1, column)
-
-    def _rows(self, sheet: str, first: int, last: int, column: int) -> Value:
-        _check_bounds(first, last, column, column)
-        numbers, _, texts = self.engine.block(sheet, first, last, column)
-        if texts:
-            if len(texts) < len(numbers):
-                msg = "text among numbers"
-                raise UnknownFormula(msg)
-            if len(numbers) == 1:
-                return texts[first]
-            return np.array([texts[first + i] for i in range(len(numbers))], dtype=object).reshape(
-                -1, 1, 1
-            )
-        return numbers.reshape(-1, 1, 1)
-
-    def _range(self, node: Range) -> tuple[Array, NDArray[np.bool_]]:
-        at = self.at
-        ends = []
-        for ref in (node.first, node.last):
-            ends.append(
-                (
-                    ref.row if ref.row_fixed else at.row + ref.row,
-                    ref.column if ref.column_fixed else at.column + ref.column,
-                )
-            )
-        sheet = self.engine._sheet(node.first.sheet, at.sheet)
-        (row_a, column_a), (row_b, column_b) = ends
-        rows, columns = sorted((row_a, row_b)), sorted((column_a, column_b))
-        moving = not node.first.row_fixed and at.count > 1
-        last_row = rows[1] + at.count - 1 if moving else rows[1]
-        _check_bounds(rows[0], last_row, columns[0], columns[1])
-        if (last_row - rows[0] + 1) * (columns[1] - columns[0] + 1) > MAX_BLOCK:
-            msg = "range too large"
-            raise UnknownFormula(msg)
-        numbers: list[Array] = []
-        there: list[NDArray[np.bool_]] = []
-        for column in range(columns[0], columns[1] + 1):
-            values, present, _ = self.engine.block(sheet, rows[0], last_row, column)
-            numbers.append(values)
-            there.append(np.ones(len(values), dtype=bool) if present is None else present)
-        if len(numbers) == 1:
-            count, height = (at.count, 1) if moving else (1, len(numbers[0]))
-            return numbers[0].reshape(count, height, 1), there[0].reshape(count, height, 1)
-        # (rows, columns): of one row each for a run, one block for all otherwise.
-        shape = (at.count, 1, -1) if moving else (1, rows[1] - rows[0] + 1, -1)
-        return np.stack(numbers, axis=-1).reshape(shape), np.stack(there, axis=-1).reshape(shape)
-
-    @staticmethod
-    def _check_size(value: Value) -> None:
-        if np.size(value) > MAX_BLOCK:
-            msg = "intermediate result too large"
-            raise UnknownFormula(msg)
-
-
-def _is_text(value: Value) -> bool:
-    return isinstance(value, str) or (isinstance(value, np.ndarray) and value.dtype.kind == "O")
-
-
-def _check_bounds(first: int, last: int, left: int, right: int) -> None:
-    if first < 1 or last > MAX_ROW or left < 1 or right > MAX_COLUMN:
-        msg = "reference out of bounds"
-        raise UnknownFormula(msg)

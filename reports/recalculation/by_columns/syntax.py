@@ -187,7 +187,6 @@ _PRECEDENCE = {"=": 1, "<": 1, ">": 1, "<=": 1, ">=": 1, "<>": 1, "&": 2,
 _END: Token = ("end", "")
 
 
-@lru_cache(maxsize=20_000)
 def parse(pattern: tuple[Token, ...]) -> Node:
     """Tree of a pattern.
 

@@ -288,17 +288,18 @@ def altered(student: Student, original: Grid | None) -> list[str]:
         column = grid.column(place.sheet, place.column)
         for run in column.runs:
             claims = column.saved_of(run)
-            if np.isnan(claims).all():
+            if not claims.size or np.isnan(claims).all():
                 continue
             try:
                 values = engine.all_of(run)
             except (UnknownFormula, RecursionError):
                 continue
+            away = np.abs(claims - values)
+            if not (away > 1e-6).any():
+                continue
             known = np.abs(values[np.isfinite(values)])
             scale = max(1.0, float(known.max())) if known.size else 1.0
-            off = np.abs(claims - values) > 1e-6 * scale
-            if not off.any():
-                continue
+            off = away > 1e-6 * scale
             for index in np.flatnonzero(off)[:3]:
                 where = address(run.first + int(index), place.column)
                 now, was = values[index], claims[index]

@@ -160,7 +160,7 @@ class Student:
             marks = np.zeros(count, dtype=bool)
             if typed:
                 marks[:] = [row in typed for row in place.rows]
-            return Answer(place, numbers, "".join(kinds), marks)
+            return Answer(place, numbers, kinds, marks)
         at = [None if row is None else row - first for row in place.rows]
         values = np.array([np.nan if i is None else numbers[i] for i in at])
         letters = "".join(LOST if i is None else kinds[i] for i in at)

@@ -82,24 +82,32 @@ def _check_parts(name: str, package: Package) -> None:
         _refuse(name, "книга ссылается на другие файлы", "разорвите связи и сохраните")
     total = 0
     for info in infos:
-        with package.open(info) as stream:
-            # The directory may lie about sizes: count what really comes out.
-            part = stream.read(_CHUNK)
-            size = len(part)
-            chunk = part
-            while chunk:
-                if total + size > MAX_UNPACKED:
-                    _refuse(name, "книга распаковывается сверх меры", "это не книга kshm")
-                chunk = stream.read(_CHUNK) if len(chunk) == _CHUNK else b""
-                size += len(chunk)
+        part = package.small(info)
+        size = len(part) if part is not None else 0
+        if part is None or total + size > MAX_UNPACKED:
+            part, size = _unpacked(name, package, info, total)
         total += size
-        head = part[:_HEAD]
-        if size == len(part) and info.filename.endswith((".xml", ".rels")):
-            package.keep(info.filename, part)
         if size > 2**20 and size > MAX_RATIO * max(1, info.compress_size):
             _refuse(name, "книга распаковывается сверх меры", "это не книга kshm")
-        if info.filename.endswith((".xml", ".rels")) and re.search(rb"<!(DOCTYPE|ENTITY)", head):
-            _refuse(name, "в книге есть объявление DOCTYPE", "это не книга Excel")
+        if info.filename.endswith((".xml", ".rels")):
+            if re.search(rb"<!(DOCTYPE|ENTITY)", part[:_HEAD]):
+                _refuse(name, "в книге есть объявление DOCTYPE", "это не книга Excel")
+            if size == len(part):
+                package.keep(info.filename, part)
+
+
+def _unpacked(name: str, package: Package, info: zipfile.ZipInfo, total: int) -> tuple[bytes, int]:
+    """Beginning of a part and its whole size."""
+    with package.open(info) as stream:
+        # The directory may lie about sizes: count what really comes out.
+        part = chunk = stream.read(_CHUNK)
+        size = len(part)
+        while chunk:
+            if total + size > MAX_UNPACKED:
+                _refuse(name, "книга распаковывается сверх меры", "это не книга kshm")
+            chunk = stream.read(_CHUNK)
+            size += len(chunk)
+    return part, size
 
 
 def _refuse(name: str, what: str, hint: str) -> NoReturn:

@@ -140,7 +140,7 @@ def test_a_recurrence_and_a_circle():
     engine = Engine(grid)
     engine.evaluate_all()
     assert engine.values("Sheet", 1, 1, 4)[0].tolist() == [1, 2, 3, 4]
-    assert engine.values("Sheet", 2, 1, 1)[1] == ["e"]
+    assert engine.values("Sheet", 2, 1, 1)[1] == "e"
 
 
 @pytest.mark.parametrize(

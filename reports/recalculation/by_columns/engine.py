@@ -55,7 +55,7 @@ class Engine:
                     for run in column.runs:
                         self.run(run)
 
-    def values(self, sheet: str, column: int, first: int, last: int) -> tuple[Array, list[str]]:
+    def values(self, sheet: str, column: int, first: int, last: int) -> tuple[Array, str]:
         """Numbers of a column's cells and a letter for the kind of each.
 
         The letters: ``n`` number, ``b`` blank, ``t`` text, ``e`` error; the number of
@@ -69,8 +69,9 @@ class Engine:
                     part = self._part(only, first, last)
                 if not only.texts:
                     good = np.isfinite(part)
-                    count = last - first + 1
-                    return part, ["n"] * count if good.all() else ["n" if g else "e" for g in good]
+                    if np.logical_and.reduce(good):
+                        return part, "n" * len(part)
+                    return part, "".join("n" if number else "e" for number in good)
         numbers = np.full(last - first + 1, np.nan)
         kinds = ["b"] * len(numbers)
         for row, constant in known.constants.items():
@@ -89,7 +90,7 @@ class Engine:
                     for row in range(low, high + 1):
                         good = np.isfinite(numbers[row - first])
                         kinds[row - first] = "t" if row in run.texts else "n" if good else "e"
-        return numbers, kinds
+        return numbers, "".join(kinds)
 
     def all_of(self, run: Run) -> Array:
         """Numbers of all cells of a run, NaN where there is none."""
@@ -245,6 +246,8 @@ class Engine:
         for run in known.runs:
             if run.first <= first_row and last_row <= run.last:
                 part = self._part(run, first_row, last_row)
+                if not run.texts:
+                    return part, None, run.texts
                 texts = {r: t for r, t in run.texts.items() if first_row <= r <= last_row}
                 return part, None, texts
         found = self._mixed(known, first_row, last_row)

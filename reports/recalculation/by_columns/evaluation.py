@@ -179,6 +179,8 @@ class Evaluation:
         for arg in args:
             product = product * np.asarray(numeric(self.value(arg, block=True)), dtype=float)
             self._check_size(product)
+        if np.ndim(product) == 0:
+            return product
         return np.asarray(product).sum(axis=(1, 2)).reshape(-1, 1, 1)
 
     def _match(self, args: tuple[Node, ...]) -> Value:
@@ -235,7 +237,7 @@ class Evaluation:
             return np.array([texts[first + i] for i in range(len(numbers))], dtype=object).reshape(
                 -1, 1, 1
             )
-        return numbers.reshape(-1, 1, 1)
+        return numbers.reshape(-1, 1, 1) if first < last else float(numbers[0])
 
     def _range(self, node: Range) -> tuple[Array, NDArray[np.bool_]]:
         at = self.at

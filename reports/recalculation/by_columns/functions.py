@@ -6,6 +6,7 @@ A value that a spreadsheet shows as an error is NaN here.
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -20,7 +21,10 @@ Flags = NDArray[np.bool_]
 
 def finite(value: Value) -> Value:
     """Infinities are errors in a spreadsheet."""
-    if np.isfinite(value).all():
+    if type(value) is float:
+        return value if isfinite(value) else np.nan
+    # A sum is finite where all its parts are, but for an overflow of the sum itself.
+    if isfinite(np.add.reduce(value, axis=None)) or np.isfinite(value).all():
         return value
     return np.where(np.isfinite(value), value, np.nan)
 

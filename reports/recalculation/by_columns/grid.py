@@ -74,6 +74,8 @@ class Column:
 
     def saved_of(self, run: Run) -> NDArray[np.float64]:
         """Numbers saved for the cells of a run; NaN where nothing or something else was saved."""
+        if len(self.saved_rows) == run.count and self.saved_rows[0] == run.first:
+            return self.saved
         found = np.full(run.count, np.nan)
         inside = (self.saved_rows >= run.first) & (self.saved_rows <= run.last)
         found[self.saved_rows[inside] - run.first] = self.saved[inside]

@@ -7,7 +7,6 @@ The form of the sheet is then made once, and filled with the values of each book
 from __future__ import annotations
 
 import html
-from array import array
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -42,13 +41,21 @@ class RunForm:
 class ColumnForm:
     """Rows of one column and the numbers of their values."""
 
-    typed_rows: array[int] = field(default_factory=lambda: array("i"))
-    typed: array[int] = field(default_factory=lambda: array("i"))
-    error_rows: array[int] = field(default_factory=lambda: array("i"))
-    errors: array[int] = field(default_factory=lambda: array("i"))
-    saved_rows: array[int] = field(default_factory=lambda: array("i"))
-    saved: array[int] = field(default_factory=lambda: array("i"))
+    typed_rows: list[int] = field(default_factory=list)
+    typed: list[int] = field(default_factory=list)
+    error_rows: list[int] = field(default_factory=list)
+    errors: list[int] = field(default_factory=list)
+    saved_rows: list[int] = field(default_factory=list)
+    saved: list[int] = field(default_factory=list)
     runs: list[RunForm] = field(default_factory=list)
+    _saved: tuple[NDArray[np.intc], NDArray[np.intc]] | None = None
+
+    @property
+    def saved_places(self) -> tuple[NDArray[np.intc], NDArray[np.intc]]:
+        """Rows of the cells with formulas and the numbers of their values, as arrays."""
+        if self._saved is None:
+            self._saved = np.array(self.saved_rows, np.intc), np.array(self.saved, np.intc)
+        return self._saved
 
 
 @dataclass(slots=True)
@@ -100,8 +107,8 @@ class SheetForm:
                 texts = [str(found[i] or "#VALUE!") for i in form.errors]
                 made.errors = dict(zip(form.error_rows, texts, strict=True))
             if form.runs:
-                made.saved_rows = np.frombuffer(form.saved_rows, dtype=np.intc)
-                made.saved = numbers[np.frombuffer(form.saved, dtype=np.intc)]
+                made.saved_rows, places = form.saved_places
+                made.saved = numbers[places]
                 made.runs = [
                     Run(title, number, run.first, run.count, run.formula, run.text, run.problem)
                     for run in form.runs

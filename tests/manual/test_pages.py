@@ -80,7 +80,10 @@ def test_headings_make_the_anchors_of_code_hosts():
 @pytest.mark.parametrize("width", [390, 1280])
 def test_html_fits_the_window(tmp_path, width):
     written = write_site(DOCS, tmp_path / "site")
-    assert {path.stem for path in written} == {page.stem for page in DOCS.glob("*.md")}
+    assert {path.stem for path in written} == {page.stem for page in DOCS.glob("*.md")} | {"readme"}
+    for path in written:
+        for link in re.findall(r'(?:href|src)="([^"]*)"', path.read_text(encoding="utf-8")):
+            assert "://" in link or (path.parent / link.partition("#")[0]).exists(), link
     page = (tmp_path / "site" / "sheets.html").read_text(encoding="utf-8")
     assert 'href="input.html"' in page
     found = measure(page, width, tmp_path / "browser", boxes="table, pre")

@@ -1,4 +1,9 @@
-"""Kinematics and dynamics of the crank mechanism of piston engines."""
+"""Kinematics and dynamics of the crank mechanism of piston engines.
+
+The names below are the public ones and stay: ``solve(engine)`` gives a ``Solution`` with
+``tables`` (pandas), ``columns`` (numpy) and ``scalars`` in the units of the textbook.
+Engines come from ``in_line`` with a person's units or from ``Engine`` in SI.
+"""
 
 from __future__ import annotations
 
@@ -7,21 +12,39 @@ from typing import TYPE_CHECKING, Any
 from kshm.engine import Engine
 
 if TYPE_CHECKING:
+    from kshm.building import end_mass, in_line, points, polytropic, throw
+    from kshm.nomenclature import Quantity, quantity
     from kshm.solution import Solution
-    from kshm.solver import solve
+    from kshm.solver import solve, solve_chunks
 
-__all__ = ["Engine", "Solution", "solve"]
+__all__ = [
+    "Engine",
+    "Quantity",
+    "Solution",
+    "end_mass",
+    "in_line",
+    "points",
+    "polytropic",
+    "quantity",
+    "solve",
+    "solve_chunks",
+    "throw",
+]
 __version__ = "0.1.0"
+
+_HOMES = {
+    **dict.fromkeys(("end_mass", "in_line", "points", "polytropic", "throw"), "kshm.building"),
+    **dict.fromkeys(("Quantity", "quantity"), "kshm.nomenclature"),
+    **dict.fromkeys(("solve", "solve_chunks"), "kshm.solver"),
+    "Solution": "kshm.solution",
+}
 
 
 def __getattr__(name: str) -> Any:  # noqa: ANN401
     """Import the numeric part only when it is asked for."""
-    if name == "solve":
-        from kshm.solver import solve
+    from importlib import import_module
 
-        return solve
-    if name == "Solution":
-        from kshm.solution import Solution
-
-        return Solution
-    raise AttributeError(name)
+    if name not in _HOMES:
+        msg = f"module 'kshm' has no attribute '{name}'"
+        raise AttributeError(msg)
+    return getattr(import_module(_HOMES[name]), name)

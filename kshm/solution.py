@@ -117,18 +117,21 @@ class Solution:
 
     @cached_property
     def tables(self) -> dict[str, pd.DataFrame]:
-        """Table id → DataFrame with ``phi_deg`` first and units in ``attrs["units"]``."""
+        """Table id → DataFrame with ``phi_deg`` first.
+
+        ``attrs["units"]``, ``attrs["symbols"]`` and ``attrs["titles"]`` tell of each column.
+        """
         import pandas as pd
 
         frames = {}
         tables: dict[str, Mapping[str, Array | list[str]]] = {**self.columns, **reference_tables()}
         for name, columns in tables.items():
             frame = pd.DataFrame(columns)
-            frame.attrs["units"] = {
-                key: quantity(key).unit_label
-                for key in columns
-                if not key.startswith(("lambda", "sign", "phi_m"))
-            }
+            known = [key for key in columns if not key.startswith(("lambda", "sign", "phi_m"))]
+            found = {key: quantity(key) for key in known}
+            frame.attrs["units"] = {key: about.unit_label for key, about in found.items()}
+            frame.attrs["symbols"] = {key: about.symbol for key, about in found.items()}
+            frame.attrs["titles"] = {key: about.title for key, about in found.items()}
             frames[name] = frame
         return frames
 

@@ -1,0 +1,30 @@
+"""The public names as lines: ``python -m tests.api.public_names > tests/api/names.txt``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import kshm
+from kshm import solve
+from reports.inputs.convert import to_engine
+from tests.conftest import sample, sample_names
+
+
+def lines() -> Iterator[str]:
+    """Names of the package; then tables with their columns, and scalars, with the samples."""
+    for name in kshm.__all__:
+        yield f"kshm.{name}"
+    found: dict[str, list[str]] = {}
+    for name in sample_names():
+        solution = solve(to_engine(sample(name)))
+        for table, columns in solution.columns.items():
+            found.setdefault(f"table {table}: {' '.join(columns)}", []).append(name)
+        for key in solution.scalars:
+            found.setdefault(f"scalar {key}", []).append(name)
+    everywhere = len(sample_names())
+    for line, names in sorted(found.items()):
+        yield line if len(names) == everywhere else f"{line} [{' '.join(names)}]"
+
+
+if __name__ == "__main__":
+    print("\n".join(lines()))

@@ -1,4 +1,4 @@
-"""A small chart of a column as inline SVG: the student's line and the reference."""
+"""A small chart of a column as inline SVG: the student's line, the right one if it may be seen."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Points = Sequence[float | None]
 
 
 def line_chart(x: Sequence[float], own: Points, right: Points | None, fmt: str = ".4g") -> str:
-    """The chart's SVG; gaps where there is no number."""
+    """The chart's SVG; gaps where there is no number, one line where ``right`` is None."""
     known = [v for line in (own, right or ()) for v in line if v is not None]
     if not known or len(x) < 2:
         return ""
@@ -28,9 +28,10 @@ def line_chart(x: Sequence[float], own: Points, right: Points | None, fmt: str =
     def at_y(value: float) -> float:
         return _TOP + (high - value) / (high - low) * (HEIGHT - _TOP - _BOTTOM)
 
+    shown = "ваши значения" if right is None else "ваши значения и правильные"
     parts = [
         f'<svg class="chart" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" '
-        'aria-label="График столбца: ваши значения и правильные">'
+        f'aria-label="График столбца: {shown}">'
     ]
     for share in (0.0, 0.5, 1.0):
         value = low + pad + (high - low - 2 * pad) * share

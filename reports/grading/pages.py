@@ -38,10 +38,11 @@ def _environment() -> Environment:
 def student_page(result: dict[str, Any], rubric: Rubric) -> str:
     """Feedback of one submission as a page that needs no other file."""
     lines = result.get("items", [])
+    full = rubric.feedback.mode == "full"
     blocks: dict[str, list[dict[str, Any]]] = {}
     for line in lines:
         if line["verdict"] != "empty" or line["of"] > 0:
-            blocks.setdefault(_heading(line), []).append({**line, "svg": _chart(line)})
+            blocks.setdefault(_heading(line), []).append({**line, "svg": _chart(line, full)})
     counts = dict.fromkeys(WORDS, 0)
     for line in lines:
         if line["of"] > 0:
@@ -52,7 +53,7 @@ def student_page(result: dict[str, Any], rubric: Rubric) -> str:
         blocks=blocks,
         counts={key: n for key, n in counts.items() if n},
         words=WORDS,
-        full=rubric.feedback.mode == "full",
+        full=full,
         title=rubric.work.title,
     )
 
@@ -66,12 +67,14 @@ def _heading(line: dict[str, Any]) -> str:
     return f"Таблица {line['table']}" if line["table"] else "Отдельные величины"
 
 
-def _chart(line: dict[str, Any]) -> Markup:
+def _chart(line: dict[str, Any], full: bool) -> Markup:
     chart = line.get("chart")
-    if not chart:
+    if not chart or line["verdict"] not in ("wrong", "error"):
         return Markup("")
+    # The right curve would give away what a hint only points at.
+    right = chart["right"] if full else None
     # The chart is made of numbers only: no text of a person's is in it.
-    return Markup(line_chart(chart["x"], chart["own"], chart["right"]))
+    return Markup(line_chart(chart["x"], chart["own"], right))
 
 
 def number(value: float | None, fmt: str = "") -> str:

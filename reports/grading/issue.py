@@ -75,9 +75,14 @@ def issue(
     batch = _batch(base, seed)
     with Progress("Выдача вариантов") as progress, atomic_dir(folder) as temporary:
         books = []
+        first: Assignment | None = None
         for number, (student, variant) in enumerate(zip(students, variants, strict=True), 1):
             progress.step(f"Выдача вариантов: {number} из {len(students)}")
-            books.append(_write(temporary, number, student, variant, rubric, secret, batch))
+            book = _issued(number, student, variant, secret, batch)
+            assignment = assignment_for(book, rubric, first)
+            first = first or assignment
+            _write(temporary, book, assignment)
+            books.append(book)
         register = Register(batch, seed, base.source, rubric, tuple(books))
         (temporary / FILE).write_text(register.json_text(), encoding="utf-8")
         (temporary / "register.csv").write_text(register.csv_text(), encoding="utf-8")
@@ -115,25 +120,19 @@ def _with_title(raw: dict[str, Any], student: Student, number: int) -> dict[str,
     return {**raw, "report": report}
 
 
-def _write(
-    folder: Path,
-    number: int,
-    student: Student,
-    variant: Variant,
-    rubric: Rubric,
-    secret: bytes,
-    batch: str,
-) -> Issued:
+def _issued(number: int, student: Student, variant: Variant, secret: bytes, batch: str) -> Issued:
     stem = f"{number:02d}-{_slug(student.full)}"
     file = f"{stem}.xlsx"
     made = ticket_of(secret, batch, student, file, variant.raw)
-    book = Issued(number, student, stem, file, made, variant.drawn, variant.raw)
-    own = folder / stem
+    return Issued(number, student, stem, file, made, variant.drawn, variant.raw)
+
+
+def _write(folder: Path, book: Issued, assignment: Assignment) -> None:
+    own = folder / book.folder
     own.mkdir()
-    (own / file).write_bytes(handout_bytes(assignment_for(book, rubric), made))
-    text = tomlkit.dumps(_with_title(variant.raw, student, number))
-    (own / f"{stem}.toml").write_text(text, encoding="utf-8")
-    return book
+    (own / book.file).write_bytes(handout_bytes(assignment, book.ticket))
+    text = tomlkit.dumps(_with_title(book.raw, book.student, book.number))
+    (own / f"{book.folder}.toml").write_text(text, encoding="utf-8")
 
 
 def _slug(name: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -103,18 +104,19 @@ class Program:
 def _program(model: Model, key: str) -> Program:
     node = model.nodes[key]
     if not isinstance(node, Column):
-        return Program(tuple(names(node.expr)), compiled(node.expr, str), 0)
+        return Program(tuple(names(node.expr)), _act(node.expr, "", frozenset()), 0)
     table = model.tables[key.split(".", maxsplit=1)[0]]
     if node.expr is None:
         return Program((), lambda _: np.array(table.rows), len(table.rows))
+    # A bare name is a column of the same table first, then a scalar.
+    local = frozenset(name for name in names(node.expr) if f"{table.id}.{name}" in model.nodes)
+    needs = tuple(f"{table.id}.{name}" if name in local else name for name in names(node.expr))
+    return Program(needs, _act(node.expr, table.id, local), len(table.rows))
 
-    def key_of(name: str) -> str:
-        """A bare name is a column of the same table first, then a scalar."""
-        local = f"{table.id}.{name}"
-        return local if local in model.nodes else name
 
-    needs = tuple(key_of(name) for name in names(node.expr))
-    return Program(needs, compiled(node.expr, key_of), len(table.rows))
+@lru_cache(maxsize=8192)  # many models have the same formulas
+def _act(text: str, table: str, local: frozenset[str]) -> Callable[[dict[str, Any]], Any]:
+    return compiled(text, lambda name: f"{table}.{name}" if name in local else name)
 
 
 def evaluate_model(model: Model) -> Values:

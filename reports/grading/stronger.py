@@ -53,7 +53,7 @@ def _allowed(run: Run) -> bool:
 
 
 def _functions(pattern: tuple[Token, ...]) -> Iterator[str]:
-    for (kind, value), (_, after) in zip(pattern, (*pattern[1:], ("end", "")), strict=True):
+    for (kind, value), (_, after) in zip(pattern, (*pattern, ("end", ""))[1:], strict=True):
         if kind == "name" and after == "(":
             yield value.upper()
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import io
 import re
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -82,7 +83,9 @@ def _input_cells(data: bytes, source: str) -> tuple[dict[str, Any], dict[str, st
     from openpyxl import load_workbook
 
     try:
-        book = load_workbook(io.BytesIO(data), read_only=False, data_only=False)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of parts that are not read
+            book = load_workbook(io.BytesIO(data), read_only=False, data_only=False)
     except Exception as error:  # openpyxl raises anything on a damaged book
         what = "книга повреждена и не читается"
         problem = Problem(source, what, "сохраните её заново в Excel или LibreOffice")

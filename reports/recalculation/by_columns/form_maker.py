@@ -133,6 +133,8 @@ class FormMaker:
     ) -> None:
         made = None
         at_row, at_column = origin or (row, column)
+        if not problem and not text.strip(" ="):
+            problem = "пустая формула"
         if not problem:
             try:
                 made = formula_at(text.removeprefix("="), at_row, at_column)

@@ -1,0 +1,1 @@
+"""Fuzzing of the three doors for files from people: ``./run fuzz DOOR [SECONDS]``."""

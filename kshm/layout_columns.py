@@ -111,13 +111,13 @@ def _articulated_motion(engine: Engine, raw: BatchSolution, index: int) -> Colum
     }
 
 
-def articulated_columns(raw: BatchSolution, index: int, cylinder: int) -> Columns:
+def articulated_columns(raw: BatchSolution, index: int | slice, cylinder: int) -> Columns:
     """What an articulated rod does to the master piston and rod; nothing for other rods."""
     rods, hung = raw.batch.articulated, raw.hung
     if rods is None or hung is None or cylinder not in rods.cylinders:
         return {}
     at = index, rods.cylinders.index(cylinder)
-    area = raw.batch.area[index, 0, 0]
+    area = raw.batch.area[index, 0]
     return {"Nadd_MPa": hung.on_pin.N_added[at], "Mrod_Nm": hung.on_pin.moment[at] * area}
 
 

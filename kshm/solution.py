@@ -10,19 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kshm import kinematics, regimes
-from kshm.arrangement import pins
 from kshm.companions import companion_columns, companion_scalars
 from kshm.cycle_summary import cycle_columns
 from kshm.diagram import diagram_columns, diagram_scalars, gas_work
 from kshm.engine import Engine
+from kshm.force_columns import force_tables
 from kshm.layout_columns import (
-    articulated_columns,
-    direction,
-    has_single_rods,
     layout_columns,
-    pin_table,
     shown_pins,
-    throw_torque_key,
     wear_table,
 )
 from kshm.nomenclature import quantity, ray_key
@@ -73,15 +68,8 @@ class Solution:
             "P3_1": self._piston(),
             "P3_2": self._rod(),
             "gas": self._gas(),
-            "P4_1": self._forces(),
-            **{f"cylinder_{i + 1}": self._cylinder(i) for i in range(1, self.engine.cylinders)},
-            "P4_2": self._torques(),
-            **{pin_table(n): self._crankpin(n) for n in range(len(shown_pins(self.engine)))},
+            **force_tables(self.raw, self._index),
             **layout_columns(self.engine, self.raw, self._index),
-            **{f"P4_3_{k + 1}": self._journal(k) for k in range(self._journals)},
-            "P4_4": self._running_main(),
-            "P4_5": self._running_pin(),
-            "P4_5s": self._running_pin_statics(),
             **{
                 wear_table(n): self._wear(self.raw.pin_rays(self._index, n))
                 for n in range(len(shown_pins(self.engine)))
@@ -206,106 +194,6 @@ class Solution:
             "p_MPa": raw.p[e, 0],
         }
         return self._with_phi(values)
-
-    def _forces(self) -> Columns:
-        return self._with_phi(self._cylinder_values(0))
-
-    def _cylinder(self, cylinder: int) -> Columns:
-        raw, e = self.raw, self._index
-        values = self._cylinder_values(cylinder)
-        return self._with_phi(
-            {
-                "phase_deg": raw.local_phi[e, cylinder],
-                "volume_ratio": raw.volume_ratio[e, cylinder],
-                "p_MPa": raw.p[e, cylinder],
-                **values,
-                **articulated_columns(raw, e, cylinder),
-            }
-        )
-
-    def _cylinder_values(self, cylinder: int) -> Columns:
-        raw, at = self.raw, (self._index, cylinder)
-        return {
-            "Pg_MPa": raw.p_gas[at], "Pj_MPa": raw.p_inertia[at], "Ps_MPa": raw.p_sum[at],
-            "N_MPa": raw.N[at], "S_MPa": raw.S[at], "T_MPa": raw.T[at], "K_MPa": raw.K[at],
-            "M_Nm": raw.torque[at],
-        }  # fmt: skip
-
-    def _torques(self) -> Columns:
-        raw, e = self.raw, self._index
-        values = {f"M{i + 1}_Nm": raw.torque[e, i] for i in range(self.engine.cylinders)}
-        return self._with_phi({**values, "Msum_Nm": raw.torque_sum[e]})
-
-    def _crankpin(self, pin: int) -> Columns:
-        raw, at = self.raw, (self._index, pin)
-        unit = self.engine.geometry.crank_radius * self.engine.omega**2
-        area = self.engine.geometry.piston_area
-        own = [raw.K[self._index, i] for i in pins(self.engine.arrangement)[pin]]
-        values = {
-            "T_MPa": raw.pin_side[at],
-            "K_MPa": np.sum(own, axis=0),
-            "Krod_MPa": -raw.pin_up[at],
-            "Rpin_MPa": raw.pin_load[at],
-            "psi_deg": direction(raw.pin_side[at], -raw.pin_up[at]),
-        }
-        if has_single_rods(self.engine):
-            throw = raw.batch.m_k[self._index, 0, 0] * unit / area
-            values |= {
-                "Ksum_MPa": -raw.pin_up[at] - throw,
-                "Rthrow_MPa": raw.throw_load[at],
-            }
-        return self._with_phi(values)
-
-    def _journal(self, journal: int) -> Columns:
-        raw, at = self.raw, (self._index, journal)
-        throws = self.engine.crankshaft.throws
-        values: Columns = {}
-        sides = (("a", journal - 1, raw.journal_before[at]), ("b", journal, raw.journal_after[at]))
-        for side, throw, vector in sides:
-            if not 0 <= throw < len(throws):
-                continue
-            cos, sin = np.cos(throws[throw].angle), np.sin(throws[throw].angle)
-            # Back from the shaft axes to the frame of the throw.
-            across = vector[:, 0] * cos + vector[:, 1] * sin
-            along = -vector[:, 0] * sin + vector[:, 1] * cos
-            values |= {
-                f"{side}T_MPa": across, f"{side}Tcos_MPa": across * cos,
-                f"{side}Tsin_MPa": across * sin,
-                f"{side}K_MPa": along, f"{side}Kcos_MPa": along * cos,
-                f"{side}Ksin_MPa": along * sin,
-            }  # fmt: skip
-        x, y = raw.journal[at][:, 0], raw.journal[at][:, 1]
-        phi = raw.phi
-        values |= {
-            "Rx_MPa": x,
-            "Ry_MPa": y,
-            "R_MPa": raw.journal_load[at],
-            "psiR_deg": direction(x, y),
-            # The load on the bearing is the opposite of the reaction; the shaft has turned
-            # clockwise by φ, from "up" away from "left".
-            "block_x_MPa": -(x * np.cos(phi) - y * np.sin(phi)),
-            "block_y_MPa": -(x * np.sin(phi) + y * np.cos(phi)),
-        }
-        return self._with_phi(values)
-
-    def _running(self, family: str, moments: Array, first: int) -> Columns:
-        """Torques on journals or pins from throw 1 on, with the throws' own between them."""
-        raw, e = self.raw, self._index
-        values = {f"{family}{first}_Nm": moments[0]}
-        for throw in range(1, self._journals - 1):
-            values[throw_torque_key(self.engine, throw)] = raw.throw_torque[e, throw]
-            values[f"{family}{throw + first}_Nm"] = moments[throw]
-        return self._with_phi(values)
-
-    def _running_main(self) -> Columns:
-        return self._running("Mmain", self.raw.running_main[self._index, 1:], 2)
-
-    def _running_pin(self) -> Columns:
-        return self._running("Mpin", self.raw.running_pin[self._index], 1)
-
-    def _running_pin_statics(self) -> Columns:
-        rows = self.raw.running_pin_statics[self._index]
-        return self._with_phi({f"Mpins{i + 1}_Nm": row for i, row in enumerate(rows)})
 
     def _wear(self, loads: Array) -> Columns:
         return self._with_phi({ray_key(i + 1): loads[:, i] for i in range(loads.shape[1])})

@@ -257,6 +257,9 @@ def _path_option(*names: str, **more: Any) -> Callable[[_Command], _Command]:  #
     return click.option(*names, type=click.Path(path_type=Path), **more)
 
 
+_dask = click.option("--dask", metavar="ADDRESS", help="Считать на кластере Dask, tcp://host:8786.")
+
+
 @main.command(context_settings=_HELP)
 @_file("BASE")
 @_path_option("--roster", required=True, metavar="CSV", help="Список группы.")
@@ -368,6 +371,62 @@ def validate(folder: Path, only: str | None, verbose: bool) -> int:
         return MISSING
     if counts.needs_a_person:
         click.echo("Есть отклонения без записанной причины: см. новое отклонение", err=True)
+        return LOOK
+    return DONE
+
+
+@main.command(context_settings=_HELP)
+@_file("BASE")
+@click.option(
+    "--vary",
+    multiple=True,
+    required=True,
+    metavar="KEY=ОТ:ДО:N",
+    help="Ключ файла и N значений, например geometry.bore_mm=84:92:9; можно не один.",
+)
+@click.option(
+    "--quantity",
+    "quantities",
+    multiple=True,
+    metavar="NAME",
+    help="Величина: M_mean или столбец P4_1.N_MPa (по умолчанию основные).",
+)
+@click.option(
+    "--pairwise", is_flag=True, help="Первое с первым, второе со вторым, а не все со всеми."
+)
+@_path_option(
+    "-o",
+    "--output",
+    "target",
+    required=True,
+    metavar="FILE",
+    help="Файл .parquet, .csv или .xlsx (с диаграммами).",
+)
+@click.option("--jobs", default=0, help="Число процессов (по умолчанию все ядра).")
+@_dask
+@_verbose
+def sweep(
+    source: Path, vary: tuple[str, ...], quantities: tuple[str, ...], pairwise: bool,
+    target: Path, jobs: int, dask: str | None, verbose: bool,
+) -> int:  # fmt: skip
+    """Исследовать параметры: наибольшие и средние значения при всех сочетаниях.
+
+    Первый ключ меняется быстрее всех; по нему строятся диаграммы, по второму — семейство
+    кривых. Сочетание, которое не проходит проверку, остаётся строкой с причиной.
+    """
+    from reports.sweep.run import Options
+    from reports.sweep.run import sweep as run_sweep
+
+    if jobs < 0:
+        msg = "--jobs не может быть отрицательным"
+        raise KshmError(msg)
+    done = run_sweep(
+        source, vary, target, quantities=quantities, pairwise=pairwise,
+        options=Options(jobs=jobs, dask=dask),
+    )  # fmt: skip
+    click.echo(f"{target}: сочетаний {done.points}")
+    if done.failed:
+        click.echo(f"Без результата: {done.failed}, например: {done.first_error}", err=True)
         return LOOK
     return DONE
 

@@ -69,6 +69,12 @@ def quoted(sheet: str) -> str:
     return "'" + sheet.replace("'", "''") + "'"
 
 
+def column_range(sheet: str, column: int, first: int, last: int) -> str:
+    """Absolute range of rows of one column, as charts and formulas of other sheets write it."""
+    letter = get_column_letter(column)
+    return f"{quoted(sheet)}!${letter}${first}:${letter}${last}"
+
+
 @dataclass
 class Layout:
     """Addresses of a model's inputs, scalars and columns."""
@@ -197,8 +203,7 @@ class Layout:
         if key in self.columns:
             table, column = self.columns[key]
             last = FIRST_ROW + (rows or len(table.rows)) - 1
-            letter = get_column_letter(column)
-            return f"{quoted(table.sheet)}!${letter}${FIRST_ROW}:${letter}${last}"
+            return column_range(table.sheet, column, FIRST_ROW, last)
         cells = self._run_of(key)
         first, last_cell = cells[0], cells[(rows or len(cells)) - 1]
         ends = f"${get_column_letter(last_cell.column)}${last_cell.row}"

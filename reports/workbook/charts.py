@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 from openpyxl.chart import ScatterChart
 from openpyxl.chart.data_source import AxDataSource, NumDataSource, NumRef
 from openpyxl.chart.layout import Layout as PlotLayout
@@ -43,22 +46,55 @@ def make_chart(spec: ChartSpec, layout: Layout, values: Values) -> ScatterChart:
 
     It comes without numbers: openpyxl takes long for each, see ``ranges_of``.
     """
+    title = f"{spec.title} (рис. {spec.figure})" if spec.figure else spec.title
+    chart = _empty(title, size(spec))
+    for number, series in enumerate(spec.series):
+        chart.series.append(_series(series, number, layout, spec))
+    _axes(chart, spec, values)
+    _legend(chart, shown=spec.kind == "line" and len(spec.series) > 1)
+    return chart
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """A curve by the ranges of its numbers."""
+
+    name: str
+    x: str
+    y: str
+
+
+def curves_chart(
+    title: str, x_title: str, y_title: str, curves: Sequence[Curve], ends: tuple[float, float]
+) -> ScatterChart:
+    """Curves over an input between its ends; the finishing pass fills in the numbers."""
+    chart = _empty(title, (WIDE, HIGH))
+    for number, curve in enumerate(curves):
+        chart.series.append(_curve(number, curve, _look(number)))
+    _titles(chart, x_title, y_title)
+    if ends[0] < ends[1]:
+        chart.x_axis.scaling.min, chart.x_axis.scaling.max = ends
+    _legend(chart, shown=len(curves) > 1)
+    return chart
+
+
+def _empty(title: str, extent: tuple[float, float]) -> ScatterChart:
     chart = ScatterChart()
     chart.scatterStyle = "lineMarker"
     chart.style = 2
     chart.roundedCorners = False
-    chart.title = _title(f"{spec.title} (рис. {spec.figure})" if spec.figure else spec.title, 1200)
-    chart.width, chart.height = size(spec)
-    for number, series in enumerate(spec.series):
-        chart.series.append(_series(series, number, layout, spec))
+    chart.title = _title(title, 1200)
+    chart.width, chart.height = extent
     chart.display_blanks = "gap"
-    _axes(chart, spec, values)
-    if spec.kind == "line" and len(spec.series) > 1:
+    return chart
+
+
+def _legend(chart: ScatterChart, *, shown: bool) -> None:
+    if shown:
         chart.legend.position = "b"
         chart.legend.overlay = False
     else:
         chart.legend = None
-    return chart
 
 
 def _title(text: str, size: int) -> Title:
@@ -70,8 +106,9 @@ def _title(text: str, size: int) -> Title:
     return Title(tx=Text(rich=RichText(p=[paragraph])), overlay=False)
 
 
-def _axes(chart: ScatterChart, spec: ChartSpec, values: Values) -> None:
-    for axis, title in ((chart.x_axis, spec.x_title), (chart.y_axis, spec.y_title)):
+def _titles(chart: ScatterChart, x_title: str, y_title: str) -> None:
+    """Both axes as Excel shows them: there, with a light grid and their titles."""
+    for axis, title in ((chart.x_axis, x_title), (chart.y_axis, y_title)):
         axis.delete = False
         axis.tickLblPos = "low"
         axis.majorTickMark = "out"
@@ -82,6 +119,10 @@ def _axes(chart: ScatterChart, spec: ChartSpec, values: Values) -> None:
         )
         if title:
             axis.title = _title(title, 1000)
+
+
+def _axes(chart: ScatterChart, spec: ChartSpec, values: Values) -> None:
+    _titles(chart, spec.x_title, spec.y_title)
     if spec.x_title.startswith(("φ", "α")):
         table, column = spec.series[0].x.split(".")
         last = float(values.columns[table][column][-1])
@@ -107,18 +148,29 @@ def _axes(chart: ScatterChart, spec: ChartSpec, values: Values) -> None:
 
 
 def _series(series: SeriesSpec, number: int, layout: Layout, spec: ChartSpec) -> XYSeries:
+    name = series.name or quantity(series.y.split(".")[1]).symbol
+    hidden = spec.kind == "polar" and number == len(spec.series) - 1
+    line = LineProperties(noFill=True) if hidden else _look(number)
+    return _curve(number, Curve(name, layout.range_of(series.x), layout.range_of(series.y)), line)
+
+
+def _curve(number: int, curve: Curve, line: LineProperties) -> XYSeries:
     made = XYSeries(idx=number, order=number)
-    made.tx = SeriesLabel(v=series.name or quantity(series.y.split(".")[1]).symbol)
-    made.xVal = AxDataSource(numRef=NumRef(f=layout.range_of(series.x)))
-    made.yVal = NumDataSource(numRef=NumRef(f=layout.range_of(series.y)))
+    if curve.name:
+        made.tx = SeriesLabel(v=curve.name)
+    made.xVal = AxDataSource(numRef=NumRef(f=curve.x))
+    made.yVal = NumDataSource(numRef=NumRef(f=curve.y))
     made.smooth = False
-    line = LineProperties(w=_LINE, solidFill=_COLOURS[number % len(_COLOURS)])
-    line.prstDash = _DASHES[number % len(_DASHES)]
-    if spec.kind == "polar" and number == len(spec.series) - 1:
-        line = LineProperties(noFill=True)
     made.spPr = GraphicalProperties(ln=line)
     made.marker = Marker(symbol="none")
     return made
+
+
+def _look(number: int) -> LineProperties:
+    line = LineProperties(w=_LINE, solidFill=_COLOURS[number % len(_COLOURS)])
+    # Shifted after all colours are used: twelve curves differ.
+    line.prstDash = _DASHES[(number + number // len(_COLOURS)) % len(_DASHES)]
+    return line
 
 
 def ranges_of(spec: ChartSpec, layout: Layout, values: Values) -> dict[str, list[float]]:

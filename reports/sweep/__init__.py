@@ -1,0 +1,1 @@
+"""Parameter studies: extremes and means of results against varied inputs."""

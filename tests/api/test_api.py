@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import io
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -17,13 +16,9 @@ from kshm import end_mass, in_line, points, polytropic, quantity, solve, throw
 from reports.inputs.convert import to_engine
 from tests.api.public_names import lines
 from tests.conftest import sample
+from tests.manual.pages import DOCS, ROOT, blocks
 
-ROOT = Path(__file__).parents[2]
-PAGE = ROOT / "docs" / "api.md"
-
-
-def blocks() -> list[str]:
-    return re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+PAGE = DOCS / "api.md"
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +27,7 @@ def ran() -> tuple[dict, str]:
     names: dict = {}
     said = io.StringIO()
     with contextlib.redirect_stdout(said):
-        for block in blocks():
+        for block in blocks(PAGE, "python"):
             exec(compile(block, str(PAGE), "exec"), names)
     return names, said.getvalue()
 
@@ -40,7 +35,7 @@ def ran() -> tuple[dict, str]:
 def test_the_examples_of_the_page_give_the_book(ran: tuple[dict, str]) -> None:
     """The engine made without a file is the sample's, number for number."""
     names, said = ran
-    assert len(blocks()) >= 6
+    assert len(blocks(PAGE, "python")) >= 6
     book = solve(to_engine(sample("gots-diesel"))).scalars
     made = names["solution"].scalars
     for key in ("M_mean", "Rpin_max", "Rmain2_max", "c_m", "throw1_RTCL"):

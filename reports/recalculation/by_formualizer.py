@@ -8,9 +8,8 @@ from typing import Any
 from reports.recalculation.protocol import (
     Book,
     CellValue,
-    formula_cells,
     row_and_column,
-    without_caches,
+    stripped,
 )
 
 
@@ -26,10 +25,11 @@ class Formualizer:
     def _one(self, book: bytes) -> Book:
         import formualizer
 
-        engine = formualizer.load_workbook_bytes(without_caches(book))
+        bare, formulas = stripped(book)
+        engine = formualizer.load_workbook_bytes(bare)
         engine.evaluate_all()
         result: Book = {}
-        for sheet, cells in formula_cells(book).items():
+        for sheet, cells in formulas.items():
             values = result.setdefault(sheet, {})
             for cell in cells:
                 row, column = row_and_column(cell)

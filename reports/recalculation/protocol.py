@@ -16,6 +16,7 @@ CellValue = float | str | bool | None
 Book = dict[str, dict[str, CellValue]]  # sheet → coordinate → value
 
 _MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
+_FORMULA, _VALUE = f"{_MAIN}f", f"{_MAIN}v"
 
 
 class Recalculator(Protocol):
@@ -33,7 +34,7 @@ def formula_cells(book: bytes) -> dict[str, list[str]]:
     with zipfile.ZipFile(io.BytesIO(book)) as archive:
         for title, part in sheet_parts(archive).items():
             root = etree.fromstring(archive.read(part), etree.XMLParser(resolve_entities=False))
-            found[title] = [str(f.getparent().get("r")) for f in root.iter(f"{_MAIN}f")]
+            found[title] = [str(f.getparent().get("r")) for f in root.iter(_FORMULA)]
     return found
 
 
@@ -44,34 +45,42 @@ def cached_values(book: bytes) -> Book:
         for title, part in sheet_parts(archive).items():
             root = etree.fromstring(archive.read(part), etree.XMLParser(resolve_entities=False))
             values = found.setdefault(title, {})
-            for formula in root.iter(f"{_MAIN}f"):
+            for formula in root.iter(_FORMULA):
                 cell = formula.getparent()
-                text = cell.findtext(f"{_MAIN}v")
+                text = cell.findtext(_VALUE)
                 is_text = cell.get("t") in ("str", "e")
                 values[str(cell.get("r"))] = text if is_text or text is None else float(text)
     return found
 
 
-def without_caches(book: bytes) -> bytes:
-    """The workbook with every cached value taken out, so that none can be read back."""
+def stripped(book: bytes) -> tuple[bytes, dict[str, list[str]]]:
+    """The workbook without cached values, and its formula cells by sheet."""
     result = io.BytesIO()
+    found: dict[str, list[str]] = {}
     with (
         zipfile.ZipFile(io.BytesIO(book)) as source,
-        zipfile.ZipFile(result, "w", zipfile.ZIP_DEFLATED) as target,
+        zipfile.ZipFile(result, "w") as target,  # read at once: not worth compressing
     ):
-        parts = set(sheet_parts(source).values())
+        titles = {part: title for title, part in sheet_parts(source).items()}
         for name in source.namelist():
             data = source.read(name)
-            if name in parts:
-                root = etree.fromstring(data, etree.XMLParser(resolve_entities=False))
-                for formula in list(root.iter(f"{_MAIN}f")):
-                    cell = formula.getparent()
-                    for value in cell.findall(f"{_MAIN}v"):
-                        cell.remove(value)
-                    cell.attrib.pop("t", None)
-                data = etree.tostring(root, xml_declaration=True, encoding="UTF-8")
+            if name in titles:
+                data, found[titles[name]] = _without_values(data)
             target.writestr(name, data)
-    return result.getvalue()
+    return result.getvalue(), {title: found[title] for title in titles.values()}
+
+
+def _without_values(data: bytes) -> tuple[bytes, list[str]]:
+    """A sheet's part without the values of its formulas, and their cells."""
+    root = etree.fromstring(data, etree.XMLParser(resolve_entities=False))
+    cells = []
+    for formula in list(root.iter(_FORMULA)):
+        cell = formula.getparent()
+        cells.append(str(cell.get("r")))
+        for value in cell.findall(_VALUE):
+            cell.remove(value)
+        cell.attrib.pop("t", None)
+    return etree.tostring(root, xml_declaration=True, encoding="UTF-8"), cells
 
 
 def row_and_column(coordinate: str) -> tuple[int, int]:

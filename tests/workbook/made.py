@@ -6,6 +6,8 @@ import io
 import zipfile
 from functools import lru_cache
 
+from reports.inputs.fields import to_mapping
+from reports.inputs.load import load_mapping
 from reports.tables.registry import build_model
 from reports.tables.spec import Model
 from reports.workbook.write import workbook_bytes
@@ -20,6 +22,19 @@ def model(name: str = "gots-diesel") -> Model:
 @lru_cache(maxsize=4)
 def book(name: str = "gots-diesel") -> bytes:
     return workbook_bytes(model(name))
+
+
+@lru_cache(maxsize=4)
+def coarse_model(name: str = "gots-diesel") -> Model:
+    """The same sheets, names and formulas in fewer rows."""
+    raw = to_mapping(sample(name))
+    raw["calculation"]["step_deg"] = 30
+    return build_model(load_mapping(raw, source=name).model)
+
+
+@lru_cache(maxsize=4)
+def coarse_book(name: str = "gots-diesel") -> bytes:
+    return workbook_bytes(coarse_model(name))
 
 
 def parts(prefix: str, name: str = "gots-diesel") -> dict[str, bytes]:

@@ -15,12 +15,12 @@ from reports.recalculation.by_libreoffice import LibreOffice
 from reports.recalculation.protocol import formula_cells
 from reports.workbook.read import load_workbook_input
 from tests.conftest import sample, sample_names
-from tests.workbook.made import book, model
+from tests.workbook.made import coarse_book, coarse_model
 
 
 def edited(tmp_path: Path, changes: dict[str, object], name: str = "gots-diesel") -> Path:
-    opened = load_workbook(io.BytesIO(book(name)))
-    layout = Layout.of(model(name))
+    opened = load_workbook(io.BytesIO(coarse_book(name)))
+    layout = Layout.of(coarse_model(name))
     for field, value in changes.items():
         cell = layout.cells[field]
         opened[cell.sheet][cell.coordinate].value = value
@@ -32,8 +32,8 @@ def edited(tmp_path: Path, changes: dict[str, object], name: str = "gots-diesel"
 @pytest.mark.parametrize("name", sample_names())
 def test_an_untouched_workbook_gives_its_input_back(tmp_path: Path, name: str) -> None:
     path = tmp_path / "book.xlsx"
-    path.write_bytes(book(name))
-    assert to_mapping(load_workbook_input(path).model) == to_mapping(sample(name))
+    path.write_bytes(coarse_book(name))
+    assert to_mapping(load_workbook_input(path).model) == to_mapping(coarse_model(name).input)
 
 
 def test_edited_cells_are_read(tmp_path: Path) -> None:
@@ -69,7 +69,7 @@ def test_what_check_refuses_is_refused_with_sheet_and_cell(
     path = edited(tmp_path, {field: value})
     with pytest.raises(InputError) as caught:
         load_workbook_input(path)
-    cell = Layout.of(model()).cells[field]
+    cell = Layout.of(coarse_model()).cells[field]
     assert f"{cell.sheet}!{cell.coordinate}" in "\n".join(caught.value.lines())
     assert all("\n" not in line for line in caught.value.lines())
 
@@ -108,9 +108,9 @@ def test_files_that_are_no_workbooks(tmp_path: Path, content: bytes, message: st
 @pytest.mark.libreoffice
 def test_saved_by_libreoffice_nothing_is_lost(tmp_path: Path, libreoffice: LibreOffice) -> None:
     """All formulas survive, and the input cells read back the same."""
-    (saved,) = libreoffice.converted([book()])
+    (saved,) = libreoffice.converted([coarse_book()])
     assert {sheet: set(cells) for sheet, cells in formula_cells(saved).items()} == {
-        sheet: set(cells) for sheet, cells in formula_cells(book()).items()
+        sheet: set(cells) for sheet, cells in formula_cells(coarse_book()).items()
     }
     path = tmp_path / "saved.xlsx"
     path.write_bytes(saved)
@@ -120,4 +120,4 @@ def test_saved_by_libreoffice_nothing_is_lost(tmp_path: Path, libreoffice: Libre
 def test_the_same_input_gives_the_same_bytes() -> None:
     from reports.workbook.write import workbook_bytes
 
-    assert workbook_bytes(model()) == book()
+    assert workbook_bytes(coarse_model()) == coarse_book()

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.workbook.made import book
+from tests.workbook.made import coarse_book
 
 VALIDATOR = "@ooxml-tools/validate@0.4.6"
 
@@ -18,7 +18,7 @@ def test_the_schema_validator_finds_nothing(tmp_path: Path) -> None:
     if npx is None:
         pytest.skip("node не установлен: проверка схемой Microsoft пропущена")
     path = tmp_path / "book.xlsx"
-    path.write_bytes(book("d-240"))
+    path.write_bytes(coarse_book("d-240"))
     ready = subprocess.run(
         [npx, "--yes", "-p", VALIDATOR, "ooxml-validate", "--help"],
         capture_output=True, text=True, timeout=300, check=False,

@@ -223,41 +223,47 @@ def _print_summary(scalars: dict[str, float]) -> None:
         click.echo(f"{about.title}: {about.symbol} = {text} {about.unit_label}".rstrip())
 
 
+_dask = click.option("--dask", metavar="ADDRESS", help="Считать на кластере Dask, tcp://host:8786.")
+
+
 @main.command(context_settings=_HELP)
-@_file()
-@click.option("-o", "--output", "folder", type=click.Path(path_type=Path), default=Path(),
-              help="Папка для результатов (по умолчанию текущая).")  # fmt: skip
+@click.argument(
+    "sources", metavar="INPUT...", nargs=-1, required=True, type=click.Path(path_type=Path)
+)
+@click.option(
+    "-o",
+    "--output",
+    "folder",
+    type=click.Path(path_type=Path),
+    default=Path(),
+    help="Папка для результатов (по умолчанию текущая).",
+)
 @click.option(
     "--only", type=click.Choice(["xlsx", "pdf", "html"]), help="Только один вид документа."
 )
+@_dask
 @_verbose
-def build(source: Path, folder: Path, only: str | None, verbose: bool) -> int:
+def build(
+    sources: tuple[Path, ...], folder: Path, only: str | None, dask: str | None, verbose: bool
+) -> int:  # fmt: skip
     """Сделать книгу Excel и отчёт PDF по файлу .toml или по изменённой книге."""
-    from reports.build import build as build_files
+    from reports.builds import build_each
 
-    loaded = _load(source)
-    if (
-        source.suffix.lower() == ".xlsx"
-        and (folder / f"{source.stem}.xlsx").resolve() == source.resolve()
-    ):
-        msg = f"{source}: результат лёг бы поверх вашей книги; укажите другую папку ключом -o"
-        raise KshmError(msg)
+    inputs = [(source, _load(source)) for source in sources]
+    code = LOOK if any(loaded.warnings for _, loaded in inputs) else DONE
     kinds = (only,) if only else ("xlsx", "pdf")
-    built = build_files(source, loaded, folder, kinds)  # type: ignore[arg-type]
-    for path in built.files:
-        click.echo(f"{path}")
-    if built.missing is not None:
-        for line in built.missing.lines():
-            click.echo(line, err=True)
-        return MISSING
-    return LOOK if loaded.warnings else DONE
+    for built in build_each(inputs, folder, kinds, dask):  # type: ignore[arg-type]
+        for path in built.files:
+            click.echo(f"{path}")
+        if built.missing is not None:
+            for line in built.missing.lines():
+                click.echo(line, err=True)
+            code = MISSING
+    return code
 
 
 def _path_option(*names: str, **more: Any) -> Callable[[_Command], _Command]:  # noqa: ANN401
     return click.option(*names, type=click.Path(path_type=Path), **more)
-
-
-_dask = click.option("--dask", metavar="ADDRESS", help="Считать на кластере Dask, tcp://host:8786.")
 
 
 @main.command(context_settings=_HELP)
@@ -305,6 +311,7 @@ def issue(
 @click.option("--pdf", is_flag=True, help="Сделать и PDF каждой страницы.")
 @click.option("--jobs", default=0, help="Число процессов (по умолчанию все ядра).")
 @click.option("--timeout", default=60.0, show_default=True, help="Секунд на один файл.")
+@_dask
 @click.option("--explain", nargs=2, metavar="FILE SHEET!COLUMN", help="Объяснить один вердикт.")
 @_verbose
 def grade(
@@ -316,6 +323,7 @@ def grade(
     pdf: bool,
     jobs: int,
     timeout: float,
+    dask: str | None,
     explain: tuple[str, str] | None,
     verbose: bool,
 ) -> int:
@@ -340,7 +348,7 @@ def grade(
         raise KshmError(msg)
     done = grade_all(
         issued, submitted, folder, rubric_file=rubric, secret_file=secret,
-        options=Options(workers=jobs, timeout_s=timeout, pdf=pdf),
+        options=Options(workers=jobs, timeout_s=timeout, pdf=pdf, dask=dask),
     )  # fmt: skip
     found = done.summary
     click.echo(f"{folder}: проверено файлов: {found['files']}, с оценкой: {found['graded']}")

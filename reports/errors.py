@@ -63,6 +63,7 @@ class SystemPartMissing(KshmError):  # noqa: N818 - the contract's name
     Attributes:
         part: What is missing.
         command: The command that installs it; empty if none is known.
+        purpose: What it is needed for.
     """
 
     exit_code = 3
@@ -70,6 +71,7 @@ class SystemPartMissing(KshmError):  # noqa: N818 - the contract's name
     def __init__(self, part: str, command: str = "", *, purpose: str = "") -> None:
         self.part = part
         self.command = command
+        self.purpose = purpose
         what = f"не найден системный компонент {part}"
         if purpose:
             what += f" ({purpose})"

@@ -14,6 +14,7 @@ from typing import Any
 
 from reports.errors import InputError, Problem
 from reports.files import make_dir, write_bytes, write_text
+from reports.grading.far import grade_far
 from reports.grading.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
 from reports.grading.issue import latin
 from reports.grading.marking import FORMAT, Marker, blank_result
@@ -32,9 +33,10 @@ _EVERY_S = 5.0  # how often the gradebook is written anew while the batch runs
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """How to grade; ``workers`` 0 takes all processors."""
+    """How to grade; ``workers`` 0 takes all processors, ``dask`` a cluster instead."""
 
     workers: int = 0
+    dask: str | None = None
     timeout_s: float = TIMEOUT_S
     pdf: bool = False
 
@@ -81,10 +83,17 @@ def grade(
     batch = _Batch(register, folder)
     batch.start(submissions)
     workers = options.workers or len(os.sched_getaffinity(0))
-    with Progress("Проверка работ") as progress:
-        for outcome in grade_all(
+    outcomes = (
+        grade_far(
+            batch.waiting, batch.register_file, timeout_s=options.timeout_s, dask=options.dask
+        )
+        if options.dask
+        else grade_all(
             batch.waiting, batch.register_file, workers=workers, timeout_s=options.timeout_s
-        ):
+        )
+    )
+    with Progress("Проверка работ") as progress:
+        for outcome in outcomes:
             batch.take(outcome)
             done = len(batch.results)
             progress.step(f"Проверка работ: {done} из {len(submissions)}")

@@ -1,0 +1,143 @@
+"""On a Dask cluster the results are those of one machine, even when a worker dies."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from reports import ordered
+from reports.cli import main
+from reports.errors import KshmError
+from reports.grading import far as far_module
+from reports.grading.grade import Options as GradeOptions
+from reports.grading.grade import grade
+from reports.resources import samples_dir
+from reports.sweep import run as run_module
+from reports.sweep.run import Options, sweep
+from tests.grading import classroom
+from tests.grading.fill import filled_book
+
+distributed = pytest.importorskip("distributed")
+
+BASE = samples_dir() / "gots-diesel.toml"
+VARY = ("regime.speed_rpm=1500:4400:10", "geometry.bore_mm=84:92:6")
+
+
+@pytest.fixture(scope="module")
+def cluster() -> Iterator[Any]:
+    """Two workers, each a process of its own; a dead one is started again."""
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None,
+        silence_logs=50,
+    ) as made:  # fmt: skip
+        yield made
+
+
+def killer(cluster: Any) -> tuple[Callable[..., Iterator[Any]], list[int]]:
+    """``in_order`` that kills a worker while most of the work is still to be done."""
+    victim = min(worker.pid for worker in cluster.workers.values())
+    killed: list[int] = []
+
+    def killing(*given: Any, **more: Any) -> Iterator[Any]:
+        for result in ordered.in_order(*given, **more):
+            if not killed:
+                os.kill(victim, signal.SIGKILL)
+                killed.append(victim)
+            yield result
+
+    return killing, killed
+
+
+def gone(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return True
+    return False
+
+
+def test_a_study_survives_a_killed_worker_byte_for_byte(
+    cluster: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    killing, killed = killer(cluster)
+    monkeypatch.setattr(run_module, "in_order", killing)
+    options = Options(chunk=2, dask=cluster.scheduler_address)
+    far, near = tmp_path / "far.parquet", tmp_path / "near.parquet"
+    assert sweep(BASE, VARY, far, options=options).failed == 0
+    monkeypatch.undo()
+    sweep(BASE, VARY, near, options=Options(chunk=2, jobs=1))
+    assert far.read_bytes() == near.read_bytes()
+    assert len(killed) == 1
+    assert gone(killed[0])
+
+
+def tree(folder: Path) -> dict[str, bytes]:
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes()
+        for path in folder.rglob("*")
+        if path.is_file()
+    }
+
+
+def test_grading_survives_a_killed_worker_byte_for_byte(
+    cluster: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    classroom.register()
+    books = tmp_path / "books"
+    books.mkdir()
+    right = filled_book(classroom.handout(1), classroom.assignment(1))
+    for number, data in enumerate((right, b"not a workbook", right[:3000])):
+        (books / f"{number}.xlsx").write_bytes(data)
+    issued, secret = classroom.folder() / "issued", classroom.folder() / "secret.key"
+    killing, killed = killer(cluster)
+    monkeypatch.setattr(far_module, "in_order", killing)
+    monkeypatch.setattr(far_module, "PART", 1)
+    for name, options in (
+        ("far", GradeOptions(dask=cluster.scheduler_address)),
+        ("near", GradeOptions(workers=1)),
+    ):
+        grade(issued, books, tmp_path / name, secret_file=secret, options=options)
+    assert tree(tmp_path / "far") == tree(tmp_path / "near")
+    assert len(list((tmp_path / "far" / "pages").iterdir())) == 3
+    assert len(killed) == 1
+    assert gone(killed[0])
+
+
+def test_reports_are_built_on_the_cluster_byte_for_byte(cluster: Any, tmp_path: Path) -> None:
+    text = BASE.read_text(encoding="utf-8").replace("step_deg = 10", "step_deg = 30")
+    sources = [tmp_path / f"{name}.toml" for name in "ab"]
+    for source in sources:
+        source.write_text(text, encoding="utf-8")
+    arguments = ["build", *map(str, sources), "--only", "xlsx"]
+    for name, more in (("far", ["--dask", cluster.scheduler_address]), ("near", [])):
+        with pytest.raises(SystemExit) as stop:
+            main([*arguments, "-o", str(tmp_path / name), *more])
+        assert stop.value.code == 0
+    assert tree(tmp_path / "far") == tree(tmp_path / "near")
+    assert sorted(tree(tmp_path / "far")) == ["a.xlsx", "b.xlsx"]
+
+
+def test_inputs_whose_results_would_be_one_are_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    other = tmp_path / "gots-diesel.toml"
+    other.write_bytes(BASE.read_bytes())
+    with pytest.raises(SystemExit) as stop:
+        main(["build", str(BASE), str(other), "-o", str(tmp_path / "out")])
+    assert stop.value.code == 2
+    assert "два файла с этим именем" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_cluster_that_is_not_there_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(ordered, "_CONNECT_S", 0.5)
+    with pytest.raises(KshmError, match="планировщик не отвечает"):
+        sweep(BASE, VARY, tmp_path / "a.csv", options=Options(dask="tcp://127.0.0.1:9"))
+    assert list(tmp_path.iterdir()) == []

@@ -4,53 +4,61 @@ from __future__ import annotations
 
 import io
 import re
-from functools import lru_cache
 
 import pytest
+from lxml import etree
 from openpyxl import load_workbook
 
 from reports.formula.excel import compile_formula
 from reports.formula.numeric import evaluate
 from reports.formula.parse import FormulaError, names, parse
 from reports.layout import INPUT_SHEET, Layout
+from tests.workbook.lint import MAIN, formula_problems, literals
 from tests.workbook.made import book, model
 
-ALLOWED = {
-    "ABS", "ACOS", "AND", "ASIN", "ATAN2", "AVERAGE", "COS", "COUNT", "DEGREES", "EXP", "IF",
-    "INDEX", "INT", "LN", "MATCH", "MAX", "MIN", "MOD", "NOT", "OR", "PI", "RADIANS", "SIN",
-    "SQRT", "SUM", "SUMPRODUCT", "TAN",
-}  # fmt: skip
+
+def cell(formula: str, value: str = "1") -> etree._Element:
+    root = etree.Element(f"{MAIN}c")
+    etree.SubElement(root, f"{MAIN}f").text = formula
+    etree.SubElement(root, f"{MAIN}v").text = value
+    return root
 
 
-@lru_cache(maxsize=1)
-def formulas() -> list[tuple[str, str, str]]:
-    opened = load_workbook(io.BytesIO(book()))
-    return [
-        (sheet.title, cell.coordinate, cell.value)
-        for sheet in opened.worksheets
-        for row in sheet.iter_rows()
-        for cell in row
-        if cell.data_type == "f"
-    ]
+@pytest.mark.parametrize(
+    ("formula", "said"),
+    [
+        ("A1*RAND()", "RAND is volatile"), ("OFFSET(A1,1,0)", "OFFSET is volatile"),
+        ("IFERROR(A1,0)", "IFERROR is not shared"), ("N(A1)", "N is not shared"),
+        ("_xlfn.IFNA(A1,0)", "newer"), ("[1]Лист!A1+1", "external"), ("#REF!+1", "error value"),
+        ("SUM(A1:A9*B1:B9)", "SUM on A1:A9"), ("MAX(ABS(A1:A9))", "ABS on A1:A9"),
+        ("SUMPRODUCT(A1:A9,ABS(B1:B9))", "ABS on B1:B9"), ("A1:A9+1", "arithmetic on A1:A9"),
+        ("SUM(SIN('П4.1'!A1:A9))", "SIN on A1:A9"), ("A1" + "+A1" * 4000, "too long"),
+    ],
+)  # fmt: skip
+def test_the_lint_sees_each_defect(formula: str, said: str) -> None:
+    assert any(said in problem for problem in formula_problems(cell(formula)))
 
 
-def test_only_functions_that_all_engines_share() -> None:
-    used = {name for _, _, text in formulas() for name in re.findall(r"([A-Z][A-Z0-9.]*)\(", text)}
-    assert used <= ALLOWED
+@pytest.mark.parametrize(
+    "formula",
+    ["2*SUMPRODUCT('П4.2'!$B$6:$B$77,COS('П4.2'!$A$6:$A$77*(0.5*PI()/180)))/COUNT(B6:B77)",
+     'IF(A6<=1E-07,"RAND()",MAX($B$6:$B$78,1))', "INDEX('Лист (2)'!A1:A9,MATCH(x,B1:B8,1)+1)",
+     "SUMPRODUCT(A1:A9*B1:B9)"],
+)  # fmt: skip
+def test_the_lint_passes_what_all_engines_share(formula: str) -> None:
+    assert formula_problems(cell(formula)) == []
 
 
-def test_no_number_of_the_input_is_typed_into_a_formula() -> None:
-    """Input values that are unlike any constant of a formula must not occur in one."""
-    special = {
-        repr(float(field.value))
-        for field in model().inputs
-        if isinstance(field.value, float) and not float(field.value).is_integer()
-    }
-    special -= {"0.5"}
-    for sheet, cell, text in formulas():
-        bare = re.sub(r"'[^']*'!|[A-Za-z_][A-Za-z_0-9.]*|\$?[A-Z]{1,3}\$?\d+", " ", text)
-        found = {repr(float(number)) for number in re.findall(r"\d+\.\d+", bare)}
-        assert not found & special, (sheet, cell, text)
+def test_a_formula_without_its_value_or_of_an_array_is_a_defect() -> None:
+    assert formula_problems(cell("A1+1", "")) == ["no cached value"]
+    array = cell("A1+1")
+    array.find(f"{MAIN}f").set("t", "array")
+    assert "array" in formula_problems(array)[0]
+
+
+def test_literals_of_a_formula() -> None:
+    text = "IF('П4.1'!$A$6<=180+1E-07,r_2*0.047,\"88\")+B3/1000+LN(2)+R1C7"
+    assert literals(text) == {180.0, 1e-7, 0.047, 1000.0, 2.0}
 
 
 def test_results_are_formulas_and_never_typed_numbers() -> None:

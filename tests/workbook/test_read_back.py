@@ -11,11 +11,9 @@ from openpyxl import load_workbook
 from reports.errors import InputError
 from reports.inputs.fields import to_mapping
 from reports.layout import Layout
-from reports.recalculation.by_libreoffice import LibreOffice
-from reports.recalculation.protocol import formula_cells
 from reports.workbook.read import load_workbook_input
-from tests.conftest import sample_names
-from tests.workbook.made import coarse_book, coarse_model
+from tests.conftest import sample
+from tests.workbook.made import book, coarse_book, coarse_model
 
 
 def edited(tmp_path: Path, changes: dict[str, object], name: str = "gots-diesel") -> Path:
@@ -29,11 +27,11 @@ def edited(tmp_path: Path, changes: dict[str, object], name: str = "gots-diesel"
     return path
 
 
-@pytest.mark.parametrize("name", sample_names())
-def test_an_untouched_workbook_gives_its_input_back(tmp_path: Path, name: str) -> None:
+def test_an_untouched_workbook_gives_its_input_back(tmp_path: Path) -> None:
+    """On its own grid; the samples on the coarse one: ``test_every_sample``."""
     path = tmp_path / "book.xlsx"
-    path.write_bytes(coarse_book(name))
-    assert to_mapping(load_workbook_input(path).model) == to_mapping(coarse_model(name).input)
+    path.write_bytes(book())
+    assert to_mapping(load_workbook_input(path).model) == to_mapping(sample("gots-diesel"))
 
 
 def test_edited_cells_are_read(tmp_path: Path) -> None:
@@ -103,18 +101,6 @@ def test_files_that_are_no_workbooks(tmp_path: Path, content: bytes, message: st
     path.write_bytes(content)
     with pytest.raises(InputError, match=message):
         load_workbook_input(path)
-
-
-@pytest.mark.libreoffice
-def test_saved_by_libreoffice_nothing_is_lost(tmp_path: Path, libreoffice: LibreOffice) -> None:
-    """All formulas survive, and the input cells read back the same."""
-    (saved,) = libreoffice.converted([coarse_book()])
-    assert {sheet: set(cells) for sheet, cells in formula_cells(saved).items()} == {
-        sheet: set(cells) for sheet, cells in formula_cells(coarse_book()).items()
-    }
-    path = tmp_path / "saved.xlsx"
-    path.write_bytes(saved)
-    assert to_mapping(load_workbook_input(path).model) == to_mapping(coarse_model().input)
 
 
 def test_the_same_input_gives_the_same_bytes() -> None:

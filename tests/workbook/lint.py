@@ -1,0 +1,207 @@
+"""Rules of the house for charts and formulas; each function names what breaks one."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from lxml import etree
+
+from reports.formula.parse import SCALES, parse
+from reports.tables.spec import Model, TableSpec, scalars_of
+
+C = "{http://schemas.openxmlformats.org/drawingml/2006/chart}"
+A = "{http://schemas.openxmlformats.org/drawingml/2006/main}"
+MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
+
+# All of Excel 2007 and before, none volatile, the same in LibreOffice and formualizer.
+ALLOWED = {
+    "ABS", "ACOS", "AND", "ASIN", "ATAN2", "AVERAGE", "COS", "COUNT", "DEGREES", "EXP", "IF",
+    "INDEX", "INT", "LN", "MATCH", "MAX", "MIN", "MOD", "NOT", "OR", "PI", "RADIANS", "ROUND",
+    "SIN", "SQRT", "SUM", "SUMPRODUCT", "TAN",
+}  # fmt: skip
+VOLATILE = {"CELL", "INDIRECT", "INFO", "NOW", "OFFSET", "RAND", "RANDBETWEEN", "TODAY"}
+OF_RANGES = {"AVERAGE", "COUNT", "INDEX", "MATCH", "MAX", "MIN", "SUM", "SUMPRODUCT"}
+_LONGEST = 8192  # characters of a formula in Excel
+_LINE = "19050"  # 1.5 pt in EMU
+
+# Literals that the compiler writes: scales of units, degrees and the two of a Fourier sum,
+# the next row of an interpolation, digits of ROUND.
+COMPILED = {0.0, 1.0, 2.0, 180.0, *SCALES.values(), *(round(1 / x) for x in SCALES.values())}
+LITERAL = re.compile(r"(?<![A-Za-z0-9_.$])(\d+(?:\.\d*)?(?:E[+-]?\d+)?)(?![A-Za-z0-9_(.])")
+_NAME = re.compile(r"([A-Z][A-Z0-9.]*)\(")
+_RANGE = re.compile(r"\$?[A-Z]{1,3}\$?\d+:\$?[A-Z]{1,3}\$?\d+")
+
+
+def chart_problems(root: etree._Element) -> list[str]:
+    """What a picture made by LibreOffice cannot show of Excel."""
+    found = [*_axis_problems(root), *_title_problems(root), *_series_problems(root)]
+    if _val(root, "roundedCorners") != "0":
+        found.append("rounded corners")
+    if _val(root, ".//" + C + "scatterStyle", whole=True) != "lineMarker":
+        found.append("scatterStyle")
+    return found + _cache_problems(root) + _polar_problems(root)
+
+
+def _val(element: etree._Element, path: str, *, whole: bool = False) -> str | None:
+    child = element.find(path if whole else f"{C}{path}")
+    return None if child is None else child.get("val")
+
+
+def _axis_problems(root: etree._Element) -> Iterator[str]:
+    axes = root.findall(f".//{C}valAx")
+    if len(axes) != 2:
+        yield f"{len(axes)} axes"
+    for axis in axes:
+        name = f"axis {_val(axis, 'axId')}"
+        if _val(axis, "delete") != "0":
+            yield f"{name} is hidden in Excel"
+        if _val(axis, "tickLblPos") != "low":
+            yield f"{name}: labels are not low"
+        numbers = axis.find(f"{C}numFmt")
+        if numbers is None or numbers.get("sourceLinked") != "0":
+            yield f"{name}: number format linked to the source"
+        if axis.find(f"{C}majorGridlines/{C}spPr/{A}ln") is None:
+            yield f"{name}: no gridlines"
+
+
+def _title_problems(root: etree._Element) -> Iterator[str]:
+    titles = root.findall(f".//{C}title")
+    if root.find(f"{C}chart/{C}title") is None:
+        yield "no title"
+    for title in titles:
+        if _val(title, "overlay") != "0":
+            yield "a title lies over the plot"
+        if not "".join(text.text or "" for text in title.iter(f"{A}t")).strip():
+            yield "an empty title"
+
+
+def _series_problems(root: etree._Element) -> Iterator[str]:
+    series = root.findall(f".//{C}ser")
+    if not series:
+        yield "no series"
+    for place, one in enumerate(series):
+        if _val(one, "smooth") != "0":
+            yield f"series {place} is smoothed"
+        if one.find(f"{C}marker/{C}symbol") is None or (
+            one.find(f"{C}marker/{C}symbol").get("val") != "none"
+        ):
+            yield f"series {place} has markers"
+        line = one.find(f"{C}spPr/{A}ln")
+        if line is None or (line.find(f"{A}noFill") is None and line.get("w") != _LINE):
+            yield f"series {place}: the line is not 1.5 pt"
+
+
+def _cache_problems(root: etree._Element) -> list[str]:
+    found = []
+    for reference in root.iterfind(f".//{C}numRef"):
+        where = reference.findtext(f"{C}f")
+        points = [point.text for point in reference.iterfind(f"{C}numCache/{C}pt/{C}v")]
+        count = reference.find(f"{C}numCache/{C}ptCount")
+        if count is None or not len(points) == int(count.get("val")) > 1:
+            found.append(f"{where}: the cache is not filled")
+        elif not all(_is_number(text) for text in points):
+            found.append(f"{where}: the cache holds no number")
+    return found
+
+
+def _is_number(text: str | None) -> bool:
+    return bool(re.fullmatch(r"-?\d+(\.\d+)?(E[+-]?\d+)?", text or "", re.IGNORECASE))
+
+
+def _polar_problems(root: etree._Element) -> list[str]:
+    """Polar diagrams: a square inner plot area and equal limits on both axes."""
+    layout = root.find(f".//{C}plotArea/{C}layout/{C}manualLayout")
+    if layout is None:
+        return []
+    found = []
+    if _val(layout, "w") != _val(layout, "h") or _val(layout, "layoutTarget") != "inner":
+        found.append("the plot area is not square")
+    texts = [formula.text for formula in root.iterfind(f".//{C}f")]
+    limits = [axis.find(f"{C}scaling/{C}max") for axis in root.findall(f".//{C}valAx")]
+    # Equal limits are fixed, or a corner series spans the same range on both axes.
+    if not all(limit is not None for limit in limits) and texts[-1] != texts[-2]:
+        found.append("the axes may have different limits")
+    return found
+
+
+def formula_problems(cell: etree._Element) -> list[str]:
+    """What breaks the subset on which Excel, LibreOffice and formualizer agree."""
+    formula = cell.find(f"{MAIN}f")
+    text = re.sub(r'"[^"]*"', '""', formula.text or "")
+    used = set(_NAME.findall(text))
+    found = [f"{name} is volatile" for name in sorted(used & VOLATILE)]
+    found += [f"{name} is not shared by all engines" for name in sorted(used - ALLOWED - VOLATILE)]
+    if "_xlfn" in text:
+        found.append("newer than Excel 2007")
+    if formula.attrib:
+        found.append(f"an array or a shared formula: {dict(formula.attrib)}")
+    if len(text) >= _LONGEST:
+        found.append("too long for Excel")
+    if "[" in text or "#" in text:
+        found.append("an external link or an error value")
+    found += [f"{name} over a range" for name in _over_ranges(text)]
+    return found if has_value(cell) else [*found, "no cached value"]
+
+
+def has_value(cell: etree._Element) -> bool:
+    """Whether a cell carries a cached value."""
+    value = cell.find(f"{MAIN}v")
+    return value is not None and bool(value.text)
+
+
+def _over_ranges(text: str) -> Iterator[str]:
+    """Arithmetic on ranges: only in SUMPRODUCT, and there no function but SIN and COS."""
+    stack: list[str] = []  # functions around the place, "" for a plain bracket
+    pattern = re.compile(rf"({_NAME.pattern})|(\()|(\))|({_RANGE.pattern})")
+    for match in pattern.finditer(text):
+        if match[1]:
+            stack.append(match[2])
+        elif match[3]:
+            stack.append("")
+        elif match[4]:
+            if stack:
+                stack.pop()
+        else:
+            names = [name for name in stack if name]
+            innermost = names[-1] if names else ""
+            alone = _stands_alone(text, match.start(), match.end())
+            within = names[names.index("SUMPRODUCT") + 1 :] if "SUMPRODUCT" in names else None
+            if within is not None and not set(within) - {"SIN", "COS"}:
+                continue
+            if within or not alone or innermost not in OF_RANGES:
+                yield f"{innermost or 'arithmetic'} on {match[0]}"
+
+
+def _stands_alone(text: str, start: int, end: int) -> bool:
+    """Whether a range is a whole argument: brackets or commas around it and its sheet."""
+    before = re.sub(r"('[^']*'|[^\s!'(),*/+^<>=-]+)!$", "", text[:start])
+    return before[-1:] in ("(", ",") and text[end : end + 1] in (")", ",")
+
+
+def literals(formula: str) -> set[float]:
+    """Numbers typed into a formula."""
+    bare = re.sub(r"'[^']*'!|\"[^\"]*\"", " ", formula)
+    return {float(text) for text in LITERAL.findall(bare)}
+
+
+def expressions(model: Model) -> dict[str, str]:
+    """Key → expression of every computed column and scalar."""
+    found = {}
+    for block in model.blocks:
+        if isinstance(block, TableSpec):
+            found |= {f"{block.id}.{c.key}": c.expr for c in block.columns if c.expr is not None}
+        else:
+            found |= {scalar.key: scalar.expr for scalar in scalars_of(block)}
+    return found
+
+
+def constants(model: Model) -> set[float]:
+    """Numbers that the expressions themselves contain, and steps of tables with own rows."""
+    found = {float(table.step) for table in model.tables.values() if table.step is not None}
+    for expression in expressions(model).values():
+        for node in ast.walk(parse(expression)):
+            if isinstance(node, ast.Constant) and isinstance(node.value, int | float):
+                found.add(float(node.value))
+    return found

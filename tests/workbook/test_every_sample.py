@@ -1,0 +1,84 @@
+"""Every sample's workbook on the coarse grid: charts, formulas, and its input read back."""
+
+from __future__ import annotations
+
+import io
+import random
+import re
+import zipfile
+from collections.abc import Iterable
+from pathlib import Path
+
+import pytest
+from lxml import etree
+
+from reports.inputs.fields import to_mapping
+from reports.tables.registry import build_model
+from reports.tables.spec import Model
+from reports.workbook.caches import sheet_parts
+from reports.workbook.read import load_workbook_input
+from tests.conftest import sample_names
+from tests.referee.changes import random_change
+from tests.workbook.lint import (
+    COMPILED,
+    MAIN,
+    chart_problems,
+    constants,
+    expressions,
+    formula_problems,
+    has_value,
+    literals,
+)
+from tests.workbook.made import coarse_book, coarse_model
+
+CHANGES = 25
+ADDRESS = re.compile(r"(?<=[A-Z])\d+(?![\d(A-Za-z_.])")
+
+
+@pytest.mark.parametrize("name", sample_names())
+def test_the_workbook_keeps_the_rules(name: str, tmp_path: Path) -> None:
+    """One test for each sample: the workbook is made once."""
+    model = coarse_model(name)
+    book = coarse_book(name)
+    with zipfile.ZipFile(io.BytesIO(book)) as archive:
+        charts = [part for part in archive.namelist() if part.startswith("xl/charts/chart")]
+        assert len(charts) == len(model.charts)
+        found = {part: chart_problems(etree.fromstring(archive.read(part))) for part in charts}
+        assert {part: problems for part, problems in found.items() if problems} == {}
+        known = constants(model) | COMPILED
+        for title, part in sheet_parts(archive).items():
+            cells = [f.getparent() for f in etree.fromstring(archive.read(part)).iter(f"{MAIN}f")]
+            assert [cell.get("r") for cell in cells if not has_value(cell)] == [], title
+            for cell in kinds(cells):
+                formula = cell.findtext(f"{MAIN}f")
+                where = (title, cell.get("r"), formula)
+                assert formula_problems(cell) == [], where
+                assert literals(formula) <= known, where
+    path = tmp_path / "book.xlsx"
+    path.write_bytes(book)
+    assert to_mapping(load_workbook_input(path).model) == to_mapping(model.input)
+
+
+def kinds(cells: list[etree._Element]) -> Iterable[etree._Element]:
+    """One cell for each formula that differs by more than the numbers of its rows."""
+    return {
+        (ADDRESS.sub("", cell.findtext(f"{MAIN}f")), str(cell.find(f"{MAIN}f").attrib)): cell
+        for cell in cells
+    }.values()
+
+
+def changed(model: Model, seed: str) -> Model:
+    """The model of the same structure with many input values changed."""
+    rng, data = random.Random(seed), model.input
+    for _ in range(CHANGES):
+        _, data = random_change(data, rng)
+    return build_model(data)
+
+
+@pytest.mark.parametrize("name", sample_names())
+def test_no_expression_depends_on_the_values_of_the_input(name: str) -> None:
+    """A number of the input typed into a formula would change with it."""
+    model = coarse_model(name)
+    other = changed(model, name)
+    assert to_mapping(other.input) != to_mapping(model.input)
+    assert expressions(other) == expressions(model)

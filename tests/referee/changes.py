@@ -32,9 +32,9 @@ class Change:
     value: float | str
 
 
-def random_change(data: InputFile, rng: random.Random) -> tuple[Change, InputFile]:
-    """A change of one free input cell that ``kshm check`` accepts, and the input it makes."""
-    free = [
+def free_fields(data: InputFile) -> list[Field]:
+    """Input cells that a person may change without changing what the workbook consists of."""
+    return [
         field
         for field in iter_fields(data)
         if not field.structural
@@ -42,6 +42,21 @@ def random_change(data: InputFile, rng: random.Random) -> tuple[Change, InputFil
         and (field.choices is not None or isinstance(field.value, float))
         and not field.name.startswith(_PHASES)
     ]
+
+
+def with_value(data: InputFile, field: Field, value: float | str) -> InputFile | None:
+    """The input with one value changed; None where ``kshm check`` refuses it."""
+    raw = to_mapping(data)
+    set_value(raw, field.path, value)
+    try:
+        return load_mapping(raw, source="changed").model
+    except InputError:
+        return None
+
+
+def random_change(data: InputFile, rng: random.Random) -> tuple[Change, InputFile]:
+    """A change of one free input cell that ``kshm check`` accepts, and the input it makes."""
+    free = free_fields(data)
     while True:
         field = rng.choice(free)
         if field.choices is not None:
@@ -50,13 +65,9 @@ def random_change(data: InputFile, rng: random.Random) -> tuple[Change, InputFil
             value = round(float(field.value) * rng.uniform(0.8, 1.25) + rng.choice([0, 0, 0.01]), 6)
         if value == field.value:
             continue
-        raw = to_mapping(data)
-        set_value(raw, field.path, value)
-        try:
-            changed = load_mapping(raw, source="changed").model
-        except InputError:
-            continue
-        return Change(field, value), changed
+        changed = with_value(data, field, value)
+        if changed is not None:
+            return Change(field, value), changed
 
 
 def type_into(book: bytes, data: InputFile, change: Change) -> bytes:

@@ -14,7 +14,7 @@ from reports.formula.numeric import evaluate
 from reports.formula.parse import FormulaError, names, parse
 from reports.layout import INPUT_SHEET, Layout
 from tests.workbook.lint import MAIN, formula_problems, literals
-from tests.workbook.made import book, model
+from tests.workbook.made import book, model, parts
 
 
 def cell(formula: str, value: str = "1") -> etree._Element:
@@ -59,6 +59,22 @@ def test_a_formula_without_its_value_or_of_an_array_is_a_defect() -> None:
 def test_literals_of_a_formula() -> None:
     text = "IF('П4.1'!$A$6<=180+1E-07,r_2*0.047,\"88\")+B3/1000+LN(2)+R1C7"
     assert literals(text) == {180.0, 1e-7, 0.047, 1000.0, 2.0}
+
+
+def test_no_number_of_the_input_is_typed_into_a_formula() -> None:
+    """Input values that are unlike any constant of a formula must not occur in one.
+
+    That no formula changes with the input, for every sample: ``test_every_sample``.
+    """
+    special = {
+        float(field.value)
+        for field in model().inputs
+        if isinstance(field.value, float) and not float(field.value).is_integer()
+    } - {0.5}
+    assert len(special) > 10
+    for part in parts("xl/worksheets/sheet").values():
+        for formula in etree.fromstring(part).iter(f"{MAIN}f"):
+            assert not literals(formula.text) & special, formula.text
 
 
 def test_results_are_formulas_and_never_typed_numbers() -> None:

@@ -378,7 +378,13 @@ def validate(folder: Path, only: str | None, verbose: bool) -> int:
         click.echo(missing, err=True)
         return MISSING
     if counts.needs_a_person:
-        click.echo("Есть отклонения без записанной причины: см. новое отклонение", err=True)
+        first = book.new[0]
+        where = ", ".join(filter(None, (first.table.place, first.cell.row, first.cell.column)))
+        click.echo(
+            f"Новых отклонений: {len(book.new)}, первое: {where}: {first.reason}; посмотрите "
+            "строки «новое отклонение», запишите причину в errata.csv или исправьте расчёт",
+            err=True,
+        )
         return LOOK
     return DONE
 

@@ -77,6 +77,11 @@ class Book:
         return tuple(check for checked in self.tables for check in checked.checks)
 
     @property
+    def new(self) -> tuple[Check, ...]:
+        """Checks that need a person."""
+        return tuple(check for check in self.checks if check.verdict is Verdict.NEW)
+
+    @property
     def counts(self) -> Counts:
         """Counts of everything."""
         return count(self.checks)

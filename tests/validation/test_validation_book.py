@@ -148,6 +148,8 @@ def test_an_unrecorded_deviation_needs_a_person(
     monkeypatch.setattr(write, "validate", small)
     done = run("-o", str(tmp_path), "--only", "html")
     assert done.exit_code == 1
+    assert "Новых отклонений: 1, первое: табл. 5, 60, lambda_1/3.2" in done.stderr
+    assert len(done.stderr.strip().splitlines()) == 1
     page = (tmp_path / "validation.html").read_text(encoding="utf-8")
     assert '<span class="word new">новое отклонение</span>: отклонение без' in page
 

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from openpyxl import Workbook
 from openpyxl.cell import WriteOnlyCell
 from openpyxl.styles import Alignment, Font
 from openpyxl.utils import get_column_letter
-from openpyxl.worksheet._write_only import WriteOnlyWorksheet
 from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
@@ -19,7 +18,7 @@ from reports.errors import InputError, Problem
 from reports.layout import Cell, column_range
 from reports.sweep.plan import Axis, Plan, span_text
 from reports.sweep.points import Chunk
-from reports.sweep.quantities import Wanted, described
+from reports.sweep.quantities import Wanted, described, format_of
 from reports.workbook.caches import finish
 from reports.workbook.charts import Curve, curves_chart
 from reports.workbook.sheets import CacheValues, capital
@@ -60,6 +59,7 @@ class StudyBook:
     wanted: Wanted
     _extremes: dict[str, _Extreme] = field(default_factory=dict)
     _shown: dict[str, list[float]] = field(default_factory=dict)
+    _formats: list[str] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         if self.plan.count > MOST_ROWS:
@@ -67,13 +67,16 @@ class StudyBook:
             raise InputError(Problem("-o", what, "выберите .parquet или .csv"))
         self._book = Workbook(write_only=True)
         self._book.properties.creator = "kshm"
-        self._data = self._book.create_sheet(DATA)
+        self._first = self._book.create_sheet(SUMMARY)
+        self._drawn = self._book.create_sheet(CHARTS) if self._charted() else None
+        self._data = self._book.create_sheet(DATA)  # the long sheet comes last
         names = self.wanted.names
         self._extremes = {name: _Extreme() for name in names}
         self._shown = {name: [] for name in self._charted()}
-        columns = len(self.plan.axes) + len(names) + 1
-        for number in range(1, columns + 1):
-            self._data.column_dimensions[get_column_letter(number)].width = 16
+        for number, text in enumerate([*(axis.key for axis in self.plan.axes), *names, "error"], 1):
+            self._data.column_dimensions[get_column_letter(number)].width = max(16, len(text) + 3)
+        self._data.row_dimensions[1].height, self._data.row_dimensions[2].height = 20, 62
+        self._formats = [format_of(name) for name in names]
         self._data.freeze_panes = Cell(DATA, _FIRST, len(self.plan.axes) + 1).coordinate
         keys = [axis.key for axis in self.plan.axes]
         titles = [_headed(axis.title, axis.unit) for axis in self.plan.axes]
@@ -102,13 +105,21 @@ class StudyBook:
         for row, values, error in zip(
             chunk.rows, zip(*columns, strict=True), chunk.errors, strict=True
         ):
-            numbers = [None] * len(names) if error else list(values)
+            numbers = [None] * len(names) if error else self._numbers(values)
             self._data.append([*row, *numbers, error or None])
             for name, value in zip(names, values, strict=True):
                 if not error:
                     self._extremes[name].see(value, row)
                 if name in self._shown:
                     self._shown[name].append(math.nan if error else value)
+
+    def _numbers(self, values: Sequence[float]) -> list[WriteOnlyCell]:
+        cells = []
+        for value, form in zip(values, self._formats, strict=True):
+            cell = WriteOnlyCell(self._data, value)
+            cell.number_format = form
+            cells.append(cell)
+        return cells
 
     def close(self) -> None:
         """Give up: the sheet is a file under way."""
@@ -123,10 +134,12 @@ class StudyBook:
         return finish(stream.getvalue(), CacheValues(ranges=ranges))
 
     def _summary(self) -> None:
-        sheet = self._book.create_sheet(SUMMARY)
+        sheet = self._first
         _landscape(sheet)
         for letter, width in (("A", 26), ("B", 60), ("C", 12)):
             sheet.column_dimensions[letter].width = width
+        for number in range(4, 6 + 2 * len(self.plan.axes)):
+            sheet.column_dimensions[get_column_letter(number)].width = 17
         for axis in self.plan.axes:
             sheet.append([axis.key, span_text(axis)])
         sheet.append([])
@@ -139,15 +152,19 @@ class StudyBook:
         for name, found in self._extremes.items():
             if found.at_largest:
                 title, unit = described(name)
-                sheet.append([name, title, unit, found.largest, *found.at_largest,
-                              found.smallest, *found.at_smallest])  # fmt: skip
+                largest, smallest = (
+                    WriteOnlyCell(sheet, v) for v in (found.largest, found.smallest)
+                )
+                largest.number_format = smallest.number_format = format_of(name)
+                sheet.append([name, title, unit, largest, *found.at_largest,
+                              smallest, *found.at_smallest])  # fmt: skip
 
     def _charts(self) -> dict[str, list[float]]:
         """One chart a quantity; the numbers of their ranges."""
         ranges: dict[str, list[float]] = {}
-        if not self._shown:
+        sheet = self._drawn
+        if sheet is None:
             return ranges
-        sheet = self._book.create_sheet(CHARTS)
         _landscape(sheet)
         x = self.plan.axes[0]
         names = self.wanted.names
@@ -168,6 +185,10 @@ class StudyBook:
                 title += f"; кривые: {self.plan.axes[1].title.lower()}"
             ends = (float(min(x.values)), float(max(x.values)))
             chart = curves_chart(title, _headed(x.title, x.unit), _headed(name, unit), curves, ends)
+            level = _level(values)
+            if level is not None:  # else the axis would show rounding
+                span = abs(level) / 10 or 1.0
+                chart.y_axis.scaling.min, chart.y_axis.scaling.max = level - span, level + span
             place = Cell(CHARTS, 1 + _CHART_ROWS * (number // 2), 1 + 10 * (number % 2))
             sheet.add_chart(chart, place.coordinate)
         return ranges
@@ -184,7 +205,15 @@ class StudyBook:
             yield _valued(second, number), number * count, count
 
 
-def _landscape(sheet: WriteOnlyWorksheet) -> None:
+def _level(values: Sequence[float]) -> float | None:
+    """The value of a quantity that stays the same but for rounding."""
+    known = [value for value in values if math.isfinite(value)]
+    if not known or max(known) - min(known) > 1e-9 * max(map(abs, known)):
+        return None
+    return float(f"{known[0]:.6g}")
+
+
+def _landscape(sheet: Worksheet) -> None:
     sheet.page_setup.orientation = "landscape"
     sheet.page_setup.paperSize = Worksheet.PAPERSIZE_A4
     sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight = 1, 0

@@ -139,3 +139,10 @@ def described(name: str) -> tuple[str, str]:
     }  # fmt: skip
     unit = "°" if part.endswith("deg") else about.unit_label
     return f"{about.title} ({table}), {kinds[part]}", unit
+
+
+def format_of(name: str) -> str:
+    """Number format of a name; the grid's angles may be fractions of a degree."""
+    if name.endswith("_deg") and "." in name:
+        return "0.##"
+    return quantity(name.split(".")[1] if "." in name else name).fmt

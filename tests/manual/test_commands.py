@@ -99,7 +99,14 @@ def test_commands(tmp_path, chain):
 EXPECTED = {
     "class": ("issued/register.json", "graded/gradebook.xlsx", "graded/moodle.csv"),
     "project": ("out/my-engine.xlsx", "out/my-engine.pdf", "out2/my-engine.pdf", "results.json"),
-    "others": ("out/gots-diesel.xlsx", "out/gots-diesel.pdf", "out/docs/index.html"),
+    "others": (
+        "out/gots-diesel.xlsx",
+        "out/gots-diesel.pdf",
+        "out/docs/index.html",
+        "validation/validation.pdf",
+        "speed.xlsx",
+        "grid.csv",
+    ),
 }
 
 

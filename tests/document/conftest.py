@@ -1,9 +1,16 @@
-"""A local listener that writes down what is asked of it."""
+"""Finished reports for one worker; a local listener that writes down what is asked of it."""
 
 import http.server
 import threading
 
 import pytest
+
+
+def pytest_collection_modifyitems(items):
+    """Tests that share finished reports run in one worker: two would set each report twice."""
+    for item in items:
+        if item.path.name in ("test_report_pdf.py", "test_report_sheets.py"):
+            item.add_marker(pytest.mark.xdist_group("reports"))
 
 
 @pytest.fixture

@@ -166,17 +166,22 @@ def test_looking_installs_nothing(house, command):
 
 def test_the_test_command_runs_all_and_fails_if_one_fails(house):
     done = house.run("test", "-k", "x", KSHM_NO_SYSTEM="1")
-    checks = ["ruff check .", "ruff format --check .", "mypy", "python -m pytest -n auto -k x"]
+    checks = [
+        "ruff check .",
+        "ruff format --check .",
+        "mypy",
+        "python -m pytest -n auto --dist loadgroup -k x",
+    ]
     assert (done.returncode, house.calls()) == (0, checks)
     house.log.write_text("")
     house.tool(house.root / ".venv/bin/mypy", status=1)
     assert house.run("test", KSHM_NO_SYSTEM="1").returncode == 1
-    assert house.calls()[-1] == "python -m pytest -n auto"
+    assert house.calls()[-1] == "python -m pytest -n auto --dist loadgroup"
 
 
 def test_ci_runs_the_test_command(house):
     house.run(command=".ci/run", KSHM_NO_SYSTEM="1", CI="true")
-    assert house.calls()[-1] == "python -m pytest -n auto"
+    assert house.calls()[-1] == "python -m pytest -n auto --dist loadgroup"
 
 
 @pytest.mark.parametrize("name", ["pyproject.toml", "constraints.txt"])

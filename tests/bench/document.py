@@ -10,6 +10,7 @@ from pathlib import Path
 from reports.resources import samples_dir
 from tests.bench._figure import Figure, costs
 from tests.bench._process import kshm, run
+from tests.document.pdftools import poppler
 
 
 def figures() -> Iterator[Figure]:
@@ -26,8 +27,8 @@ def figures() -> Iterator[Figure]:
         again = {"KSHM_CACHE": str(folder / "cache")}
         html, pdf = run(build("html"), again), run(build("pdf"), again)
         cells = len(re.findall(r"<t[dh][ >]", (folder / "gots-diesel.html").read_text("utf-8")))
-        data = (folder / "gots-diesel.pdf").read_bytes()
-        pages = max(int(count) for count in re.findall(rb"/Count (\d+)", data))
+        told = poppler("pdfinfo", str(folder / "gots-diesel.pdf"))
+        pages = int(re.search(r"Pages:\s+(\d+)", told)[1])
         yield from costs("отчёт PDF, рисунки и формулы уже есть", pdf)
         yield Figure("страниц", pages)
         yield Figure("ячеек таблиц", cells)

@@ -105,7 +105,7 @@ EXPECTED = {
         "out/docs/index.html",
         "validation/validation.pdf",
         "speed.xlsx",
-        "grid.csv",
+        "out/sweep.xlsx",
     ),
 }
 

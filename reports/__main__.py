@@ -1,5 +1,24 @@
 """``python -m reports`` is ``kshm``."""
 
-from reports.cli import main
+from __future__ import annotations
 
-main()
+import signal
+import sys
+
+
+def start() -> None:
+    """Run the command line."""
+    if not {"-v", "--verbose"} & set(sys.argv):
+        # What cannot be raised, as an error while something half-written is thrown away,
+        # would print a traceback between the messages.
+        sys.unraisablehook = lambda _: None
+    # While the program is loading there is nothing to clean up: Ctrl-C ends it without a word.
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+    from reports.cli import main
+
+    main()
+
+
+if __name__ == "__main__":
+    start()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -53,34 +54,72 @@ class _Russian(click.Group):
         """Help with Russian headings."""
         return _in_russian(super().get_help(ctx))
 
+    def invoke(self, ctx: click.Context) -> Any:  # noqa: ANN401
+        """Run a command; an interruption is told in one line, without the empty one of click."""
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
+            raise click.Abort from None
+        except BrokenPipeError:
+            _forget_output()
+            return DONE
+
     def main(self, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401
         """Run; exit codes as in the contract."""
+        from reports.interrupt import stoppable
+
         kwargs["standalone_mode"] = False
         arguments = kwargs.get("args") or (args[0] if args else None) or sys.argv[1:]
         verbose = "-v" in arguments or "--verbose" in arguments
-        try:
-            code = super().main(*args, **kwargs)
-            sys.exit(code if isinstance(code, int) else DONE)
-        except click.exceptions.Exit as stop:
-            sys.exit(stop.exit_code)
-        except click.Abort:
-            click.echo("прервано", err=True)
-            sys.exit(BAD)
-        except click.ClickException as error:
-            click.echo(f"kshm: {_translated(error)}; справка: kshm --help", err=True)
-            sys.exit(BAD)
-        except KshmError as error:
-            for line in error.lines():
-                click.echo(line, err=True)
-            sys.exit(error.exit_code)
-        except BrokenPipeError:
-            sys.exit(DONE)
-        except Exception as error:
-            if verbose:
-                raise
-            kind = type(error).__name__
-            click.echo(f"kshm: внутренняя ошибка {kind}: {error}; подробности: ключ -v", err=True)
-            sys.exit(BAD)
+        with stoppable():
+            try:
+                code = super().main(*args, **kwargs)
+                sys.stdout.flush()
+            except BrokenPipeError:
+                _forget_output()
+                code = DONE
+            except Exception as error:
+                code = _failed(error, verbose)
+        sys.exit(code if isinstance(code, int) else DONE)
+
+
+def _forget_output() -> None:
+    """What is left in the buffer has no reader: the end of the program must not mind."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _failed(error: Exception, verbose: bool) -> int:
+    """Tell in a line what went wrong; the exit code."""
+    if isinstance(error, click.exceptions.Exit):
+        return error.exit_code
+    if isinstance(error, KshmError):
+        lines, code = error.lines(), error.exit_code
+    elif isinstance(error, click.Abort):
+        lines, code = ["прервано"], BAD
+    elif isinstance(error, click.ClickException):
+        lines, code = [f"kshm: {_translated(error)}; справка: kshm --help"], BAD
+    elif verbose:
+        raise error
+    else:
+        lines, code = [_unexpected(error)], BAD
+    for line in lines:
+        click.echo(line, err=True)
+    return code
+
+
+def _unexpected(error: Exception) -> str:
+    from reports.errors import one_line
+
+    if isinstance(error, OSError):
+        from reports.files import reason
+
+        place = f"{error.filename}" if error.filename else "вывод или временный файл"
+        text = f"kshm: {place}: не удается записать или прочитать: {reason(error)}"
+        return one_line(f"{text}; освободите место или укажите другое, подробности: ключ -v")
+    if isinstance(error, MemoryError):
+        return "kshm: не хватает памяти; закройте другие программы или увеличьте шаг расчёта"
+    kind = type(error).__name__
+    return one_line(f"kshm: внутренняя ошибка {kind}: {error}; подробности: ключ -v", 600)
 
 
 def _translated(error: click.ClickException) -> str:

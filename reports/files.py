@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import errno
 import os
+import secrets
 import shutil
-import tempfile
+import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from reports.errors import OutputError, Problem
+from reports.interrupt import check, held
 
 _REASONS = {
     errno.EACCES: "нет прав",
@@ -22,6 +25,7 @@ _REASONS = {
     errno.ENOTDIR: "часть пути — файл, а не папка",
     errno.EEXIST: "на этом месте уже есть файл",
     errno.EISDIR: "на этом месте уже есть папка",
+    errno.EFBIG: "файл больше, чем разрешено",
     errno.ENAMETOOLONG: "слишком длинное имя",
     errno.ENOENT: "нет такого файла или папки",
 }
@@ -57,14 +61,17 @@ def atomic_path(path: Path) -> Iterator[Path]:
     make_dir(path.parent)
     if path.is_dir():
         raise _failure(path, IsADirectoryError(errno.EISDIR, ""))
-    temporary = _temporary_file(path)
+    # The name's suffix is kept: some writers choose the format by it.
+    temporary = _fresh_name(path.parent, path.suffix)
+    _unfinished.add(temporary)
     try:
-        yield temporary
         with _reported(path):
+            _create(temporary, path)
+            yield temporary
+            check()
             _replace(temporary, path)
     finally:
-        with contextlib.suppress(OSError):
-            temporary.unlink()
+        _remove(temporary)
 
 
 @contextmanager
@@ -77,19 +84,19 @@ def atomic_dir(path: Path) -> Iterator[Path]:
     make_dir(path.parent)
     if path.exists() and not path.is_dir():
         raise _failure(path, FileExistsError(errno.EEXIST, ""))
-    try:
-        temporary = Path(tempfile.mkdtemp(prefix=".kshm-", dir=path.parent))
-    except OSError as error:
-        raise _failure(path, error) from None
+    temporary = _fresh_name(path.parent, "")
     old = temporary.with_name(temporary.name + ".old")
+    _unfinished.add(temporary)
     try:
-        temporary.chmod(0o777 & ~_umask())
-        yield temporary
         with _reported(path):
+            temporary.mkdir()
+            yield temporary
+            check()
             _swap_dir(temporary, path, old)
     finally:
-        shutil.rmtree(temporary, ignore_errors=True)
-        shutil.rmtree(old, ignore_errors=True)
+        _remove(temporary)
+        if old.exists():
+            _remove(old)
 
 
 def make_dir(path: Path) -> None:
@@ -103,7 +110,8 @@ def make_dir(path: Path) -> None:
     except OSError as error:
         raise _failure(path, error) from None
     if not os.access(path, os.W_OK | os.X_OK):
-        raise _failure(path, PermissionError(errno.EACCES, ""))
+        reading_only = hasattr(os, "statvfs") and os.statvfs(path).f_flag & os.ST_RDONLY
+        raise _failure(path, OSError(errno.EROFS if reading_only else errno.EACCES, ""))
 
 
 def reason(error: OSError) -> str:
@@ -111,18 +119,44 @@ def reason(error: OSError) -> str:
     return _REASONS.get(error.errno or 0, "ошибка ввода-вывода")
 
 
-def _temporary_file(path: Path) -> Path:
-    try:
-        # The name's suffix is kept: some writers choose the format by it.
-        handle, name = tempfile.mkstemp(prefix=".kshm-", suffix=path.suffix, dir=path.parent)
-    except OSError as error:
-        raise _failure(path, error) from None
+def temporary_failure(error: Exception) -> OutputError:
+    """The error of a temporary file that a library could not write."""
+    number = error.errno if isinstance(error, OSError) else None
+    known = number if number is not None else getattr(errno, str(error).removeprefix("IO_"), 0)
+    text = "нет папки" if number == errno.ENOENT else _REASONS.get(known, "ошибка ввода-вывода")
+    hint = "освободите место или укажите другую папку переменной TMPDIR"
+    return OutputError(Problem("временные файлы", f"не удается записать: {text}", hint))
+
+
+# Removed at the latest when the program ends: an interruption may come between two lines.
+_unfinished: set[Path] = set()
+
+
+def _fresh_name(folder: Path, suffix: str) -> Path:
+    return folder / f".kshm-{secrets.token_hex(8)}{suffix}"
+
+
+def _create(temporary: Path, path: Path) -> None:
+    # As readable as any other file, or as the file that it replaces.
+    handle = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
     os.close(handle)
-    temporary = Path(name)
-    # mkstemp makes private files; a result is as readable as any other file.
-    mode = path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~_umask()
-    temporary.chmod(mode)
-    return temporary
+    if path.exists():
+        temporary.chmod(path.stat().st_mode & 0o777)
+
+
+def _remove(place: Path) -> None:
+    if place.is_dir():
+        shutil.rmtree(place, ignore_errors=True)
+    else:
+        with contextlib.suppress(OSError):
+            place.unlink()
+    _unfinished.discard(place)
+
+
+@atexit.register
+def _remove_unfinished() -> None:
+    for place in list(_unfinished):
+        _remove(place)
 
 
 def _replace(temporary: Path, path: Path) -> None:
@@ -132,15 +166,17 @@ def _replace(temporary: Path, path: Path) -> None:
 
 
 def _swap_dir(temporary: Path, path: Path, old: Path) -> None:
-    # os.replace refuses a target folder that is not empty.
-    if path.exists():
-        path.rename(old)
-    try:
-        temporary.rename(path)
-    except OSError:
-        if old.exists():
-            old.rename(path)
-        raise
+    # os.replace refuses a target folder that is not empty; nothing may come between the two steps.
+    with held(signal.SIGINT, signal.SIGTERM):
+        if path.exists():
+            path.rename(old)
+        try:
+            temporary.rename(path)
+        except OSError:
+            if old.exists():
+                old.rename(path)
+            raise
+        _unfinished.add(old)
 
 
 @contextmanager
@@ -149,12 +185,6 @@ def _reported(path: Path) -> Iterator[None]:
         yield
     except OSError as error:
         raise _failure(path, error) from None
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def _failure(path: Path, error: OSError) -> OutputError:

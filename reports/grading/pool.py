@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
 import time
 from collections import deque
 from collections.abc import Iterator, Sequence
@@ -15,6 +16,7 @@ from typing import Any
 from reports.errors import KshmError
 from reports.grading.submissions import Submission
 from reports.grading.worker import MEMORY, serve
+from reports.interrupt import held
 
 TIMEOUT_S = 60.0
 _START_S = 120.0  # a cold start of a worker on a loaded machine
@@ -39,7 +41,8 @@ class _Worker:
         context = multiprocessing.get_context("spawn")
         self.connection, theirs = context.Pipe()
         self.process = context.Process(target=serve, args=(theirs, folder, memory), daemon=True)
-        self.process.start()
+        with held(signal.SIGINT):  # Ctrl-C is for the process that the person has started
+            self.process.start()
         theirs.close()
         self.ready = self.started = False
         self.task: Submission | None = None

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil
 
+from lxml.etree import SerialisationError
 from openpyxl import Workbook
 from openpyxl.formatting.rule import CellIsRule
 from openpyxl.styles import Alignment, Font, PatternFill
@@ -18,6 +19,7 @@ from openpyxl.worksheet.pagebreak import Break
 from openpyxl.worksheet.worksheet import Worksheet
 from openpyxl.writer.excel import ExcelWriter
 
+from reports.files import temporary_failure
 from reports.layout import (
     CONTENTS_SHEET,
     FIRST_ROW,
@@ -90,11 +92,18 @@ def assemble(
 
 
 def saved(book: Workbook, caches: CacheValues) -> bytes:
-    """The bytes of a workbook with the values of its formulas."""
+    """The bytes of a workbook with the values of its formulas.
+
+    Raises:
+        OutputError: there is no room for temporary files.
+    """
     stream = io.BytesIO()
-    # As ``book.save`` does, but for the compression, which the finishing pass brings.
-    with zipfile.ZipFile(stream, "w", zipfile.ZIP_STORED) as archive:
-        ExcelWriter(book, archive).save()
+    try:
+        # As ``book.save`` does, but for the compression, which the finishing pass brings.
+        with zipfile.ZipFile(stream, "w", zipfile.ZIP_STORED) as archive:
+            ExcelWriter(book, archive).save()
+    except (OSError, SerialisationError) as error:  # each sheet is a temporary file before
+        raise temporary_failure(error) from None
     return finish(stream.getvalue(), caches)
 
 

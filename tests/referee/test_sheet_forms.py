@@ -82,9 +82,11 @@ def test_another_form_is_left_to_the_parser(cells):
     assert grid.sheets == {"A": {}}
 
 
-@pytest.mark.parametrize("value", ["nan", "1e999", "-inf", "one", "1,5"])
+@pytest.mark.parametrize(
+    "value", ["nan", "1e999", "-inf", "one", "1,5", " ", "1 2", "0x10", "\xa0"]
+)
 def test_a_value_that_is_no_number_is_refused(value):
-    sheet = SHEET.format(f'<c r="A1"><v>{value}</v></c>').encode()
+    sheet = SHEET.format(f'<c r="A1"><v>2</v></c><c r="B1"><v>{value}</v></c>').encode()
     with pytest.raises(BadBook, match="неверным значением"):
         read_text(Grid(sheets={"A": {}}), "A", sheet, [])
 

@@ -53,7 +53,7 @@ def read_text(grid: Grid, title: str, data: bytes, strings: list[str]) -> bool:
 
 def _form_of(title: str, bare: bytes) -> SheetForm | None:
     """The form of a sheet without values; those used last are kept."""
-    key = hashlib.blake2b(bare).digest()
+    key = hashlib.sha256(bare).digest()
     found = _forms.get(key)
     if found is not None:
         _forms.move_to_end(key)

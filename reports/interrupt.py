@@ -1,0 +1,65 @@
+"""Ctrl-C and the system's request to stop: one line, and nothing half-written left behind."""
+
+from __future__ import annotations
+
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+_SIGNALS = [signal.SIGINT, signal.SIGTERM]
+_state = {"stopped": False}
+
+
+class Stopped(KeyboardInterrupt):
+    """A signal to stop has come.
+
+    A plain ``KeyboardInterrupt`` that passes through ``exec`` of a text, as when a module is
+    imported, makes Python end itself with the signal although it was caught.
+    """
+
+
+@contextmanager
+def stoppable() -> Iterator[None]:
+    """Raise ``Stopped`` on the first signal; those that follow let it clean up."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    _state["stopped"] = False
+    before = {number: signal.getsignal(number) for number in _SIGNALS}
+    try:
+        for number, handler in before.items():
+            if handler is not signal.SIG_IGN:  # started in the background: stays as it is
+                signal.signal(number, _stop)
+        yield
+    finally:
+        _state["stopped"] = False
+        for number, handler in before.items():
+            signal.signal(number, handler if handler is not None else signal.SIG_DFL)
+
+
+def _stop(_: int, __: FrameType | None) -> None:
+    for number in _SIGNALS:
+        signal.signal(number, signal.SIG_IGN)
+    _state["stopped"] = True
+    raise Stopped
+
+
+def check() -> None:
+    """Stop here if a signal was lost in a place that lets no exception through."""
+    if _state["stopped"]:
+        raise Stopped
+
+
+@contextmanager
+def held(*numbers: signal.Signals) -> Iterator[None]:
+    """Hold signals back, also from processes that are started meanwhile: these never see them."""
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, numbers)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

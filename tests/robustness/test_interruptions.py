@@ -1,0 +1,183 @@
+"""Stopped at any moment: old files stay whole, nothing half-written has a final name."""
+
+from __future__ import annotations
+
+import signal
+import sys
+import time
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+from types import FrameType
+
+import pytest
+
+from reports import files, interrupt
+from tests.robustness.command import leftovers, small_input, started
+
+OLD, NEW = b"old" * 1000, b"new" * 2000
+
+
+class Stop:
+    """Raises ``KeyboardInterrupt`` at the n-th line of some modules."""
+
+    def __init__(self, number: int) -> None:
+        self.left, self.places = number, (files.__file__, interrupt.__file__)
+
+    def __call__(self, frame: FrameType, event: str, _: object) -> Stop | None:
+        if frame.f_code.co_filename not in self.places:
+            return None
+        if event == "line":
+            self.left -= 1
+            if self.left == 0:
+                raise KeyboardInterrupt
+        return self
+
+
+def interrupted_everywhere(act: Callable[[], None], check: Callable[[bool], None]) -> int:
+    """Interrupt an action at each of its lines in turn, until it ends; tell how many."""
+    for number in range(1, 1000):
+        stop = Stop(number)
+        before = sys.gettrace()
+        sys.settrace(stop)
+        try:
+            act()
+            done = True
+        except KeyboardInterrupt:
+            done = False
+        finally:
+            sys.settrace(before)
+        files._remove_unfinished()  # as at the end of the program
+        check(done)
+        if done and stop.left > 0:
+            return number
+    raise AssertionError("it never ends")
+
+
+def test_a_file_is_the_old_or_the_new_one_wherever_it_is_interrupted(tmp_path):
+    target = tmp_path / "a.bin"
+    target.write_bytes(OLD)
+
+    def check(done: bool) -> None:
+        assert target.read_bytes() in ((NEW,) if done else (OLD, NEW))
+        assert leftovers(tmp_path) == []
+        target.write_bytes(OLD)
+
+    lines = interrupted_everywhere(lambda: files.write_bytes(target, NEW), check)
+    assert lines > 20
+
+
+def test_a_folder_is_the_old_or_the_new_one_wherever_it_is_interrupted(tmp_path):
+    target = tmp_path / "folder"
+    files.make_dir(target)
+    (target / "a").write_bytes(OLD)
+
+    def act() -> None:
+        with files.atomic_dir(target) as temporary:
+            (temporary / "a").write_bytes(NEW)
+
+    def check(done: bool) -> None:
+        assert (target / "a").read_bytes() in ((NEW,) if done else (OLD, NEW))
+        assert leftovers(tmp_path) == []
+        (target / "a").write_bytes(OLD)
+
+    # In the program the signals are held back while the folders change places.
+    swap = files._swap_dir
+    lines = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(files, "_swap_dir", untraced(swap))
+        lines.append(interrupted_everywhere(act, check))
+    assert lines[0] > 20
+
+
+def untraced(act: Callable[..., None]) -> Callable[..., None]:
+    def quiet(*arguments: object) -> None:
+        before = sys.gettrace()
+        sys.settrace(None)
+        try:
+            act(*arguments)
+        finally:
+            sys.settrace(before)
+
+    return quiet
+
+
+def test_signals_wait_while_folders_change_places():
+    seen = []
+    before = signal.signal(signal.SIGTERM, lambda *_: seen.append("late"))
+    try:
+        with interrupt.held(signal.SIGINT, signal.SIGTERM):
+            signal.raise_signal(signal.SIGTERM)
+            assert seen == []
+        assert seen == ["late"]
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+def test_a_signal_lost_in_a_callback_stops_the_next_file(tmp_path):
+    class Deaf:
+        def __del__(self) -> None:
+            signal.raise_signal(signal.SIGTERM)  # nothing raised here gets out
+
+    with pytest.raises(KeyboardInterrupt), interrupt.stoppable():
+        item = Deaf()
+        del item
+        files.write_bytes(tmp_path / "a", NEW)
+    assert list(tmp_path.iterdir()) == []
+
+
+INT, TERM, KILL = signal.SIGINT, signal.SIGTERM, signal.SIGKILL
+SOLVE, BUILD = ("solve", "--csv"), ("build", "--only", "xlsx", "-o")
+
+
+@pytest.mark.parametrize(
+    ("number", "command", "share"),
+    [
+        *((number, SOLVE, share) for number in (INT, TERM, KILL) for share in (0.4, 0.7, 0.9)),
+        (INT, BUILD, 0.3),
+        (TERM, BUILD, 0.6),
+    ],
+)
+def test_a_command_that_is_stopped(tmp_path, number, command, share, whole_times):
+    source, out = small_input(tmp_path), tmp_path / "out"
+    out.mkdir()
+    target = out / ("engine.xlsx" if command is BUILD else "table_1.csv")
+    target.write_bytes(OLD)
+    process = started(
+        command[0], source, *command[1:], out, temporary=tmp_path / "tmp",
+        before=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )  # fmt: skip
+    time.sleep(whole_times[command[0]] * share)
+    process.send_signal(number)
+    _, error = process.communicate()
+    if target.read_bytes() != OLD:
+        assert_whole(target)
+    if number == signal.SIGKILL:
+        return
+    # Either it was still loading, or it says so, or it had just finished.
+    assert process.returncode in (-number, 2, 0, 1), error
+    assert error.splitlines() == (["прервано"] if process.returncode == 2 else []), error
+    assert leftovers(out) == leftovers(tmp_path / "tmp") == []
+
+
+def assert_whole(target: Path) -> None:
+    if target.suffix == ".xlsx":
+        with zipfile.ZipFile(target) as archive:
+            assert archive.testzip() is None
+    else:
+        lines = target.read_text(encoding="utf-8").splitlines()
+        assert len({line.count(",") for line in lines}) == 1
+
+
+@pytest.fixture(scope="module")
+def whole_times(tmp_path_factory):
+    """Seconds that the commands take now."""
+    folder = tmp_path_factory.mktemp("whole")
+    source = small_input(folder)
+    times = {}
+    for name, *keys in (SOLVE, BUILD):
+        begin = time.monotonic()
+        assert started(name, source, *keys, folder / "out").wait() in (0, 1)
+        times[name] = time.monotonic() - begin
+    return times

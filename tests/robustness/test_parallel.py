@@ -1,0 +1,29 @@
+"""Many commands at the same time in one folder."""
+
+from __future__ import annotations
+
+from tests.robustness.command import leftovers, small_input, started
+
+COUNT = 20
+
+
+def test_twenty_commands_in_one_folder(tmp_path):
+    out, alone = tmp_path / "out", tmp_path / "alone"
+    sources = [small_input(tmp_path, name) for name in ("a", "b")]
+    assert started("solve", sources[0], "--csv", alone, "--json", alone / "a.json").wait() == 0
+    # All write the same tables; half of them the same JSON as well.
+    running = [
+        started(
+            "solve", sources[i % 2], "--csv", out, "--json", out / f"{sources[i % 2].stem}.json"
+        )
+        for i in range(COUNT)
+    ]
+    for process in running:
+        _, error = process.communicate()
+        assert process.returncode == 0, error
+        assert error == ""
+    assert leftovers(out) == []
+    names = {path.name for path in alone.iterdir()}
+    assert {path.name for path in out.iterdir()} == names | {"b.json"}
+    for name in names:
+        assert (out / name).read_bytes() == (alone / name).read_bytes()

@@ -145,7 +145,7 @@ def test_a_recurrence_and_a_circle():
 
 @pytest.mark.parametrize(
     "formula", ["=INDIRECT(\"A1\")", "=WEBSERVICE(\"http://x\")", "=A1+nothing", "=[1]Sheet1!A1",
-                "=" + "(" * 80 + "1" + ")" * 80, "=SUM({1,2})"],
+                "=" + "(" * 80 + "1" + ")" * 80, "=SUM({1,2})", "=SUMPRODUCT(A1:A3,B1:B2)"],
 )  # fmt: skip
 def test_what_it_does_not_know_it_says(formula):
     grid = read_grid(book_of({"A1": 1.0, "Z1": formula}))

@@ -107,7 +107,7 @@ class Engine:
         with np.errstate(all="ignore"):
             for i in range(0, run.count, step):
                 at = At(run.sheet, run.first + i, run.column, step)
-                found = np.asarray(numeric(Evaluation(self, at).value(tree)), dtype=float)
+                found = np.asarray(numeric(Evaluation(self, at).result(tree)), dtype=float)
                 values[i : i + step] = found.reshape(-1)
         return np.where(np.isfinite(values), values, np.nan)
 
@@ -193,7 +193,7 @@ class Engine:
             self._start_cells(run)
             self._cells(run, run.first, run.last)
             return run.values
-        return Evaluation(self, At(run.sheet, row, run.column, count)).value(tree)
+        return Evaluation(self, At(run.sheet, row, run.column, count)).result(tree)
 
     def _keep(self, run: Run, row: int, result: Value, count: int) -> None:
         if run.values is None:

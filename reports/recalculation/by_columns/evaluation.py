@@ -56,6 +56,20 @@ class Evaluation:
     def __init__(self, engine: Engine, at: At) -> None:
         self.engine, self.at = engine, at
 
+    def result(self, tree: Node) -> Value:
+        """Value of the whole formula.
+
+        Raises:
+            UnknownFormula: something outside the whitelist.
+        """
+        try:
+            return self.value(tree)
+        except UnknownFormula:
+            raise
+        except ValueError:  # of numpy
+            msg = "ranges of different sizes"
+            raise UnknownFormula(msg) from None
+
     def value(self, node: Node, *, block: bool = False) -> Value:
         """Value of a part of the formula; ``block`` where a rectangle may stand for one value.
 

@@ -1,0 +1,73 @@
+"""What the commands share: exit codes, Russian help, options, loading of an input."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from reports.inputs.load import Loaded
+
+DONE, LOOK, BAD, MISSING = 0, 1, 2, 3
+HELP = {"help_option_names": ["-h", "--help"]}
+
+
+_WORDS = {
+    "Usage:": "Использование:",
+    "[OPTIONS]": "[КЛЮЧИ]",
+    "COMMAND [ARGS]...": "КОМАНДА [АРГУМЕНТЫ]...",
+    "Options:": "Ключи:",
+    "Commands:": "Команды:",
+    "Show this message and exit.": "Показать эту справку.",
+    "[required]": "[обязательно]",
+    "[default: ": "[по умолчанию: ",
+}
+
+
+def in_russian(text: str) -> str:
+    """Help with its English words replaced."""
+    for english, russian in _WORDS.items():
+        text = text.replace(english, russian)
+    return text
+
+
+class RussianCommand(click.Command):
+    """A command whose help is Russian throughout."""
+
+    def get_help(self, ctx: click.Context) -> str:
+        """Help with Russian headings."""
+        return in_russian(super().get_help(ctx))
+
+
+Command = Callable[..., int]
+
+
+def file_argument(text: str = "INPUT") -> Callable[[Command], Command]:
+    """The file that a command reads."""
+    return click.argument("source", metavar=text, type=click.Path(path_type=Path))
+
+
+verbose_option = click.option("-v", "--verbose", is_flag=True, help="Показать подробности ошибки.")
+
+
+dask_option = click.option(
+    "--dask", metavar="ADDRESS", help="Считать на кластере Dask, tcp://host:8786."
+)
+
+
+def path_option(*names: str, **more: Any) -> Callable[[Command], Command]:  # noqa: ANN401
+    """An option whose value is a path."""
+    return click.option(*names, type=click.Path(path_type=Path), **more)
+
+
+def load(source: Path) -> Loaded:
+    """A checked input; its warnings are told."""
+    from reports.build import load_input
+
+    loaded = load_input(source)
+    for problem in loaded.warnings:
+        click.echo(f"Внимание: {problem.line()}", err=True)
+    return loaded

@@ -1,0 +1,175 @@
+"""Commands for one engine: its input, its numbers, its documents, the machine they need."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from reports.commands.common import (
+    BAD,
+    DONE,
+    HELP,
+    LOOK,
+    MISSING,
+    RussianCommand,
+    dask_option,
+    file_argument,
+    load,
+    verbose_option,
+)
+from reports.errors import KshmError
+
+
+@click.command(cls=RussianCommand, context_settings=HELP)
+@click.option(
+    "-o", "--output", type=click.Path(path_type=Path), help="Куда записать (иначе на экран)."
+)
+@click.option("--sample", metavar="NAME", help="Взять за основу образец, например gots-diesel.")
+@verbose_option
+def new(output: Path | None, sample: str | None, verbose: bool) -> int:
+    """Дать файл исходных данных с пояснениями."""
+    from reports.files import write_text
+    from reports.inputs.template import new_file
+
+    text = new_file(sample)
+    if output is None:
+        click.echo(text, nl=False)
+        return DONE
+    if output.exists():
+        msg = f"{output}: файл уже есть; укажите другое имя ключом -o или удалите его"
+        raise KshmError(msg)
+    write_text(output, text)
+    click.echo(f"{output}")
+    return DONE
+
+
+@click.command(cls=RussianCommand, context_settings=HELP)
+@file_argument()
+@click.option("--json", "as_json", is_flag=True, help="Результат проверки в JSON.")
+@verbose_option
+def check(source: Path, as_json: bool, verbose: bool) -> int:
+    """Проверить исходные данные, ничего не считая."""
+    import json
+
+    from reports.build import load_input
+    from reports.errors import InputError
+
+    try:
+        loaded = load_input(source)
+        problems: tuple[Any, ...] = ()
+        warnings = loaded.warnings
+    except InputError as error:
+        if not as_json:
+            raise
+        problems, warnings = error.problems, ()
+    if as_json:
+        data = {
+            "ok": not problems,
+            "errors": [_as_dict(problem) for problem in problems],
+            "warnings": [_as_dict(problem) for problem in warnings],
+        }
+        click.echo(json.dumps(data, ensure_ascii=False, indent=1))
+        return BAD if problems else (LOOK if warnings else DONE)
+    for problem in warnings:
+        click.echo(f"Внимание: {problem.line()}", err=True)
+    click.echo(f"{source}: ошибок нет")
+    return LOOK if warnings else DONE
+
+
+def _as_dict(problem: Any) -> dict[str, str]:  # noqa: ANN401
+    return {"where": problem.where, "what": problem.what, "hint": problem.hint}
+
+
+@click.command(cls=RussianCommand, context_settings=HELP)
+@file_argument()
+@click.option("--csv", "folder", type=click.Path(path_type=Path), help="Папка для таблиц CSV.")
+@click.option("--json", "target", metavar="FILE", help="Файл JSON; «-» — на экран.")
+@verbose_option
+def solve(source: Path, folder: Path | None, target: str | None, verbose: bool) -> int:
+    """Посчитать числа без документов."""
+    from kshm import solve as solve_engine
+    from reports.exports import csv_text, export_tables, json_text
+    from reports.files import atomic_path, make_dir, write_text
+    from reports.inputs.convert import to_engine
+
+    loaded = load(source)
+    solution = solve_engine(to_engine(loaded.model))
+    if folder is not None:
+        make_dir(folder)
+        for name, columns in export_tables(solution).items():
+            write_text(folder / f"{name}.csv", csv_text(columns))
+    if target == "-":
+        click.echo(json_text(loaded.model, solution), nl=False)
+    elif target is not None:
+        with atomic_path(Path(target)) as temporary:
+            temporary.write_text(json_text(loaded.model, solution), encoding="utf-8")
+    if folder is None and target is None:
+        _print_summary(solution.scalars)
+    return DONE
+
+
+def _print_summary(scalars: dict[str, float]) -> None:
+    from kshm.nomenclature import quantity
+
+    for key, value in scalars.items():
+        if key.startswith("throw"):
+            continue
+        about = quantity(key)
+        digits = len(about.fmt.split(".")[1]) if "." in about.fmt else 0
+        text = f"{value:.{digits}f}".replace(".", ",").replace("-", "−")
+        click.echo(f"{about.title}: {about.symbol} = {text} {about.unit_label}".rstrip())
+
+
+@click.command(cls=RussianCommand, context_settings=HELP)
+@click.argument(
+    "sources", metavar="INPUT...", nargs=-1, required=True, type=click.Path(path_type=Path)
+)
+@click.option(
+    "-o",
+    "--output",
+    "folder",
+    type=click.Path(path_type=Path),
+    default=Path(),
+    help="Папка для результатов (по умолчанию текущая).",
+)
+@click.option(
+    "--only", type=click.Choice(["xlsx", "pdf", "html"]), help="Только один вид документа."
+)
+@dask_option
+@verbose_option
+def build(
+    sources: tuple[Path, ...], folder: Path, only: str | None, dask: str | None, verbose: bool
+) -> int:  # fmt: skip
+    """Сделать книгу Excel и отчёт PDF по файлу .toml или по изменённой книге."""
+    from reports.builds import build_each
+
+    inputs = [(source, load(source)) for source in sources]
+    code = LOOK if any(loaded.warnings for _, loaded in inputs) else DONE
+    kinds = (only,) if only else ("xlsx", "pdf")
+    for built in build_each(inputs, folder, kinds, dask):  # type: ignore[arg-type]
+        for path in built.files:
+            click.echo(f"{path}")
+        if built.missing is not None:
+            for line in built.missing.lines():
+                click.echo(line, err=True)
+            code = MISSING
+    return code
+
+
+@click.command(cls=RussianCommand, context_settings=HELP)
+@verbose_option
+def doctor(verbose: bool) -> int:
+    """Проверить, чего не хватает на этом компьютере."""
+    from reports.doctor import check_system
+
+    complete = True
+    for part in check_system():
+        mark = "есть" if part.ok else "НЕТ"
+        click.echo(f"{mark:>4}  {part.name}: {part.detail}")
+        if not part.ok:
+            complete = False
+            if part.install_command:
+                click.echo(f"      установить: {part.install_command}")
+    return DONE if complete else MISSING

@@ -1,0 +1,111 @@
+"""Commands for a group of students: variants out, marks in."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from reports.commands.common import (
+    DONE,
+    HELP,
+    LOOK,
+    RussianCommand,
+    dask_option,
+    file_argument,
+    path_option,
+    verbose_option,
+)
+from reports.errors import KshmError
+
+
+@click.command(cls=RussianCommand, context_settings=HELP)
+@file_argument("BASE")
+@path_option("--roster", required=True, metavar="CSV", help="Список группы.")
+@path_option("-o", "--output", "folder", required=True, help="Папка для выдачи.")
+@click.option("--seed", default=1, show_default=True, help="Зерно: то же зерно — те же варианты.")
+@path_option("--rubric", metavar="FILE", help="Рубрика TOML (без неё — правила по умолчанию).")
+@path_option("--ranges", metavar="FILE", help="Диапазоны, если их нет в разделе [variants].")
+@path_option("--secret", metavar="FILE", help="Файл секрета преподавателя.")
+@verbose_option
+def issue(
+    source: Path,
+    roster: Path,
+    folder: Path,
+    seed: int,
+    rubric: Path | None,
+    ranges: Path | None,
+    secret: Path | None,
+    verbose: bool,
+) -> int:
+    """Выдать каждому студенту свой вариант и рабочую книгу."""
+    from reports.grading.issue import issue as issue_books
+
+    done = issue_books(
+        source, roster, folder, seed=seed,
+        rubric_file=rubric, ranges_file=ranges, secret_file=secret,
+    )  # fmt: skip
+    if done.new_secret is not None:
+        click.echo(
+            f"Создан секрет: {done.new_secret}. Сохраните его: без него не проверить работы; "
+            "студентам его не давайте.",
+            err=True,
+        )
+    click.echo(f"{folder}: выдано вариантов: {len(done.register.books)}")
+    return DONE
+
+
+@click.command(cls=RussianCommand, context_settings=HELP)
+@click.argument("issued", required=False, type=click.Path(path_type=Path))
+@click.argument("submitted", required=False, type=click.Path(path_type=Path))
+@path_option("-o", "--output", "folder", help="Папка для результатов.")
+@path_option("--rubric", metavar="FILE", help="Другая рубрика вместо выданной.")
+@path_option("--secret", metavar="FILE", help="Файл секрета преподавателя.")
+@click.option("--pdf", is_flag=True, help="Сделать и PDF каждой страницы.")
+@click.option("--jobs", default=0, help="Число процессов (по умолчанию все ядра).")
+@click.option("--timeout", default=60.0, show_default=True, help="Секунд на один файл.")
+@dask_option
+@click.option("--explain", nargs=2, metavar="FILE SHEET!COLUMN", help="Объяснить один вердикт.")
+@verbose_option
+def grade(
+    issued: Path | None,
+    submitted: Path | None,
+    folder: Path | None,
+    rubric: Path | None,
+    secret: Path | None,
+    pdf: bool,
+    jobs: int,
+    timeout: float,
+    dask: str | None,
+    explain: tuple[str, str] | None,
+    verbose: bool,
+) -> int:
+    """Проверить сданные работы: файл, папку или zip заданий Moodle.
+
+    ISSUED — папка, которую сделала команда issue; SUBMITTED — что сдали студенты.
+    """
+    if explain is not None:
+        from reports.grading.explain import explain as explain_column
+
+        for line in explain_column(issued, Path(explain[0]), explain[1], rubric, secret):
+            click.echo(line)
+        return DONE
+    from reports.grading.grade import Options
+    from reports.grading.grade import grade as grade_all
+
+    if issued is None or submitted is None or folder is None:
+        msg = "нужны папка выдачи, сданные работы и папка для результатов (ключ -o)"
+        raise KshmError(msg)
+    if jobs < 0 or timeout <= 0:
+        msg = "--jobs и --timeout должны быть положительными"
+        raise KshmError(msg)
+    done = grade_all(
+        issued, submitted, folder, rubric_file=rubric, secret_file=secret,
+        options=Options(workers=jobs, timeout_s=timeout, pdf=pdf, dask=dask),
+    )  # fmt: skip
+    found = done.summary
+    click.echo(f"{folder}: проверено файлов: {found['files']}, с оценкой: {found['graded']}")
+    if done.needs_a_person:
+        click.echo(f"Нужна ручная проверка: {len(found['manual'])}", err=True)
+        return LOOK
+    return DONE

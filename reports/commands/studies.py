@@ -1,0 +1,107 @@
+"""Commands about many numbers at once: comparison with the sources, parameter studies."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from reports.commands.common import (
+    DONE,
+    HELP,
+    LOOK,
+    MISSING,
+    RussianCommand,
+    dask_option,
+    file_argument,
+    path_option,
+    verbose_option,
+)
+from reports.errors import KshmError
+
+
+@click.command(cls=RussianCommand, context_settings=HELP)
+@path_option("-o", "--output", "folder", default=Path(),
+              help="Папка для результатов (по умолчанию текущая).")  # fmt: skip
+@click.option(
+    "--only", type=click.Choice(["csv", "html", "pdf"]), help="Только один вид документа."
+)
+@verbose_option
+def validate(folder: Path, only: str | None, verbose: bool) -> int:
+    """Пересчитать печатные таблицы пяти источников и показать, что с ними сходится."""
+    from reports.validation.write import KINDS, write
+
+    book, files, missing = write(folder, (only,) if only else KINDS)  # type: ignore[arg-type]
+    for path in files:
+        click.echo(f"{path}")
+    counts = book.counts
+    click.echo(f"чисел: {counts.total}, совпадает: {counts.agrees}")
+    if missing:
+        click.echo(missing, err=True)
+        return MISSING
+    if counts.needs_a_person:
+        first = book.new[0]
+        where = ", ".join(filter(None, (first.table.place, first.cell.row, first.cell.column)))
+        click.echo(
+            f"Новых отклонений: {len(book.new)}, первое: {where}: {first.reason}; посмотрите "
+            "строки «новое отклонение», запишите причину в errata.csv или исправьте расчёт",
+            err=True,
+        )
+        return LOOK
+    return DONE
+
+
+@click.command(cls=RussianCommand, context_settings=HELP)
+@file_argument("BASE")
+@click.option(
+    "--vary",
+    multiple=True,
+    required=True,
+    metavar="KEY=ОТ:ДО:N",
+    help="Ключ файла и N значений, например geometry.bore_mm=84:92:9; можно не один.",
+)
+@click.option(
+    "--quantity",
+    "quantities",
+    multiple=True,
+    metavar="NAME",
+    help="Величина: M_mean или столбец P4_1.N_MPa (по умолчанию основные).",
+)
+@click.option(
+    "--pairwise", is_flag=True, help="Первое с первым, второе со вторым, а не все со всеми."
+)
+@path_option(
+    "-o",
+    "--output",
+    "target",
+    required=True,
+    metavar="FILE",
+    help="Файл .parquet, .csv или .xlsx (с диаграммами).",
+)
+@click.option("--jobs", default=0, help="Число процессов (по умолчанию все ядра).")
+@dask_option
+@verbose_option
+def sweep(
+    source: Path, vary: tuple[str, ...], quantities: tuple[str, ...], pairwise: bool,
+    target: Path, jobs: int, dask: str | None, verbose: bool,
+) -> int:  # fmt: skip
+    """Исследовать параметры: наибольшие и средние значения при всех сочетаниях.
+
+    Первый ключ меняется быстрее всех; по нему строятся диаграммы, по второму — семейство
+    кривых. Сочетание, которое не проходит проверку, остаётся строкой с причиной.
+    """
+    from reports.sweep.run import Options
+    from reports.sweep.run import sweep as run_sweep
+
+    if jobs < 0:
+        msg = "--jobs не может быть отрицательным"
+        raise KshmError(msg)
+    done = run_sweep(
+        source, vary, target, quantities=quantities, pairwise=pairwise,
+        options=Options(jobs=jobs, dask=dask),
+    )  # fmt: skip
+    click.echo(f"{target}: сочетаний {done.points}")
+    if done.failed:
+        click.echo(f"Без результата: {done.failed}, например: {done.first_error}", err=True)
+        return LOOK
+    return DONE

@@ -50,7 +50,16 @@ class _Russian(click.Group):
                 code = DONE
             except Exception as error:
                 code = _failed(error, verbose)
+                _flushed_or_forgotten()
         sys.exit(code if isinstance(code, int) else DONE)
+
+
+def _flushed_or_forgotten() -> None:
+    """Output that cannot be written was told of once: Python must not fail over it again."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        _forget_output()
 
 
 def _forget_output() -> None:

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from copy import copy
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 from openpyxl.packaging.custom import StringProperty
 from openpyxl.styles import Protection
-from openpyxl.styles.cell_style import StyleArray
 from openpyxl.workbook import Workbook
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
@@ -132,17 +130,12 @@ def fill_cells(block: Block, layout: Layout) -> dict[str, list[Cell]]:
 
 
 def _open_cells(sheet: Worksheet, block: Block, layout: Layout) -> None:
-    # Naming the style of every cell would take as long as everything else together.
-    looks: dict[str, StyleArray] = {}
     for cells in fill_cells(block, layout).values():
         for place in cells:
             cell = sheet.cell(place.row, place.column)
             number_format = cell.number_format
-            if number_format not in looks:
-                cell.style = styles.ANSWER
-                cell.number_format = number_format
-                looks[number_format] = cell._style
-            cell._style = copy(looks[number_format])
+            cell.style = styles.ANSWER
+            cell.number_format = number_format  # the style brings its own
 
 
 def _anchors(book: Workbook, model: Model, layout: Layout) -> None:

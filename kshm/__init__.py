@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from kshm.engine import Engine
+from kshm.engine.engine import Engine
 
 if TYPE_CHECKING:
-    from kshm.building import end_mass, in_line, points, polytropic, throw
-    from kshm.nomenclature import Quantity, quantity
-    from kshm.solution import Solution
-    from kshm.solver import solve, solve_chunks
+    from kshm.chain.solve import solve, solve_chunks
+    from kshm.engine.textbook_units import end_mass, in_line, points, polytropic, throw
+    from kshm.nomenclature.quantity import Quantity, quantity
+    from kshm.results.solution import Solution
 
 __all__ = [
     "Engine",
@@ -33,10 +33,12 @@ __all__ = [
 __version__ = "0.1.0"
 
 _HOMES = {
-    **dict.fromkeys(("end_mass", "in_line", "points", "polytropic", "throw"), "kshm.building"),
-    **dict.fromkeys(("Quantity", "quantity"), "kshm.nomenclature"),
-    **dict.fromkeys(("solve", "solve_chunks"), "kshm.solver"),
-    "Solution": "kshm.solution",
+    **dict.fromkeys(
+        ("end_mass", "in_line", "points", "polytropic", "throw"), "kshm.engine.textbook_units"
+    ),
+    **dict.fromkeys(("Quantity", "quantity"), "kshm.nomenclature.quantity"),
+    **dict.fromkeys(("solve", "solve_chunks"), "kshm.chain.solve"),
+    "Solution": "kshm.results.solution",
 }
 
 

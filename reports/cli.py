@@ -12,7 +12,7 @@ from reports.commands.common import BAD, DONE, HELP, RussianCommand, in_russian
 from reports.commands.engine import build, check, doctor, new, solve
 from reports.commands.group import grade, issue
 from reports.commands.studies import sweep, validate
-from reports.errors import KshmError
+from reports.shared.errors import KshmError
 
 
 class _Russian(click.Group):
@@ -36,7 +36,7 @@ class _Russian(click.Group):
 
     def main(self, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401
         """Run; exit codes as in the contract."""
-        from reports.interrupt import stoppable
+        from reports.shared.interrupt import stoppable
 
         kwargs["standalone_mode"] = False
         arguments = kwargs.get("args") or (args[0] if args else None) or sys.argv[1:]
@@ -87,10 +87,10 @@ def _failed(error: Exception, verbose: bool) -> int:
 
 
 def _unexpected(error: Exception) -> str:
-    from reports.errors import one_line
+    from reports.shared.errors import one_line
 
     if isinstance(error, OSError):
-        from reports.files import reason
+        from reports.shared.files import reason
 
         place = f"{error.filename}" if error.filename else "вывод или временный файл"
         text = f"kshm: {place}: не удается записать или прочитать: {reason(error)}"

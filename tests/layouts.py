@@ -6,7 +6,7 @@ import copy
 
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.inputs.model import InputFile
+from reports.inputs.sections.input_file import InputFile
 from tests.conftest import sample
 
 

@@ -65,7 +65,7 @@ def path_option(*names: str, **more: Any) -> Callable[[Command], Command]:  # no
 
 def load(source: Path) -> Loaded:
     """A checked input; its warnings are told."""
-    from reports.build import load_input
+    from reports.exports.build import load_input
 
     loaded = load_input(source)
     for problem in loaded.warnings:

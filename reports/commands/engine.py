@@ -19,7 +19,7 @@ from reports.commands.common import (
     load,
     verbose_option,
 )
-from reports.errors import KshmError
+from reports.shared.errors import KshmError
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)
@@ -30,8 +30,8 @@ from reports.errors import KshmError
 @verbose_option
 def new(output: Path | None, sample: str | None, verbose: bool) -> int:
     """Дать файл исходных данных с пояснениями."""
-    from reports.files import write_text
     from reports.inputs.template import new_file
+    from reports.shared.files import write_text
 
     text = new_file(sample)
     if output is None:
@@ -53,8 +53,8 @@ def check(source: Path, as_json: bool, verbose: bool) -> int:
     """Проверить исходные данные, ничего не считая."""
     import json
 
-    from reports.build import load_input
-    from reports.errors import InputError
+    from reports.exports.build import load_input
+    from reports.shared.errors import InputError
 
     try:
         loaded = load_input(source)
@@ -90,9 +90,9 @@ def _as_dict(problem: Any) -> dict[str, str]:  # noqa: ANN401
 def solve(source: Path, folder: Path | None, target: str | None, verbose: bool) -> int:
     """Посчитать числа без документов."""
     from kshm import solve as solve_engine
-    from reports.exports import csv_text, export_tables, json_text
-    from reports.files import atomic_path, make_dir, write_text
-    from reports.inputs.convert import to_engine
+    from reports.exports.numbers import csv_text, export_tables, json_text
+    from reports.inputs.to_si.engine import to_engine
+    from reports.shared.files import atomic_path, make_dir, write_text
 
     loaded = load(source)
     solution = solve_engine(to_engine(loaded.model))
@@ -111,7 +111,7 @@ def solve(source: Path, folder: Path | None, target: str | None, verbose: bool) 
 
 
 def _print_summary(scalars: dict[str, float]) -> None:
-    from kshm.nomenclature import quantity
+    from kshm.nomenclature.quantity import quantity
 
     for key, value in scalars.items():
         if key.startswith("throw"):
@@ -143,7 +143,7 @@ def build(
     sources: tuple[Path, ...], folder: Path, only: str | None, dask: str | None, verbose: bool
 ) -> int:  # fmt: skip
     """Сделать книгу Excel и отчёт PDF по файлу .toml или по изменённой книге."""
-    from reports.builds import build_each
+    from reports.exports.builds import build_each
 
     inputs = [(source, load(source)) for source in sources]
     code = LOOK if any(loaded.warnings for _, loaded in inputs) else DONE
@@ -162,7 +162,7 @@ def build(
 @verbose_option
 def doctor(verbose: bool) -> int:
     """Проверить, чего не хватает на этом компьютере."""
-    from reports.doctor import check_system
+    from reports.shared.doctor import check_system
 
     complete = True
     for part in check_system():

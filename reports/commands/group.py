@@ -16,7 +16,7 @@ from reports.commands.common import (
     path_option,
     verbose_option,
 )
-from reports.errors import KshmError
+from reports.shared.errors import KshmError
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)
@@ -39,7 +39,7 @@ def issue(
     verbose: bool,
 ) -> int:
     """Выдать каждому студенту свой вариант и рабочую книгу."""
-    from reports.grading.issue import issue as issue_books
+    from reports.grading.issuing.issue import issue as issue_books
 
     done = issue_books(
         source, roster, folder, seed=seed,
@@ -85,13 +85,13 @@ def grade(
     ISSUED — папка, которую сделала команда issue; SUBMITTED — что сдали студенты.
     """
     if explain is not None:
-        from reports.grading.explain import explain as explain_column
+        from reports.grading.judging.explain import explain as explain_column
 
         for line in explain_column(issued, Path(explain[0]), explain[1], rubric, secret):
             click.echo(line)
         return DONE
-    from reports.grading.grade import Options
-    from reports.grading.grade import grade as grade_all
+    from reports.grading.batch.grade import Options
+    from reports.grading.batch.grade import grade as grade_all
 
     if issued is None or submitted is None or folder is None:
         msg = "нужны папка выдачи, сданные работы и папка для результатов (ключ -o)"

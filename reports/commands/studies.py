@@ -17,7 +17,7 @@ from reports.commands.common import (
     path_option,
     verbose_option,
 )
-from reports.errors import KshmError
+from reports.shared.errors import KshmError
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)
@@ -90,8 +90,8 @@ def sweep(
     Первый ключ меняется быстрее всех; по нему строятся диаграммы, по второму — семейство
     кривых. Сочетание, которое не проходит проверку, остаётся строкой с причиной.
     """
-    from reports.sweep.run import Options
-    from reports.sweep.run import sweep as run_sweep
+    from reports.studies.run import Options
+    from reports.studies.run import sweep as run_sweep
 
     if jobs < 0:
         msg = "--jobs не может быть отрицательным"

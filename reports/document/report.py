@@ -2,7 +2,7 @@
 
 The chapters stand in ``sections``, their prose in ``templates/report``.  Two passes: the
 draft finds out what stands where, then figures are drawn and the text is written with all
-numbers known (see :mod:`reports.document.writer`).
+numbers known (see :mod:`reports.document.page.writer`).
 """
 
 from __future__ import annotations
@@ -13,11 +13,7 @@ from typing import TYPE_CHECKING, Literal
 
 from markupsafe import Markup
 
-from reports.document import overrides, store, texts
-from reports.document.blocks import DocumentInfo
-from reports.document.drawing import Drawing
-from reports.document.render import AttachedFile, RenderError, environment, render_pdf
-from reports.document.sections import (
+from reports.document.chapters import (
     bearings,
     closing,
     companions,
@@ -31,14 +27,19 @@ from reports.document.sections import (
     reference,
     regimes,
 )
-from reports.document.sections import torque as torques
-from reports.document.sections.chapter import Chapter
-from reports.document.sections.torque import worst
-from reports.document.terms import Terms
-from reports.document.writer import Draft, Writer
-from reports.inputs.model import InputFile
-from reports.tables.spec import Model
-from reports.tables.values import Values
+from reports.document.chapters import torque as torques
+from reports.document.chapters.chapter import Chapter
+from reports.document.chapters.torque import worst
+from reports.document.page import overrides, store
+from reports.document.page.blocks import DocumentInfo
+from reports.document.page.drawing import Drawing
+from reports.document.page.render import AttachedFile, RenderError, environment, render_pdf
+from reports.document.page.writer import Draft, Writer
+from reports.document.text import texts
+from reports.document.text.terms import Terms
+from reports.inputs.sections.input_file import InputFile
+from reports.spec.blocks import Model
+from reports.spec.evaluation import Values
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -72,7 +73,7 @@ def report_pdf(model: Model, values: Values, *, source: Path, workbook: bytes) -
         RenderError: the page could not be set as the templates say.
         InputError: the folder of own templates is missing or one of them is wrong.
     """
-    from reports.doctor import need_pango
+    from reports.shared.doctor import need_pango
 
     need_pango()
     files = [
@@ -112,7 +113,7 @@ def report_page(
         model: specifications of the engine.
         values: their values.
         media: "print" for WeasyPrint, "screen" for a browser.
-        templates: a folder of own templates, see :mod:`reports.document.overrides`.
+        templates: a folder of own templates, see :mod:`reports.document.page.overrides`.
     """
     with overrides.told(templates):
         return _page(model, values, environment(templates, media=media))

@@ -17,8 +17,8 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from reports.errors import InputError, Problem, one_line
 from reports.inputs.source import read_text
+from reports.shared.errors import InputError, Problem, one_line
 
 MOST_POINTS = 1500
 WIDEST_GAP_DEG = 45.0

@@ -32,7 +32,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from reports.inputs.meta import Meta, find_meta, hints, submodel
-from reports.inputs.model import InputFile, RegimeSection, RegimeValues
+from reports.inputs.sections.input_file import InputFile, RegimeSection, RegimeValues
 
 Path = tuple[str | int, ...]
 Value = str | int | float

@@ -11,9 +11,9 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from kshm.arrangement import Arrangement, in_line, opposed, throw_angle, v_shaped
+from kshm.engine.arrangement import Arrangement, in_line, opposed, throw_angle, v_shaped
 from reports.inputs.findings import Finding
-from reports.units import number_text
+from reports.inputs.units import number_text
 
 _ORDER = re.compile(r"\d{1,2}(\s*[-–—,]\s*\d{1,2})*")
 _PATH = ("crankshaft", "firing_order")

@@ -15,14 +15,20 @@ from typing import Any, cast
 
 from pydantic import ValidationError
 
-from reports.errors import InputError, Problem, one_line
-from reports.inputs import cells, checks, load_regimes, messages
+from reports.inputs import cells, load_regimes, messages
+from reports.inputs.checks import cross_checks
 from reports.inputs.diagram_file import with_points
 from reports.inputs.fields import SECTIONS, Path, key_text
 from reports.inputs.findings import Finding, Values
 from reports.inputs.firing import FOLLOWING, expand
 from reports.inputs.meta import Strictly, hints, submodel
-from reports.inputs.model import (
+from reports.inputs.ranges import read_ranges, split_ranges
+from reports.inputs.sections.articulated import ArticulatedSection
+from reports.inputs.sections.balance import BalanceSection
+from reports.inputs.sections.crankshaft import CrankshaftSection
+from reports.inputs.sections.cycle import CycleSection
+from reports.inputs.sections.gas import RoundedGasSection
+from reports.inputs.sections.input_file import (
     SOURCES,
     Calculation,
     CycleGasSection,
@@ -36,16 +42,11 @@ from reports.inputs.model import (
     RegimeValues,
     TableGasSection,
 )
-from reports.inputs.model_articulated import ArticulatedSection
-from reports.inputs.model_balance import BalanceSection
-from reports.inputs.model_crankshaft import CrankshaftSection
-from reports.inputs.model_cycle import CycleSection
-from reports.inputs.model_gas import RoundedGasSection
-from reports.inputs.model_masses import MassesSection
-from reports.inputs.model_reference import ReferenceSection
-from reports.inputs.model_report import Report
-from reports.inputs.ranges import read_ranges, split_ranges
+from reports.inputs.sections.masses import MassesSection
+from reports.inputs.sections.reference import ReferenceSection
+from reports.inputs.sections.report import Report
 from reports.inputs.source import read_text, refuse_bomb, refused
+from reports.shared.errors import InputError, Problem, one_line
 
 MAX_PROBLEMS = 200
 
@@ -139,14 +140,14 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
         reader.empty |= {("crankshaft", key) for key in FOLLOWING}
     models = reader.sections(data)
     further = reader.regimes(regimes)
-    reader.take(checks.check(reader.values))
+    reader.take(cross_checks.check(reader.values))
     if reader.problems:
         raise InputError(_capped(source, reader.problems, reader.uncounted))
     parts = cast(dict[str, Any], models)
     model = InputFile(**parts, regimes=further)
     if model.cycle is not None:
         # Only a file with a cycle pays for the numeric part.
-        from reports.inputs.cycle import cycle_findings
+        from reports.inputs.to_si.cycle import cycle_findings
 
         reader.take(cycle_findings(model))
         if reader.problems:

@@ -7,10 +7,10 @@ from dataclasses import replace
 from typing import Any
 
 from reports.inputs import messages
-from reports.inputs.checks_gas import check_gas
+from reports.inputs.checks.gas import check_gas
 from reports.inputs.findings import Finding, Path, Values
 from reports.inputs.meta import Strictly
-from reports.inputs.model import CycleGasSection, RegimeSection, RegimeValues
+from reports.inputs.sections.input_file import CycleGasSection, RegimeSection, RegimeValues
 
 MOST_REGIMES = 4
 

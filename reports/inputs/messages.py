@@ -9,10 +9,13 @@ from collections.abc import Iterable
 
 from pydantic_core import ErrorDetails
 
-from reports import units
-from reports.errors import one_line
+from reports.inputs import units
 from reports.inputs.meta import MAX_TEXT, Meta, Strictly, find_meta, hints, submodel
-from reports.inputs.model import (
+from reports.inputs.sections.articulated import ArticulatedSection
+from reports.inputs.sections.crankshaft import ArmsSection, CrankshaftSection, WebSection
+from reports.inputs.sections.cycle import CycleSection
+from reports.inputs.sections.gas import RoundedGasSection
+from reports.inputs.sections.input_file import (
     Calculation,
     CycleGasSection,
     EngineSection,
@@ -21,13 +24,10 @@ from reports.inputs.model import (
     Regime,
     TableGasSection,
 )
-from reports.inputs.model_articulated import ArticulatedSection
-from reports.inputs.model_crankshaft import ArmsSection, CrankshaftSection, WebSection
-from reports.inputs.model_cycle import CycleSection
-from reports.inputs.model_gas import RoundedGasSection
-from reports.inputs.model_masses import MassesSection
-from reports.inputs.model_reference import ReferenceSection
-from reports.inputs.model_report import Report
+from reports.inputs.sections.masses import MassesSection
+from reports.inputs.sections.reference import ReferenceSection
+from reports.inputs.sections.report import Report
+from reports.shared.errors import one_line
 
 _HOMES: dict[str, tuple[type[Strictly], ...]] = {
     "[report]": (Report,),

@@ -12,8 +12,8 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler
 from pydantic_core import CoreSchema, PydanticCustomError, PydanticKnownError, core_schema
 
-from reports import units
-from reports.units import Unit
+from reports.inputs import units
+from reports.inputs.units import Unit
 
 MAX_TEXT = 300
 _REFUSED = {"Cc", "Cs", "Cn", "Zl", "Zp"}

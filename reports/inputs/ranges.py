@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from reports.errors import Problem, one_line
+from reports.shared.errors import Problem, one_line
 
 SECTION = "variants"
 MAX_VALUES = 100_000

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from reports import files
-from reports.errors import InputError, Problem, one_line
+from reports.shared import files
+from reports.shared.errors import InputError, Problem, one_line
 
 MAX_BYTES = 2_000_000
 MAX_LINES = 20_000

@@ -10,16 +10,16 @@ from typing import Any
 import tomlkit
 from tomlkit.items import Table
 
-from reports.errors import InputError, Problem
 from reports.inputs.fields import SECTIONS
 from reports.inputs.load import SECTION_MODELS
 from reports.inputs.messages import likely_word, shown
 from reports.inputs.meta import Meta, Strictly, find_meta, hints, submodel
-from reports.inputs.model import PolytropicGasSection
-from reports.inputs.model_articulated import ArticulatedSection
-from reports.inputs.model_cycle import CycleSection
-from reports.inputs.model_reference import ReferenceSection
-from reports.resources import samples_dir
+from reports.inputs.sections.articulated import ArticulatedSection
+from reports.inputs.sections.cycle import CycleSection
+from reports.inputs.sections.input_file import PolytropicGasSection
+from reports.inputs.sections.reference import ReferenceSection
+from reports.shared.errors import InputError, Problem
+from reports.shared.resources import samples_dir
 
 _KEPT = ("title", "year", "frame", "detail")  # how the report is set, not who wrote it
 BLANK_SAMPLE = "gots-diesel"

@@ -15,8 +15,8 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from reports.errors import SystemPartMissing
 from reports.recalculation.protocol import Book, formula_cells, row_and_column
+from reports.shared.errors import SystemPartMissing
 
 INSTALL = "sudo apt-get install -y libreoffice-calc-nogui python3-uno"
 

@@ -3,26 +3,26 @@
 from __future__ import annotations
 
 from reports.inputs.fields import iter_fields
-from reports.inputs.model import InputFile
-from reports.tables import mechanism
-from reports.tables.charts import charts
-from reports.tables.companions import companion_blocks, companion_charts
-from reports.tables.comparison import comparison_blocks, comparison_charts
-from reports.tables.cycle import process_blocks
-from reports.tables.cycle_results import result_blocks
-from reports.tables.cycle_speed import cycle_charts, speed_blocks
-from reports.tables.cylinder import cylinder_blocks
-from reports.tables.journals import journal_blocks
-from reports.tables.offset import offset_tables
-from reports.tables.regimes import regime_models
-from reports.tables.rename import substituted
-from reports.tables.rod_masses import mass_blocks, stand_ins
-from reports.tables.scheme import scheme_blocks, scheme_charts
-from reports.tables.shape import Shape
-from reports.tables.spec import Block, ChartSpec, Model
-from reports.tables.summary import summary_blocks
-from reports.tables.torques import torque_tables
-from reports.tables.wear import wear_blocks
+from reports.inputs.sections.input_file import InputFile
+from reports.spec.blocks import Block, ChartSpec, Model
+from reports.spec.rename import substituted
+from reports.spec.shape import Shape
+from reports.tables.gas.cycle import process_blocks
+from reports.tables.gas.cycle_results import result_blocks
+from reports.tables.gas.cycle_speed import cycle_charts, speed_blocks
+from reports.tables.loads.comparison import comparison_blocks, comparison_charts
+from reports.tables.loads.cylinder import cylinder_blocks
+from reports.tables.loads.journals import journal_blocks
+from reports.tables.loads.regimes import regime_models
+from reports.tables.loads.torques import torque_tables
+from reports.tables.loads.wear import wear_blocks
+from reports.tables.motion import mechanism
+from reports.tables.motion.offset import offset_tables
+from reports.tables.motion.rod_masses import mass_blocks, stand_ins
+from reports.tables.overview.charts import charts
+from reports.tables.overview.companions import companion_blocks, companion_charts
+from reports.tables.overview.scheme import scheme_blocks, scheme_charts
+from reports.tables.overview.summary import summary_blocks
 
 
 def angle_rows(step_deg: int, last: int) -> tuple[float, ...]:

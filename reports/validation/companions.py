@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 
-from kshm import dimensionless, harmonics, kinematics
+from kshm.mechanics import dimensionless, harmonics, kinematics
 from reports.validation.checks import Lookup
 from reports.validation.gots_text import minutes
 

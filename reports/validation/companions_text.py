@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from kshm import dimensionless, harmonics, reduced_inertia, rod_model, torque_harmonics
+from kshm.mechanics import dimensionless, harmonics, reduced_inertia, rod_model, torque_harmonics
 from reports.validation.checks import UNKNOWN
 from reports.validation.gots_text import Number
 from reports.validation.runs import solution

@@ -8,16 +8,17 @@ from typing import Any
 
 import numpy as np
 
-from kshm import kinematics, solve
-from kshm.cycle_names import value_of
-from kshm.engine import Geometry
-from kshm.solution import Solution
-from reports.inputs.convert import to_engine
+from kshm import solve
+from kshm.cycle.names import value_of
+from kshm.engine.engine import Geometry
+from kshm.mechanics import kinematics
+from kshm.results.solution import Solution
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_toml
-from reports.resources import samples_dir
+from reports.inputs.to_si.engine import to_engine
+from reports.shared.resources import samples_dir
+from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
-from reports.tables.values import evaluate_model
 from reports.validation.checks import Lookup, Ours
 from reports.validation.runs import DINN_STEP, listing, solution
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 
-from reports.exports import neutralised
+from reports.exports.numbers import neutralised
 from reports.validation.book import WORDS, Book
 from reports.validation.checks import Check
 from reports.validation.registry import SHORT

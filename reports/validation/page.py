@@ -8,9 +8,9 @@ from typing import Literal
 
 from markupsafe import Markup
 
-from reports.document.blocks import Column, DocumentInfo, TableBlock, table_block
-from reports.document.numbering import Heading, Label, Numbering
-from reports.document.texts import rich, spaces_inside
+from reports.document.page.blocks import Column, DocumentInfo, TableBlock, table_block
+from reports.document.page.numbering import Heading, Label, Numbering
+from reports.document.text.texts import rich, spaces_inside
 from reports.validation import shown
 from reports.validation.book import WORDS, Book, Checked, Counts
 from reports.validation.checks import Check, Verdict
@@ -92,7 +92,7 @@ class _Setter:
 
 def validation_page(book: Book, *, media: Literal["print", "screen"]) -> str:
     """The whole page with style sheet and fonts inside."""
-    from reports.document.render import environment
+    from reports.document.page.render import environment
 
     setter = _Setter()
     heading = setter.numbering.section(1, "Итоги", numbered=False)
@@ -119,8 +119,8 @@ def validation_pdf(book: Book) -> bytes:
         SystemPartMissing: pango is not on this machine.
         RenderError: the page could not be set as the template says.
     """
-    from reports.doctor import need_pango
-    from reports.document.render import render_pdf
+    from reports.document.page.render import render_pdf
+    from reports.shared.doctor import need_pango
 
     need_pango()
     return render_pdf(validation_page(book, media="print"))

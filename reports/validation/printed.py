@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
-from kshm.cycle_names import OUTPUTS
-from reports.resources import validation_dir
+from kshm.cycle.names import OUTPUTS
+from reports.shared.resources import validation_dir
 
 _MINUTES = re.compile(r"(\d+) (\d\d)")
 _FRACTION = re.compile(r"(\d+)/(\d+)")

@@ -10,15 +10,15 @@ from typing import Any
 import numpy as np
 
 from kshm import solve
-from kshm.cycle import Listing, cycle
-from kshm.cycle_fuel import FUELS
-from kshm.cycle_model import Boost, CycleInputs
-from kshm.cycle_names import INPUTS
-from kshm.cycle_result import Cycle
-from kshm.solution import Solution
-from reports.inputs.convert import to_engine
+from kshm.cycle.cycle import Listing, cycle
+from kshm.cycle.fuel import FUELS
+from kshm.cycle.inputs import Boost, CycleInputs
+from kshm.cycle.names import INPUTS
+from kshm.cycle.result import Cycle
+from kshm.results.solution import Solution
 from reports.inputs.load import load_toml
-from reports.resources import samples_dir
+from reports.inputs.to_si.engine import to_engine
+from reports.shared.resources import samples_dir
 from reports.validation.checks import Lookup, Ours
 from reports.validation.printed import rows_of
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Literal
 
-from reports.errors import SystemPartMissing
-from reports.files import make_dir, write_bytes, write_text
-from reports.progress import Progress
+from reports.shared.errors import SystemPartMissing
+from reports.shared.files import make_dir, write_bytes, write_text
+from reports.shared.progress import Progress
 from reports.validation.book import Book, validate
 from reports.validation.listing import listing
 from reports.validation.page import validation_page, validation_pdf

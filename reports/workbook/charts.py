@@ -22,11 +22,11 @@ from openpyxl.drawing.text import (
     RegularTextRun,
 )
 
-from kshm.nomenclature import quantity
-from reports.layout import Layout
-from reports.tables.spec import ChartSpec
-from reports.tables.spec import Series as SeriesSpec
-from reports.tables.values import Values
+from kshm.nomenclature.quantity import quantity
+from reports.spec.blocks import ChartSpec
+from reports.spec.blocks import Series as SeriesSpec
+from reports.spec.evaluation import Values
+from reports.workbook.layout import Layout
 
 WIDE, HIGH = 16.0, 7.6  # cm
 SQUARE = 14.0

@@ -6,7 +6,9 @@ from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.inputs.fields import Field
-from reports.layout import (
+from reports.spec.blocks import Model
+from reports.workbook import styles
+from reports.workbook.layout import (
     KEY_COLUMN,
     SOURCE_COLUMN,
     SYMBOL_COLUMN,
@@ -15,8 +17,6 @@ from reports.layout import (
     VALUE_COLUMN,
     Layout,
 )
-from reports.tables.spec import Model
-from reports.workbook import styles
 
 
 def write_inputs(sheet: Worksheet, model: Model, layout: Layout) -> None:

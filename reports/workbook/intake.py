@@ -8,7 +8,7 @@ import zlib
 from pathlib import Path
 from typing import NoReturn
 
-from reports.errors import InputError, Problem
+from reports.shared.errors import InputError, Problem
 from reports.workbook.package import Package
 
 MAX_FILE = 30 * 2**20

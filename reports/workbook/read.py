@@ -13,10 +13,10 @@ import warnings
 from pathlib import Path
 from typing import Any
 
-from reports.errors import InputError, Problem
 from reports.inputs.load import Loaded, load_mapping
-from reports.layout import INPUT_SHEET, quoted
+from reports.shared.errors import InputError, Problem
 from reports.workbook.intake import check_package
+from reports.workbook.layout import INPUT_SHEET, quoted
 
 _ADDRESS = re.compile(r"\$?([A-Z]{1,3})\$?([0-9]+)")
 _LISTS = {

@@ -9,9 +9,12 @@ from math import ceil
 from openpyxl.comments import Comment
 from openpyxl.worksheet.worksheet import Worksheet
 
-from kshm.nomenclature import Quantity
+from kshm.nomenclature.quantity import Quantity
 from reports.formula.excel import compile_formula
-from reports.layout import (
+from reports.spec.blocks import Grid, Scalar, ScalarTable, TableSpec
+from reports.spec.evaluation import Values
+from reports.workbook import styles
+from reports.workbook.layout import (
     FIRST_ROW,
     HEADER_ROW,
     NUMBER_ROW,
@@ -24,9 +27,6 @@ from reports.layout import (
     RowReferences,
     at_row,
 )
-from reports.tables.spec import Grid, Scalar, ScalarTable, TableSpec
-from reports.tables.values import Values
-from reports.workbook import styles
 
 # Characters of a line in the columns of titles and sources, height of a line [pt].
 _TITLE_CHARS, _SOURCE_CHARS, _LINE_HEIGHT = 58, 24, 15

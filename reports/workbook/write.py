@@ -19,8 +19,16 @@ from openpyxl.worksheet.pagebreak import Break
 from openpyxl.worksheet.worksheet import Worksheet
 from openpyxl.writer.excel import ExcelWriter
 
-from reports.files import temporary_failure
-from reports.layout import (
+from reports.shared.files import temporary_failure
+from reports.spec.blocks import Grid, Model, ScalarTable, TableSpec
+from reports.spec.evaluation import Values, evaluate_model
+from reports.tables.gas.cycle_names import SHEET as CYCLE_SHEET
+from reports.tables.gas.cycle_speed import INSIDE, OUTSIDE, RANGE_SHEET
+from reports.workbook import styles
+from reports.workbook.caches import finish
+from reports.workbook.charts import make_chart, ranges_of, size
+from reports.workbook.inputs import write_inputs
+from reports.workbook.layout import (
     CONTENTS_SHEET,
     FIRST_ROW,
     HEADER_ROW,
@@ -35,14 +43,6 @@ from reports.layout import (
     check_names,
     quoted,
 )
-from reports.tables.cycle_names import SHEET as CYCLE_SHEET
-from reports.tables.cycle_speed import INSIDE, OUTSIDE, RANGE_SHEET
-from reports.tables.spec import Grid, Model, ScalarTable, TableSpec
-from reports.tables.values import Values, evaluate_model
-from reports.workbook import styles
-from reports.workbook.caches import finish
-from reports.workbook.charts import make_chart, ranges_of, size
-from reports.workbook.inputs import write_inputs
 from reports.workbook.sheets import CacheValues, Writer
 
 _ROW_CM = 0.53

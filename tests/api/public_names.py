@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import kshm
 from kshm import solve
-from reports.inputs.convert import to_engine
+from reports.inputs.to_si.engine import to_engine
 from tests.conftest import sample, sample_names
 
 

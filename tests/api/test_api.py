@@ -13,7 +13,7 @@ import pytest
 
 import kshm
 from kshm import end_mass, in_line, points, polytropic, quantity, solve, throw
-from reports.inputs.convert import to_engine
+from reports.inputs.to_si.engine import to_engine
 from tests.api.public_names import lines
 from tests.conftest import sample
 from tests.manual.pages import DOCS, ROOT, blocks

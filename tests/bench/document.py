@@ -7,7 +7,7 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from reports.resources import samples_dir
+from reports.shared.resources import samples_dir
 from tests.bench._figure import Figure, costs
 from tests.bench._process import kshm, run
 from tests.document.pdftools import poppler

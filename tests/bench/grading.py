@@ -14,10 +14,10 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from reports.grading.issue import assignment_for, issue
-from reports.grading.register import Register
+from reports.grading.issuing.issue import assignment_for, issue
+from reports.grading.issuing.register import Register
 from reports.recalculation.by_libreoffice import LibreOffice
-from reports.resources import samples_dir
+from reports.shared.resources import samples_dir
 from tests.bench._figure import Figure, costs
 from tests.bench._process import Cost, kshm, run
 from tests.grading.fill import filled_book

@@ -18,12 +18,12 @@ from dataclasses import replace
 import numpy as np
 
 from kshm import solve
-from kshm.batch import stack
-from kshm.engine import Engine
-from kshm.solver import chunk_size, solve_batch, solve_chunks, solve_stacked
-from reports.inputs.convert import to_engine
+from kshm.chain.solve import chunk_size, solve_batch, solve_chunks, solve_stacked
+from kshm.chain.stack import stack
+from kshm.engine.engine import Engine
 from reports.inputs.load import load_toml
-from reports.resources import samples_dir
+from reports.inputs.to_si.engine import to_engine
+from reports.shared.resources import samples_dir
 from tests.bench._figure import Figure, interleaved, median, memory, ratio
 
 SIDE = 10  # values of each of four keys

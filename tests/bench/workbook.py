@@ -18,10 +18,10 @@ import openpyxl
 import xlsxwriter
 
 from reports.inputs.load import load_toml
-from reports.resources import samples_dir
+from reports.shared.resources import samples_dir
+from reports.spec.blocks import Model
+from reports.spec.evaluation import Values, evaluate_model
 from reports.tables.registry import build_model
-from reports.tables.spec import Model
-from reports.tables.values import Values, evaluate_model
 from reports.workbook.write import workbook_bytes
 from tests.bench._figure import Figure, interleaved, median, memory, ratio
 

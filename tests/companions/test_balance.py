@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from kshm import balance, dimensionless, firing_orders, solve
-from kshm.engine import Engine
-from kshm.inertia import point_masses
-from kshm.solver import solve_batch
+from kshm import solve
+from kshm.chain import firing_orders
+from kshm.chain.solve import solve_batch
+from kshm.engine.engine import Engine
+from kshm.mechanics import balance, dimensionless
+from kshm.mechanics.masses import point_masses
 from tests.kshm.engines import basic_engines
 from tests.textbook.book import solution
 

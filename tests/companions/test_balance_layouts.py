@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from kshm import balance, firing_orders, kinematics
-from kshm.inertia import point_masses
-from reports.inputs.convert import to_engine
+from kshm.chain import firing_orders
+from kshm.mechanics import balance, kinematics
+from kshm.mechanics.masses import point_masses
+from reports.inputs.to_si.engine import to_engine
 from tests.layouts import MAKERS, made
 
 NAMES = ("four", "v_six", "v_apart", "split", "opposed_four", "two_stroke", "two_stroke_v")

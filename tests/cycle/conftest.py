@@ -3,7 +3,7 @@
 import pytest
 from cycle_engines import ENGINES
 
-from kshm.cycle_model import CycleInputs
+from kshm.cycle.inputs import CycleInputs
 
 
 @pytest.fixture(params=sorted(ENGINES))

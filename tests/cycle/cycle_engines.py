@@ -3,8 +3,8 @@
 import math
 from dataclasses import replace
 
-from kshm.cycle_fuel import FUELS
-from kshm.cycle_model import Boost, CycleInputs
+from kshm.cycle.fuel import FUELS
+from kshm.cycle.inputs import Boost, CycleInputs
 
 
 def turbo_diesel() -> CycleInputs:

@@ -6,7 +6,7 @@ from typing import Any
 
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.inputs.model import InputFile
+from reports.inputs.sections.input_file import InputFile
 from tests.conftest import sample
 
 SAMPLES = ("cycle-turbo-diesel", "cycle-tractor-diesel", "cycle-petrol", "cycle-turbo-petrol")

@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import pytest
 
-from kshm.cycle import CycleError, Listing, cycle
-from kshm.cycle_design import bore_for, design, round_to_series
-from kshm.cycle_model import FRICTION
+from kshm.cycle.cycle import CycleError, Listing, cycle
+from kshm.cycle.design import bore_for, design, round_to_series
+from kshm.cycle.inputs import FRICTION
 
 LAWS = {"diesel": FRICTION["diesel"], "petrol": FRICTION["petrol_injection"]}
 

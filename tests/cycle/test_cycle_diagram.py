@@ -6,14 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from kshm.cycle import CycleError, Listing, cycle
-from kshm.cycle_diagram import (
-    indicator_diagram,
-    isobar_angle,
-    polytropic_gas,
-    tabulated_gas,
-)
-from kshm.gas import tabulated_pressure
+from kshm.cycle.cycle import CycleError, Listing, cycle
+from kshm.cycle.diagram import indicator_diagram, isobar_angle, polytropic_gas, tabulated_gas
+from kshm.mechanics.polytropes import tabulated_pressure
 
 
 def test_corners(engine):

@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from kshm.cycle import Listing, cycle
-from kshm.cycle_balance import cycle_energy, heat_balance
-from kshm.cycle_diagram import indicator_diagram
-from kshm.cycle_heat import AIR, R_GAS, SPECIES, ZERO_C, mixture_heat, temperature_of
+from kshm.cycle.cycle import Listing, cycle
+from kshm.cycle.diagram import indicator_diagram
+from kshm.cycle.heat import AIR, R_GAS, SPECIES, ZERO_C, mixture_heat, temperature_of
+from kshm.cycle.heat_balance import cycle_energy, heat_balance
 
 
 def test_heat_in_is_work_and_heat_out(engine):

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import pytest
 
-from kshm.cycle import CycleError, Listing, cycle
-from kshm.cycle_errors import ru
-from kshm.cycle_fuel import FUELS
-from kshm.cycle_model import FrictionLaw
+from kshm.cycle.cycle import CycleError, Listing, cycle
+from kshm.cycle.errors import ru
+from kshm.cycle.fuel import FUELS
+from kshm.cycle.inputs import FrictionLaw
 
 NAN = float("nan")
 

@@ -7,10 +7,10 @@ from typing import Any
 
 import pytest
 
-from reports.errors import InputError
-from reports.inputs.convert import to_engine
-from reports.inputs.cycle import cycle_run
 from reports.inputs.load import load_mapping
+from reports.inputs.to_si.cycle import cycle_run
+from reports.inputs.to_si.engine import to_engine
+from reports.shared.errors import InputError
 from tests.conftest import sample
 from tests.cycle.cycle_engines import turbo_diesel
 from tests.cycle.cycle_files import GIVEN_SIZES, GONE, SAMPLES, loaded, raw_of

@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import pytest
 
-from kshm.cycle import CycleError, cycle
-from kshm.cycle_fuel import FUELS, burn
-from kshm.cycle_heat import AIR, ZERO_C, mixture_heat
-from kshm.cycle_process import compress, fill, ignite
+from kshm.cycle.cycle import CycleError, cycle
+from kshm.cycle.fuel import FUELS, burn
+from kshm.cycle.heat import AIR, ZERO_C, mixture_heat
+from kshm.cycle.processes import compress, fill, ignite
 
 ALPHAS = [10.0, 100.0, 1e4, 1e6]
 

@@ -5,10 +5,10 @@ from itertools import pairwise
 
 import pytest
 
-from kshm.cycle import CycleError, cycle
-from kshm.cycle_heat import AIR, R_GAS, ZERO_C
-from kshm.cycle_listing import plain_exponent
-from kshm.cycle_process import (
+from kshm.cycle.cycle import CycleError, cycle
+from kshm.cycle.dizdn_listing import plain_exponent
+from kshm.cycle.heat import AIR, R_GAS, ZERO_C
+from kshm.cycle.processes import (
     N1_PASSES,
     N1_START,
     N2_PASSES,
@@ -96,7 +96,7 @@ def test_n2_solves_its_own_equation_by_bisection(engine):
 
 
 def test_starved_of_passes_the_solver_says_so(engine, monkeypatch):
-    import kshm.cycle_process as process
+    import kshm.cycle.processes as process
 
     for name, symbol in (("N1_PASSES", "n_1"), ("N2_PASSES", "n_2")):
         with monkeypatch.context() as patch:

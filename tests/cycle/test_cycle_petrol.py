@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import pytest
 
-from kshm.cycle import cycle
-from kshm.cycle_balance import heat_balance
-from kshm.cycle_ranges import assess
+from kshm.cycle.cycle import cycle
+from kshm.cycle.heat_balance import heat_balance
+from kshm.cycle.usual_ranges import assess
 
 
 def test_sanity_figures(gasoline):

@@ -8,13 +8,13 @@ from cycle_engines import ENGINES
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from kshm.cycle import CycleError, cycle
-from kshm.cycle_balance import cycle_energy, heat_balance
-from kshm.cycle_design import design
-from kshm.cycle_diagram import indicator_diagram, tabulated_gas
-from kshm.cycle_fuel import FUELS
-from kshm.cycle_model import Boost
-from kshm.cycle_process import compress, fill
+from kshm.cycle.cycle import CycleError, cycle
+from kshm.cycle.design import design
+from kshm.cycle.diagram import indicator_diagram, tabulated_gas
+from kshm.cycle.fuel import FUELS
+from kshm.cycle.heat_balance import cycle_energy, heat_balance
+from kshm.cycle.inputs import Boost
+from kshm.cycle.processes import compress, fill
 
 
 def within(low, high):

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from kshm.cycle import cycle
-from kshm.cycle_names import EXTRA, INPUTS, OUTPUTS, value_of
-from kshm.cycle_ranges import RANGES, assess
+from kshm.cycle.cycle import cycle
+from kshm.cycle.names import EXTRA, INPUTS, OUTPUTS, value_of
+from kshm.cycle.usual_ranges import RANGES, assess
 
 
 def test_every_range_says_where_it_comes_from():

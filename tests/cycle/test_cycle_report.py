@@ -9,9 +9,9 @@ from unittest import mock
 import pytest
 
 from reports.document import report as report_module
-from reports.document.sections import closing, cycle
+from reports.document.chapters import closing, cycle
+from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
-from reports.tables.values import evaluate_model
 from tests.cycle.cycle_files import loaded
 
 

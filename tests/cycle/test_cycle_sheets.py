@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 from kshm import solve
-from kshm.cycle_process import N1_PASSES, N2_PASSES
-from reports.inputs.convert import to_engine
+from kshm.cycle.processes import N1_PASSES, N2_PASSES
 from reports.inputs.fields import iter_fields
-from reports.inputs.model import InputFile
-from reports.layout import Layout
+from reports.inputs.sections.input_file import InputFile
+from reports.inputs.to_si.engine import to_engine
 from reports.recalculation.by_formualizer import Formualizer
 from reports.recalculation.protocol import Book
+from reports.spec.evaluation import Values, evaluate_model
 from reports.tables.registry import build_model
-from reports.tables.values import Values, evaluate_model
+from reports.workbook.layout import Layout
 from reports.workbook.write import workbook_bytes
 from tests.cycle.cycle_files import SAMPLES, VARIANTS, loaded
 from tests.referee.changes import Change, type_into

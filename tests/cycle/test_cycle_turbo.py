@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from kshm.cycle import cycle
+from kshm.cycle.cycle import cycle
 
 BOOSTED = ["turbo_diesel", "turbo_petrol"]
 

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from kshm.cycle import CycleError
-from kshm.speed_characteristic import (
+from kshm.cycle.cycle import CycleError
+from kshm.cycle.speed_characteristic import (
     LEIDERMAN,
     Leiderman,
     curve,

@@ -7,12 +7,12 @@ from functools import lru_cache
 from pathlib import Path
 
 from reports.document import report
-from reports.document.render import Rendered, render
-from reports.document.terms import Terms
+from reports.document.page.render import Rendered, render
+from reports.document.text.terms import Terms
 from reports.inputs.load import load_text
-from reports.resources import samples_dir
+from reports.shared.resources import samples_dir
+from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
-from reports.tables.values import evaluate_model
 
 ONE = """
 [report]

@@ -3,9 +3,9 @@ import re
 
 import pytest
 
-from reports.document.mathsvg import Formula, FormulaError, formula, formula_lines, plain
-from reports.document.texsplit import balanced, break_points
-from reports.document.texwords import for_mathtext
+from reports.document.text.mathsvg import Formula, FormulaError, formula, formula_lines, plain
+from reports.document.text.texsplit import balanced, break_points
+from reports.document.text.texwords import for_mathtext
 
 LONG = (
     r"j_{\mathrm{п}}=r\omega^2\left(\cos\varphi+\lambda\cos2\varphi\right)"

@@ -1,6 +1,6 @@
 import pytest
 
-from reports.document.numbering import Numbering, NumberingError
+from reports.document.page.numbering import Numbering, NumberingError
 
 
 @pytest.fixture

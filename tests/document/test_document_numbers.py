@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reports.document import numbers
-from reports.document.numbers import MINUS, NBSP
+from reports.document.text import numbers
+from reports.document.text.numbers import MINUS, NBSP
 
 
 @pytest.mark.parametrize(

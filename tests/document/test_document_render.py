@@ -6,8 +6,7 @@ import pytest
 from pdftools import fonts_of, pages_of, poppler
 
 from reports.document.figures import Series, line_chart
-from reports.document.mathsvg import formula
-from reports.document.render import (
+from reports.document.page.render import (
     AttachedFile,
     RenderError,
     environment,
@@ -15,6 +14,7 @@ from reports.document.render import (
     render,
     render_pdf,
 )
+from reports.document.text.mathsvg import formula
 
 PAGE = """<!DOCTYPE html><html lang="ru"><head><title>Отчёт</title><style>
 {css} html{{font-family:STIXGeneral, STIXGeneralUpright}}</style>
@@ -109,7 +109,7 @@ HOSTILE = (
 
 def test_foreign_text_is_set_as_text(tmp_path):
     source = '{% extends "report/base.html.j2" %}{% block body %}<p>{{ text }}</p>{% endblock %}'
-    from reports.document.blocks import DocumentInfo
+    from reports.document.page.blocks import DocumentInfo
 
     html = (
         environment()
@@ -133,7 +133,7 @@ def test_unknown_names_are_refused():
 
 def test_templates_can_be_replaced(tmp_path):
     (tmp_path / "report.css.j2").write_text("p{color:#123456}", encoding="utf-8")
-    from reports.document.blocks import DocumentInfo
+    from reports.document.page.blocks import DocumentInfo
 
     template = environment(tmp_path).get_template("report/base.html.j2")
     html = template.render(doc=DocumentInfo("x"))
@@ -141,7 +141,7 @@ def test_templates_can_be_replaced(tmp_path):
 
 
 def test_print_ready_page_carries_its_fonts():
-    from reports.document.blocks import DocumentInfo
+    from reports.document.page.blocks import DocumentInfo
 
     template = environment(media="screen").get_template("report/base.html.j2")
     html = template.render(doc=DocumentInfo("x"))

@@ -5,7 +5,8 @@ from functools import partial
 
 import pytest
 
-from reports.document import drawing, mathsvg, store
+from reports.document.page import drawing, store
+from reports.document.text import mathsvg
 
 
 @pytest.fixture

@@ -1,6 +1,6 @@
 import pytest
 
-from reports.document.symbols import SymbolError, inline_html
+from reports.document.text.symbols import SymbolError, inline_html
 
 NB = "\u00a0"
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import pytest
 from pdftools import pages_of, poppler
 
-from reports.document.blocks import Column, DocumentInfo, TableBlock, table_block
-from reports.document.numbering import Label
-from reports.document.render import environment, render
+from reports.document.page.blocks import Column, DocumentInfo, TableBlock, table_block
+from reports.document.page.numbering import Label
+from reports.document.page.render import environment, render
 
 LONG = "Очень длинное название таблицы, которое занимает несколько строк над её головкой, " * 3
 GROUPED = [Column("i"), Column("K", group="Шейка"), Column("T", group="Шейка"), Column("R")]

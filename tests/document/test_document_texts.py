@@ -4,9 +4,10 @@ from hypothesis import strategies as st
 from markupsafe import Markup
 from pdftools import pages_of
 
-from reports.document import fonts, texts
-from reports.document.fonts import fonts_css
-from reports.document.render import render
+from reports.document.page import fonts
+from reports.document.page.fonts import fonts_css
+from reports.document.page.render import render
+from reports.document.text import texts
 
 
 def test_foreign_signs_become_a_box_and_controls_go():

@@ -158,8 +158,8 @@ def test_input_and_workbook_are_attached(tmp_path):
 
 
 def test_without_pango_it_says_so(monkeypatch, tmp_path):
-    from reports import doctor
-    from reports.errors import SystemPartMissing
+    from reports.shared import doctor
+    from reports.shared.errors import SystemPartMissing
 
     monkeypatch.setattr(doctor, "pango_loads", lambda: False)
     with pytest.raises(SystemPartMissing, match="pango"):

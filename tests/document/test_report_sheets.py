@@ -9,9 +9,9 @@ import pytest
 from pdftools import pages_of, poppler
 from report_samples import ONE, rendered, terms, terms_of
 
-from reports.document.render import render
+from reports.document.page.render import render
 from reports.document.report import report_html, report_page, report_pdf
-from reports.errors import InputError
+from reports.shared.errors import InputError
 
 DATA = """[report]
 student = "Иванов И. И."

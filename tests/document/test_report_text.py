@@ -8,13 +8,13 @@ import pytest
 from pdftools import fonts_of, pages_of
 from report_samples import ONE, html_page, terms, terms_of
 
-from reports.document import store
-from reports.document.drawing import Drawing
-from reports.document.mathsvg import formula, formula_lines
-from reports.document.render import render
+from reports.document.page import store
+from reports.document.page.drawing import Drawing
+from reports.document.page.render import render
+from reports.document.page.writer import Draft
 from reports.document.report import report_html, report_page
-from reports.document.terms import book_place, plain_number, unit_tex
-from reports.document.writer import Draft
+from reports.document.text.mathsvg import formula, formula_lines
+from reports.document.text.terms import book_place, plain_number, unit_tex
 from reports.formula.tex import NotPrintable
 
 HOSTILE = (

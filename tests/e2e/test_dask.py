@@ -10,15 +10,15 @@ from typing import Any
 
 import pytest
 
-from reports import ordered
 from reports.cli import main
-from reports.errors import KshmError
-from reports.grading import far as far_module
-from reports.grading.grade import Options as GradeOptions
-from reports.grading.grade import grade
-from reports.resources import samples_dir
-from reports.sweep import run as run_module
-from reports.sweep.run import Options, sweep
+from reports.grading.batch import far as far_module
+from reports.grading.batch.grade import Options as GradeOptions
+from reports.grading.batch.grade import grade
+from reports.shared import ordered
+from reports.shared.errors import KshmError
+from reports.shared.resources import samples_dir
+from reports.studies import run as run_module
+from reports.studies.run import Options, sweep
 from tests.grading import classroom
 from tests.grading.fill import filled_book
 

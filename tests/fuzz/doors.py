@@ -11,15 +11,15 @@ from functools import lru_cache
 from pathlib import Path
 
 from kshm import solve
-from reports.errors import KshmError
-from reports.grading.issue import assignment_for, issue
-from reports.grading.marking import Marker
-from reports.grading.pages import student_page
-from reports.grading.submissions import Submission
-from reports.inputs.convert import to_engine
+from reports.grading.issuing.issue import assignment_for, issue
+from reports.grading.judging.marking import Marker
+from reports.grading.pages.pages import student_page
+from reports.grading.reading.submissions import Submission
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import Loaded, load_mapping, load_toml
-from reports.resources import samples_dir
+from reports.inputs.to_si.engine import to_engine
+from reports.shared.errors import KshmError
+from reports.shared.resources import samples_dir
 from reports.tables.registry import build_model
 from reports.workbook.read import load_workbook_input
 from reports.workbook.write import workbook_bytes

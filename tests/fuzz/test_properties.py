@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from reports.inputs.fields import iter_fields, set_value, to_mapping
 from reports.inputs.load import load_toml
-from reports.resources import samples_dir
+from reports.shared.resources import samples_dir
 from tests.fuzz.doors import DOORS
 
 SAMPLES = ("gots-diesel", "cycle-turbo-diesel", "yamz-236", "gots-regimes", "gots-p43")

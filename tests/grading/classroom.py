@@ -6,13 +6,13 @@ from functools import lru_cache
 from pathlib import Path
 from tempfile import mkdtemp
 
-from reports.grading.issue import Result, assignment_for, issue
-from reports.grading.items import Assignment
-from reports.grading.marking import Marker
-from reports.grading.marking import Result as Marks
-from reports.grading.register import Issued, Register
-from reports.grading.submissions import Submission
-from reports.resources import samples_dir
+from reports.grading.issuing.issue import Result, assignment_for, issue
+from reports.grading.issuing.register import Issued, Register
+from reports.grading.judging.items import Assignment
+from reports.grading.judging.marking import Marker
+from reports.grading.judging.marking import Result as Marks
+from reports.grading.reading.submissions import Submission
+from reports.shared.resources import samples_dir
 
 RANGES = """
 [variants]

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 
 from openpyxl import Workbook
 
-from reports.grading.items import Assignment
-from reports.layout import Layout
-from reports.tables.values import Values
+from reports.grading.judging.items import Assignment
+from reports.spec.evaluation import Values
+from reports.workbook.layout import Layout
 from tests.grading.fill import Formula
 from tests.grading.forms import insert
 

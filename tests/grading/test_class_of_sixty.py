@@ -8,16 +8,16 @@ from tempfile import mkdtemp
 
 import pytest
 
-from reports.grading import handout
-from reports.grading.issue import assignment_for
-from reports.grading.items import Assignment
-from reports.grading.marking import Marker
-from reports.grading.register import Issued, Register
-from reports.grading.submissions import Submission
-from reports.layout import Cell, Layout
+from reports.grading.issuing import handout
+from reports.grading.issuing.issue import assignment_for
+from reports.grading.issuing.register import Issued, Register
+from reports.grading.judging.items import Assignment
+from reports.grading.judging.marking import Marker
+from reports.grading.reading.submissions import Submission
 from reports.recalculation.by_libreoffice import LibreOffice
-from reports.tables.spec import ChartSpec, TableSpec
-from reports.tables.values import Values, evaluate_model
+from reports.spec.blocks import ChartSpec, TableSpec
+from reports.spec.evaluation import Values, evaluate_model
+from reports.workbook.layout import Cell, Layout
 from tests.grading.classroom import issue_class
 from tests.grading.defects import DEFECTS, Defect
 from tests.grading.fill import filled_book, solved_formulas

@@ -13,11 +13,11 @@ from pathlib import Path
 
 import pytest
 
-from reports.errors import InputError
-from reports.grading.grade import Options, grade
-from reports.grading.marking import late_factor
-from reports.grading.rubric import rubric_of
-from reports.grading.submissions import collect
+from reports.grading.batch.grade import Options, grade
+from reports.grading.judging.marking import late_factor
+from reports.grading.judging.rubric import rubric_of
+from reports.grading.reading.submissions import collect
+from reports.shared.errors import InputError
 from tests.grading import classroom
 from tests.grading.fill import filled_book
 

@@ -10,9 +10,9 @@ import sys
 import time
 from pathlib import Path
 
-from reports.grading.grade import Options, grade
-from reports.grading.pool import DIED, grade_all
-from reports.grading.submissions import collect
+from reports.grading.batch.grade import Options, grade
+from reports.grading.batch.pool import DIED, grade_all
+from reports.grading.reading.submissions import collect
 from tests.grading import classroom
 from tests.grading.fill import filled_book
 from tests.grading.hostile import hostile_files
@@ -124,7 +124,7 @@ def test_files_that_exhaust_the_memory_do_not_end_the_batch(tmp_path):
 def test_the_worker_refuses_network_and_programs():
     code = (
         "import socket, subprocess\n"
-        "from reports.grading.worker import forbid_the_world\n"
+        "from reports.grading.batch.worker import forbid_the_world\n"
         "forbid_the_world()\n"
         "for act in (lambda: socket.create_connection(('127.0.0.1', 9)),\n"
         "            lambda: subprocess.run(['true'])):\n"

@@ -10,15 +10,15 @@ import zipfile
 import pytest
 from openpyxl import load_workbook
 
-from reports.build import load_input
-from reports.errors import InputError
-from reports.grading.issue import issue
-from reports.grading.register import load_register
-from reports.grading.roster import read_roster
-from reports.grading.rubric import Rubric, load_rubric
-from reports.resources import samples_dir
-from reports.tables.values import evaluate_model
-from reports.variants import draw_variants, load_base
+from reports.exports.build import load_input
+from reports.grading.issuing.issue import issue
+from reports.grading.issuing.register import load_register
+from reports.grading.issuing.roster import read_roster
+from reports.grading.issuing.variants import draw_variants, load_base
+from reports.grading.judging.rubric import Rubric, load_rubric
+from reports.shared.errors import InputError
+from reports.shared.resources import samples_dir
+from reports.spec.evaluation import evaluate_model
 from tests.grading import classroom
 
 PEOPLE = 'Фамилия;Имя;Группа\nИванов;Иван;ДВС-1\nПётр "Первый";Анна;ДВС-1\n'

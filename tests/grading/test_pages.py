@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from reports.grading.chart import line_chart
-from reports.grading.pages import number, student_page
+from reports.grading.pages.chart import line_chart
+from reports.grading.pages.pages import number, student_page
 from tests.grading import classroom
 from tests.grading.test_verdicts import formulas, graded, line
 

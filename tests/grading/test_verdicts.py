@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from reports.layout import Layout
+from reports.workbook.layout import Layout
 from tests.grading import classroom
 from tests.grading.fill import filled_book, solved_formulas
 
@@ -74,7 +74,7 @@ def test_a_usual_mistake_is_named(item, change, cause):
 
 def test_typed_numbers_are_told_from_formulas():
     values = classroom.marker().assignment(classroom.book())[0]
-    from reports.tables.values import evaluate_model
+    from reports.spec.evaluation import evaluate_model
 
     right = evaluate_model(values.model).columns["P3_1"]["v1_m_s"]
     result = graded({"P3_1.v1_m_s": [round(float(v), 2) for v in right]})

@@ -7,8 +7,8 @@ import stat
 
 import pytest
 
-from reports import files
-from reports.errors import OutputError
+from reports.shared import files
+from reports.shared.errors import OutputError
 
 
 def names(folder):

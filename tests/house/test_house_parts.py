@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from reports import doctor, progress, resources
-from reports.errors import InputError, KshmError, OutputError, Problem, SystemPartMissing
+from reports.shared import doctor, progress, resources
+from reports.shared.errors import InputError, KshmError, OutputError, Problem, SystemPartMissing
 
 ROOT = Path(__file__).parents[2]
 
@@ -100,7 +100,9 @@ def test_doctor_misses_libreoffice(monkeypatch):
         assert parts[name].install_command == doctor.OFFICE_COMMAND
 
 
-@pytest.mark.parametrize("module", ["reports.doctor", "reports.progress", "reports.inputs.load"])
+@pytest.mark.parametrize(
+    "module", ["reports.shared.doctor", "reports.shared.progress", "reports.inputs.load"]
+)
 def test_imports_stay_light(module):
     code = f"import sys, {module}; print(*sys.modules)"
     done = subprocess.run(

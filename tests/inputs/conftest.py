@@ -3,9 +3,9 @@ import tomllib
 
 import pytest
 
-from reports.errors import InputError
 from reports.inputs.load import load_mapping
-from reports.resources import samples_dir
+from reports.shared.errors import InputError
+from reports.shared.resources import samples_dir
 
 _DIESEL = tomllib.loads((samples_dir() / "gots-diesel.toml").read_text(encoding="utf-8"))
 

@@ -2,9 +2,9 @@
 
 import pytest
 
-from reports.errors import InputError
 from reports.inputs.fields import key_text
 from reports.inputs.load import load_mapping
+from reports.shared.errors import InputError
 
 
 def locate(path):

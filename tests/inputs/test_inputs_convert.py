@@ -4,11 +4,11 @@ import math
 
 import pytest
 
-from kshm.engine import DirectMasses, PolytropicGas, RodMasses, TabulatedGas, Web
-from reports import units
-from reports.inputs.convert import to_engine
+from kshm.engine.engine import DirectMasses, PolytropicGas, RodMasses, TabulatedGas, Web
+from reports.inputs import units
 from reports.inputs.load import load_mapping, load_toml
-from reports.resources import samples_dir
+from reports.inputs.to_si.engine import to_engine
+from reports.shared.resources import samples_dir
 
 
 def engine_of(raw):

@@ -8,7 +8,7 @@ import pytest
 from reports.inputs import fields
 from reports.inputs.load import load_mapping, load_toml
 from reports.inputs.template import list_samples
-from reports.resources import samples_dir
+from reports.shared.resources import samples_dir
 
 TABLE = {"source": "table", "points": [[0, 0.1], [180, 0.2], [720, 0.1]]}
 

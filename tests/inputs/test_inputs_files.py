@@ -5,10 +5,10 @@ import pathlib
 
 import pytest
 
-from reports.errors import InputError
 from reports.inputs.load import load_text, load_toml
 from reports.inputs.source import MAX_BYTES
-from reports.resources import samples_dir
+from reports.shared.errors import InputError
+from reports.shared.resources import samples_dir
 
 TEXT = (samples_dir() / "gots-diesel.toml").read_text(encoding="utf-8")
 CUT = "файл обрывается на середине записи; восстановите его конец"

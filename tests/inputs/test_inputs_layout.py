@@ -6,10 +6,10 @@ import math
 
 import pytest
 
-from reports.errors import InputError
-from reports.inputs.convert import to_engine
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
+from reports.inputs.to_si.engine import to_engine
+from reports.shared.errors import InputError
 from tests.conftest import sample
 from tests.layouts import MAKERS, in_line_four, v_six
 

@@ -5,13 +5,13 @@ from datetime import UTC, datetime
 
 import pytest
 
-from reports.errors import InputError
 from reports.inputs.fields import SECTIONS
 from reports.inputs.load import SECTION_MODELS, load_text
 from reports.inputs.meta import hints
-from reports.inputs.model import PolytropicGasSection
+from reports.inputs.sections.input_file import PolytropicGasSection
 from reports.inputs.template import list_samples, new_file
-from reports.resources import samples_dir
+from reports.shared.errors import InputError
+from reports.shared.resources import samples_dir
 
 
 def test_samples():

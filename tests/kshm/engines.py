@@ -6,7 +6,7 @@ import math
 
 from hypothesis import strategies as st
 
-from kshm.arrangement import (
+from kshm.engine.arrangement import (
     Arrangement,
     ArticulatedRod,
     in_line,
@@ -14,7 +14,7 @@ from kshm.arrangement import (
     throw_angle,
     v_shaped,
 )
-from kshm.engine import (
+from kshm.engine.engine import (
     Crankshaft,
     DirectMasses,
     EndMass,

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from kshm.solver import solve_batch
+from kshm.chain.solve import solve_batch
 from tests.textbook.book import solution
 
 

@@ -9,11 +9,12 @@ import numpy as np
 from hypothesis import given, settings
 from numpy.typing import NDArray
 
-from kshm import articulated, kinematics, solve
-from kshm.batch import stack
-from kshm.engine import EndMass, Engine
-from kshm.journals import positions
-from kshm.solver import BatchSolution, solve_batch
+from kshm import solve
+from kshm.chain.solve import BatchSolution, solve_batch
+from kshm.chain.stack import stack
+from kshm.engine.engine import EndMass, Engine
+from kshm.mechanics import articulated, kinematics
+from kshm.mechanics.journals import positions
 from tests.kshm.engines import engines
 
 Array = NDArray[np.float64]

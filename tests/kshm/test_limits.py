@@ -8,10 +8,10 @@ import numpy as np
 from hypothesis import given, settings
 
 from kshm import solve
-from kshm.arrangement import in_line, v_shaped
-from kshm.engine import DirectMasses, Engine, PolytropicGas
-from kshm.inertia import point_masses
-from kshm.solver import BatchSolution, solve_batch
+from kshm.chain.solve import BatchSolution, solve_batch
+from kshm.engine.arrangement import in_line, v_shaped
+from kshm.engine.engine import DirectMasses, Engine, PolytropicGas
+from kshm.mechanics.masses import point_masses
 from tests.kshm.engines import engines
 
 

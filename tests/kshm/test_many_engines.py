@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from kshm import wear
-from kshm.engine import Engine
-from kshm.solver import solve_batch, solve_chunks
-from reports.inputs.convert import to_engine
+from kshm.chain.solve import solve_batch, solve_chunks
+from kshm.engine.engine import Engine
+from kshm.mechanics import wear
+from reports.inputs.to_si.engine import to_engine
 from tests.conftest import sample
 
 FIELDS = ("torque_sum", "journal", "pin_load", "running_pin_statics", "pin_wear", "local_phi")

@@ -16,8 +16,8 @@ from pathlib import Path
 
 import pytest
 
-from reports.grading.issue import assignment_for
-from reports.grading.register import load_register
+from reports.grading.issuing.issue import assignment_for
+from reports.grading.issuing.register import load_register
 from tests.grading.fill import filled_book
 from tests.manual.pages import DOCS, PAGES, READMES, ROOT, blocks, commands
 
@@ -35,7 +35,7 @@ CHAINS = {
 _RUN = """#!/bin/sh
 if [ "$1" = docs ]; then
     shift
-    exec "{python}" -m reports.manual "{folder}/docs" "$@"
+    exec "{python}" -m tools.manual "{folder}/docs" "$@"
 fi
 exec "{python}" -m reports "$@"
 """

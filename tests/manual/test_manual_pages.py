@@ -10,13 +10,13 @@ from reports.inputs.fields import SECTIONS
 from reports.inputs.load import GAS_MODELS, SECTION_MODELS, load_toml
 from reports.inputs.meta import Strictly, hints, submodel
 from reports.inputs.template import list_samples
-from reports.manual.build import pages
-from reports.manual.links import broken_links, slug
-from reports.manual.site import write_site
-from reports.resources import samples_dir
+from reports.shared.resources import samples_dir
 from reports.tables.registry import build_model
 from tests.browser import measure
 from tests.manual.pages import DOCS, PAGES
+from tools.manual.build import pages
+from tools.manual.links import broken_links, slug
+from tools.manual.site import write_site
 
 
 def test_generated_pages_are_current():

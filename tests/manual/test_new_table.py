@@ -10,10 +10,10 @@ from pathlib import Path
 import openpyxl
 import pytest
 
-from reports.grading import issue
-from reports.grading.issue import assignment_for
-from reports.grading.marking import Marker
-from reports.grading.submissions import Submission
+from reports.grading.issuing import issue
+from reports.grading.issuing.issue import assignment_for
+from reports.grading.judging.marking import Marker
+from reports.grading.reading.submissions import Submission
 from reports.recalculation.by_formualizer import Formualizer
 from reports.tables.registry import build_model
 from tests.grading.classroom import issue_class

@@ -10,13 +10,13 @@ from dataclasses import dataclass
 
 from lxml import etree
 
-from reports.errors import InputError
 from reports.inputs.fields import Field, iter_fields, set_value, to_mapping
 from reports.inputs.load import load_mapping
-from reports.inputs.model import InputFile
-from reports.layout import Layout
+from reports.inputs.sections.input_file import InputFile
+from reports.shared.errors import InputError
 from reports.tables.registry import build_model
 from reports.workbook.caches import sheet_parts
+from reports.workbook.layout import Layout
 
 # Angles that fix each other: changing one alone is refused.
 _PHASES = (

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from kshm import solve
-from reports.inputs.convert import to_engine
-from reports.inputs.model import InputFile
-from reports.layout import FIRST_ROW, Layout
+from reports.inputs.sections.input_file import InputFile
+from reports.inputs.to_si.engine import to_engine
 from reports.recalculation.protocol import Book, cached_values
+from reports.spec.blocks import Model
 from reports.tables.registry import build_model
-from reports.tables.spec import Model
+from reports.workbook.layout import FIRST_ROW, Layout
 
 TOLERANCE = 1e-9
 

@@ -11,12 +11,12 @@ import pytest
 
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.inputs.model import InputFile
+from reports.inputs.sections.input_file import InputFile
 from reports.recalculation.by_formualizer import Formualizer
 from reports.recalculation.by_libreoffice import LibreOffice
 from reports.recalculation.protocol import formula_cells
+from reports.spec.blocks import Model
 from reports.tables.registry import build_model
-from reports.tables.spec import Model
 from reports.workbook.caches import sheet_parts
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample, sample_names

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from reports.resources import samples_dir
+from reports.shared.resources import samples_dir
 
 ROOT = Path(__file__).parents[2]
 _RUSSIAN = re.compile("[а-яё]", re.IGNORECASE)

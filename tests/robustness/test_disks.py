@@ -75,7 +75,7 @@ def test_every_step_of_writing_may_fail(tmp_path, monkeypatch, number, place, co
         monkeypatch.setattr(Path, "replace", fail)
     else:
         owner = {"open": os.open, "fsync": os.fsync}[place].__name__
-        monkeypatch.setattr(f"reports.files.os.{owner}", fail)
+        monkeypatch.setattr(f"reports.shared.files.os.{owner}", fail)
     done = CliRunner().invoke(main, ["solve", str(source), *command])
     assert done.exit_code == 2, done.output
     (line,) = done.stderr.splitlines()

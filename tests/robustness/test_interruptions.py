@@ -12,7 +12,7 @@ from types import FrameType
 
 import pytest
 
-from reports import files, interrupt
+from reports.shared import files, interrupt
 from tests.robustness.command import leftovers, small_input, started
 
 OLD, NEW = b"old" * 1000, b"new" * 2000

@@ -13,17 +13,17 @@ import openpyxl
 import pytest
 
 from kshm import solve
-from kshm.summary import first_extreme
-from reports import ordered
+from kshm.results.summary import first_extreme
 from reports.cli import main
-from reports.errors import InputError, KshmError
-from reports.inputs.convert import to_engine
 from reports.inputs.fields import set_value, to_mapping
 from reports.inputs.load import load_mapping
-from reports.resources import samples_dir
-from reports.sweep import run as run_module
-from reports.sweep.plan import make_plan
-from reports.sweep.run import Options, Studied, sweep
+from reports.inputs.to_si.engine import to_engine
+from reports.shared import ordered
+from reports.shared.errors import InputError, KshmError
+from reports.shared.resources import samples_dir
+from reports.studies import run as run_module
+from reports.studies.plan import make_plan
+from reports.studies.run import Options, Studied, sweep
 from tests.conftest import sample
 
 BASE = samples_dir() / "gots-diesel.toml"

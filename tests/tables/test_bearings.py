@@ -9,15 +9,15 @@ import pytest
 from hypothesis import given, settings
 
 from kshm import solve
-from kshm.engine import Engine
-from kshm.inertia import point_masses
-from reports.inputs.convert import to_engine
+from kshm.engine.engine import Engine
+from kshm.mechanics.masses import point_masses
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.inputs.model import InputFile
+from reports.inputs.sections.input_file import InputFile
+from reports.inputs.to_si.engine import to_engine
 from reports.recalculation.by_formualizer import Formualizer
+from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
-from reports.tables.values import evaluate_model
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
 from tests.kshm.engines import engines

@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 
 from kshm import solve
-from kshm.diagram import periodic_nodes
-from reports.errors import InputError
-from reports.inputs.convert import to_engine
+from kshm.mechanics.cubic_diagrams import periodic_nodes
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_toml
-from reports.inputs.model import InputFile
+from reports.inputs.sections.input_file import InputFile
+from reports.inputs.to_si.engine import to_engine
 from reports.recalculation.by_formualizer import Formualizer
 from reports.recalculation.by_libreoffice import LibreOffice
+from reports.shared.errors import InputError
+from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
-from reports.tables.values import evaluate_model
 from reports.workbook.read import load_workbook_input
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample, samples_dir
@@ -91,7 +91,7 @@ def test_no_corner_but_at_top_dead_centre() -> None:
     """The slope changes little from one tenth of a degree to the next at every join."""
     from dataclasses import replace
 
-    from kshm.diagram import engine_pressure
+    from kshm.mechanics.cubic_diagrams import engine_pressure
 
     engine = to_engine(made(PETROL, 9.5))
     gas = engine.gas

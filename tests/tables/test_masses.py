@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from kshm.masses import (
+from kshm.engine.masses import (
     GRAVITY,
     Swinging,
     pendulum_inertia,
@@ -16,12 +16,12 @@ from kshm.masses import (
     three_masses,
     two_mass_inertia,
 )
-from reports.errors import InputError
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import Loaded, load_mapping
 from reports.recalculation.by_formualizer import Formualizer
+from reports.shared.errors import InputError
+from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
-from reports.tables.values import evaluate_model
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
 from tests.referee.compare import differences_from_caches, differences_from_solver, errors_in

@@ -12,14 +12,14 @@ import pytest
 from openpyxl import load_workbook
 
 from kshm import solve
-from reports.errors import InputError
-from reports.inputs.convert import to_engine
 from reports.inputs.fields import iter_fields, to_mapping
 from reports.inputs.load import load_mapping
-from reports.inputs.model import InputFile
+from reports.inputs.sections.input_file import InputFile
+from reports.inputs.to_si.engine import to_engine
 from reports.recalculation.by_formualizer import Formualizer
+from reports.shared.errors import InputError
+from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
-from reports.tables.values import evaluate_model
 from reports.workbook.read import load_workbook_input
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample

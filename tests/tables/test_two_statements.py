@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from kshm import solve
-from reports.inputs.convert import to_engine
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.inputs.model import InputFile
+from reports.inputs.sections.input_file import InputFile
+from reports.inputs.to_si.engine import to_engine
+from reports.spec.blocks import Model, TableSpec
+from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
-from reports.tables.spec import Model, TableSpec
-from reports.tables.values import evaluate_model
 from tests.conftest import sample, sample_names
 from tests.layouts import MAKERS, made
 

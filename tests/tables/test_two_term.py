@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from kshm import solve
-from reports.inputs.convert import to_engine
+from reports.inputs.to_si.engine import to_engine
 from tests.conftest import sample
 
 

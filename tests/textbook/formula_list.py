@@ -123,12 +123,12 @@ def _sources(tree: ast.Module) -> Iterator[str]:
 def places() -> dict[int, tuple[list[str], list[str]]]:
     """Number → functions of the solver, modules of the tables that name it."""
     found: dict[int, tuple[list[str], list[str]]] = {n: ([], []) for n in range(1, LAST + 1)}
-    for path in sorted((ROOT / "kshm").glob("*.py")):
+    for path in sorted((ROOT / "kshm").rglob("*.py")):
         tree = ast.parse(path.read_text(encoding="utf-8"))
         for name, text in _docstrings(tree):
             for number in numbers(text.replace("\n", " ")):
                 found[number][0].append(f"{path.stem}.{name}")
-    for path in sorted((ROOT / "reports" / "tables").glob("*.py")):
+    for path in sorted((ROOT / "reports" / "tables").rglob("*.py")):
         tree = ast.parse(path.read_text(encoding="utf-8"))
         for number in {n for text in _sources(tree) for n in numbers(text)}:
             found[number][1].append(path.stem)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from kshm import kinematics
+from kshm.mechanics import kinematics
 from tests.textbook.book import beyond, checks, ours, recorded
 
 R = np.array(0.05)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from kshm import kinematics
-from kshm.engine import Geometry
+from kshm.engine.engine import Geometry
+from kshm.mechanics import kinematics
 from tests.textbook.book import beyond, checks, recorded
 
 THIRD, FIFTH = np.array(1 / 3), np.array(0.2)

@@ -10,10 +10,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from kshm.cycle import Listing, cycle
-from kshm.cycle_design import design
-from kshm.cycle_diagram import indicator_diagram
-from kshm.cycle_names import INPUTS, OUTPUTS, value_of
+from kshm.cycle.cycle import Listing, cycle
+from kshm.cycle.design import design
+from kshm.cycle.diagram import indicator_diagram
+from kshm.cycle.names import INPUTS, OUTPUTS, value_of
 from reports.validation.checks import Verdict
 from reports.validation.runs import printed_inputs
 from tests.textbook.book import beyond, checks, ours, recorded, rows_of, tolerance_of

@@ -14,8 +14,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from kshm import balance, harmonics, solve, torque_harmonics
-from kshm.engine import Engine
+from kshm import solve
+from kshm.engine.engine import Engine
+from kshm.mechanics import balance, harmonics, torque_harmonics
 from tests.kshm.engines import basic_engines
 from tests.textbook.book import beyond, checks, recorded, solution
 

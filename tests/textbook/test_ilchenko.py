@@ -16,10 +16,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from kshm import dimensionless, reduced_inertia, rod_model, solve, speed_fluctuation
-from kshm.balance import is_balanced_by_orders
-from kshm.engine import Engine
-from kshm.reduced_inertia import Parts
+from kshm import solve
+from kshm.engine.engine import Engine
+from kshm.mechanics import dimensionless, reduced_inertia, rod_model, speed_fluctuation
+from kshm.mechanics.balance import is_balanced_by_orders
+from kshm.mechanics.reduced_inertia import Parts
 from tests.conftest import sample_names
 from tests.kshm.engines import basic_engines
 from tests.textbook.book import beyond, checks, recorded, solution

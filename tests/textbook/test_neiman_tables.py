@@ -16,7 +16,7 @@ from math import comb
 import numpy as np
 import pytest
 
-from kshm import dimensionless, harmonics
+from kshm.mechanics import dimensionless, harmonics
 from reports.validation.companions import neiman_multiples, neiman_speeds
 from tests.textbook.book import (
     beyond,

@@ -11,8 +11,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from kshm import dimensionless as segal
-from kshm.solution import Solution
+from kshm.mechanics import dimensionless as segal
+from kshm.results.solution import Solution
 from tests.textbook.book import beyond, checks, ours, recorded, solution, tolerance_of
 
 

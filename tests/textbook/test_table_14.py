@@ -5,7 +5,7 @@ The forces belong to another engine; the table checks the windows and the sums.
 
 import numpy as np
 
-from kshm.wear import ray_loads
+from kshm.mechanics.wear import ray_loads
 from reports.validation.checks import Verdict
 from tests.textbook.book import beyond, checks, recorded
 

@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner
 
 from reports import cli
-from reports.resources import validation_dir
+from reports.shared.resources import validation_dir
 from reports.validation import checks, write
 from reports.validation.book import WORDS, Book, Checked, validate
 from reports.validation.checks import Verdict, check_table
@@ -155,7 +155,7 @@ def test_an_unrecorded_deviation_needs_a_person(
 
 
 def test_without_pango_the_rest_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from reports import doctor
+    from reports.shared import doctor
 
     monkeypatch.setattr(doctor, "pango_loads", lambda: False)
     monkeypatch.setattr(write, "validate", small)

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from lxml import etree
 
 from reports.formula.parse import SCALES, parse
-from reports.tables.spec import Model, TableSpec, scalars_of
+from reports.spec.blocks import Model, TableSpec, scalars_of
 
 C = "{http://schemas.openxmlformats.org/drawingml/2006/chart}"
 A = "{http://schemas.openxmlformats.org/drawingml/2006/main}"

@@ -8,8 +8,8 @@ from functools import lru_cache
 
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
+from reports.spec.blocks import Model
 from reports.tables.registry import build_model
-from reports.tables.spec import Model
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
 

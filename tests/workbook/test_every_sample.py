@@ -12,7 +12,7 @@ import pytest
 from lxml import etree
 
 from reports.inputs.fields import to_mapping
-from reports.inputs.model import InputFile
+from reports.inputs.sections.input_file import InputFile
 from reports.tables.registry import build_model
 from reports.workbook.caches import sheet_parts
 from reports.workbook.read import load_workbook_input

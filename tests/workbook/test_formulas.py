@@ -12,7 +12,7 @@ from openpyxl import load_workbook
 from reports.formula.excel import compile_formula
 from reports.formula.numeric import evaluate
 from reports.formula.parse import FormulaError, names, parse
-from reports.layout import INPUT_SHEET, Layout
+from reports.workbook.layout import INPUT_SHEET, Layout
 from tests.workbook.lint import MAIN, formula_problems, literals
 from tests.workbook.made import book, model, parts
 

@@ -7,7 +7,7 @@ import pytest
 
 from reports.formula.excel import compile_formula
 from reports.formula.numeric import evaluate
-from reports.layout import Layout, RowReferences, at_row
+from reports.workbook.layout import Layout, RowReferences, at_row
 from tests.workbook.made import model
 
 DEGREES = np.arange(0.0, 721.0, 10.0)

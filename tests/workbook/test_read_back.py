@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from openpyxl import load_workbook
 
-from reports.errors import InputError
 from reports.inputs.fields import to_mapping
-from reports.layout import Layout
+from reports.shared.errors import InputError
+from reports.workbook.layout import Layout
 from reports.workbook.read import load_workbook_input
 from tests.conftest import sample
 from tests.workbook.made import book, coarse_book, coarse_model

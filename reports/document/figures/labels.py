@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.document.texts import raised
-from reports.document.texwords import for_mathtext
+from reports.document.text.texts import raised
+from reports.document.text.texwords import for_mathtext
 
 Points = NDArray[np.float64]
 

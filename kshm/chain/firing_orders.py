@@ -1,0 +1,116 @@
+"""Firing orders that a given crankshaft allows, by evenness, torque orders and journal load.
+
+Inertia forces repeat every turn: they are the same for all firing orders of a shaft.
+What differs is the evenness of the power strokes, the low torque orders (1/2, 1, …)
+that shake the shaft, and the load on the main journals.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kshm.engine.engine import Engine
+
+Array = NDArray[np.float64]
+MAX_CYLINDERS = 7  # 64 orders; more throws have too many to list
+
+
+@dataclass(frozen=True, slots=True)
+class FiringOrder:
+    """One firing order of a shaft and its figures."""
+
+    order: tuple[int, ...]
+    offsets: tuple[float, ...]  # θ_i [rad]
+    unevenness: float  # (greatest − smallest interval)/mean interval
+    half_order: float  # |Σ exp(−iθ/2)|: cylinders that excite order 1/2 together
+    journal_load: float  # greatest load of a main journal [N]
+
+
+def dead_centres(engine: Engine) -> Array:
+    """Shaft angles [rad] at which the cylinders' pins lie along their axes, one each."""
+    throws = engine.crankshaft.throws
+    return np.array([c.axis - c.pin_angle - throws[c.throw].angle for c in engine.arrangement])
+
+
+def offsets_table(starts: Array) -> Array:
+    """Firing offsets [rad] of all orders, shape (2^(cylinders − 1), cylinders).
+
+    Cylinder i fires with its pin at TDC, see ``dead_centres``, in the first or second
+    turn of the cycle; cylinder 1 always in the first.
+    """
+    base = np.mod(starts, 2 * np.pi)
+    base = np.where(np.isclose(base, 2 * np.pi, atol=1e-9), 0.0, base)
+    count = len(base)
+    variants = np.arange(2 ** (count - 1))[:, None]
+    turn = np.where(np.arange(count) == 0, 0, variants >> np.maximum(np.arange(count) - 1, 0) & 1)
+    table: Array = base + 2 * np.pi * turn
+    return table
+
+
+def intervals(offsets: Array) -> Array:
+    """Intervals between power strokes [rad] of each row of firing offsets, four-stroke."""
+    ordered = np.sort(offsets, axis=-1)
+    following = np.concatenate([ordered[..., 1:], ordered[..., :1] + 4 * np.pi], axis=-1)
+    gaps: Array = following - ordered
+    return gaps
+
+
+def unevenness(offsets: Array) -> Array:
+    """(Greatest − smallest interval)/mean interval [-], zero for even firing."""
+    gaps = intervals(offsets)
+    spread: Array = np.ptp(gaps, axis=-1) / gaps.mean(axis=-1)
+    return spread
+
+
+def order_sum(offsets: Array, order: float) -> Array:
+    """|Σ exp(−i·order·θ)|: how many cylinders excite a torque order together [-]."""
+    size: Array = np.abs(np.exp(-1j * order * offsets).sum(axis=-1))
+    return size
+
+
+def sequence(offsets: Array) -> tuple[int, ...]:
+    """Cylinder numbers in the order in which they fire."""
+    rounded = np.round(offsets, 9)
+    return tuple(int(i) + 1 for i in np.lexsort((np.arange(len(offsets)), rounded)))
+
+
+def journal_loads(engine: Engine, table: Array) -> Array:
+    """Greatest load of a main journal [N] for every row of firing offsets."""
+    from kshm.chain.solve import solve_batch
+
+    engines = [replace(engine, firing_offsets=tuple(row), force_offsets=None) for row in table]
+    loads: Array = solve_batch(engines).journal_load.max(axis=(1, 2))
+    return loads * engine.geometry.piston_area
+
+
+def rank_firing_orders(engine: Engine) -> tuple[FiringOrder, ...]:
+    """All firing orders of the engine's crankshaft, the best first.
+
+    Sorted by evenness, then by the sum of order 1/2, then by the greatest load of a
+    main journal.
+
+    Raises:
+        ValueError: more cylinders than orders can be listed for, or two strokes, which
+            leave no choice.
+    """
+    if engine.strokes != 4:
+        msg = "a two-stroke engine has one firing order"
+        raise ValueError(msg)
+    if engine.cylinders > MAX_CYLINDERS:
+        msg = f"firing orders are listed for up to {MAX_CYLINDERS} cylinders"
+        raise ValueError(msg)
+    table = offsets_table(dead_centres(engine))
+    loads = journal_loads(engine, table)
+    rough, half = unevenness(table), order_sum(table, 0.5)
+    found = [
+        FiringOrder(sequence(row), tuple(row), float(a), float(b), float(load))
+        for row, a, b, load in zip(table, rough, half, loads, strict=True)
+    ]
+    return tuple(
+        sorted(
+            found, key=lambda f: (round(f.unevenness, 6), round(f.half_order, 6), f.journal_load)
+        )
+    )

@@ -1,0 +1,236 @@
+"""Engines of one structure stacked into arrays, so that one pass solves them all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from operator import attrgetter
+from typing import Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kshm.engine.arrangement import Arrangement, ArticulatedRod, Cylinder
+from kshm.engine.engine import Engine, Geometry, PolytropicGas
+from kshm.mechanics.articulated import Linkage
+from kshm.mechanics.journals import ThrowArrays
+from kshm.mechanics.masses import point_masses
+from kshm.mechanics.polytropes import PolytropicArrays
+
+Array = NDArray[np.float64]
+Part = TypeVar("Part")
+
+
+@dataclass(frozen=True, slots=True)
+class Batch:
+    """Engines × cylinders × angles: every array has three axes unless said otherwise."""
+
+    engines: tuple[Engine, ...]
+    phi: Array  # (1, 1, angles) over the whole cycle, last = first + period
+    r: Array  # (engines, 1, 1), as all scalars below
+    lam: Array
+    eps: Array
+    area: Array
+    omega: Array
+    m_j: Array
+    m_2: Array
+    m_k: Array
+    exact: NDArray[np.bool_]
+    k: Array  # relative offset e/r
+    piston_stroke: Array
+    theta: Array  # (engines, cylinders, 1), (1, cylinders, 1) if equal in all engines
+    force_theta: Array
+    axis: Array  # of the cylinder from that of cylinder 1, (engines, cylinders, 1)
+    pin_angle: Array  # of the split pin's half, (engines, cylinders, 1)
+    pin_mass: Array  # m_2 that turns with the crankpin, (engines, cylinders, 1)
+    arrangement: Arrangement
+    articulated: ArticulatedArrays | None
+    p_ambient: Array
+    gas: PolytropicArrays | None  # None: tables of points
+    throws: ThrowArrays
+    rays: int
+
+
+@dataclass(frozen=True, slots=True)
+class ArticulatedArrays:
+    """Articulated rods of all engines, (engines, 1, 1) as the scalars of ``Batch``."""
+
+    link: Linkage
+    reciprocating: Array
+    big_end: Array
+    cylinders: tuple[int, ...]  # those that hang on others
+    masters: tuple[int, ...]
+
+
+def structure(engine: Engine) -> tuple[object, ...]:
+    """What must be equal for engines to be solved in one batch."""
+    return (
+        engine.cylinders,
+        engine.strokes,
+        engine.step_deg,
+        engine.rays,
+        len(engine.crankshaft.throws),
+        type(engine.gas),
+        tuple((c.throw, c.rod_place, c.pin, c.master) for c in engine.arrangement),
+    )
+
+
+def stack(engines: Sequence[Engine]) -> Batch:
+    """Stack engines of one structure.
+
+    Raises:
+        ValueError: the engines differ in structure or there are none.
+    """
+    if not engines:
+        msg = "no engines to solve"
+        raise ValueError(msg)
+    if len({structure(engine) for engine in _one_of_each_kind(engines)}) > 1:
+        msg = "engines of one batch must have one structure: layout, strokes, step, rays, gas"
+        raise ValueError(msg)
+    first = engines[0]
+    geometry = _Parts([engine.geometry for engine in engines])
+    arrangement = _Parts([engine.arrangement for engine in engines])
+    throws = _stack_throws(engines)
+    degrees = np.arange(0, first.strokes * 180 + first.step_deg, first.step_deg, dtype=float)
+    theta = _Parts([engine.firing_offsets for engine in engines]).values(lambda t: t)
+    forced = _Parts([e.force_offsets or e.firing_offsets for e in engines]).values(lambda t: t)
+    masses = np.array([point_masses(e.masses, e.geometry.rod_length) for e in engines])
+    m_j, m_2 = masses[:, 0, None, None], masses[:, 1, None, None]
+
+    def scalars(get: Callable[[Engine], float]) -> Array:
+        return np.array([get(engine) for engine in engines])[:, None, None]
+
+    def of_geometry(get: Callable[[Geometry], float]) -> Array:
+        return geometry.values(get)[:, None, None]
+
+    def per_cylinder(get: Callable[[Cylinder], float]) -> Array:
+        return arrangement.values(lambda cylinders: [get(c) for c in cylinders])[:, :, None]
+
+    return Batch(
+        engines=tuple(engines),
+        phi=np.radians(degrees)[None, None, :],
+        r=of_geometry(lambda g: g.crank_radius),
+        lam=of_geometry(lambda g: g.lam),
+        eps=of_geometry(lambda g: g.compression_ratio),
+        area=of_geometry(lambda g: g.piston_area),
+        omega=scalars(lambda e: e.omega),
+        m_j=m_j,
+        m_2=m_2,
+        m_k=(throws.pin_mass + throws.web_mass.sum(axis=-1))[:, :1, None],
+        exact=np.array([engine.method == "exact" for engine in engines])[:, None, None],
+        k=of_geometry(lambda g: g.relative_offset),
+        piston_stroke=of_geometry(lambda g: g.stroke),
+        theta=_common(theta)[:, :, None],
+        force_theta=_common(forced)[:, :, None],
+        axis=per_cylinder(lambda c: c.axis),
+        pin_angle=per_cylinder(lambda c: c.pin_angle),
+        pin_mass=m_2 * per_cylinder(lambda c: float(c.master is None)),
+        arrangement=first.arrangement,
+        articulated=_stack_articulated(engines),
+        p_ambient=scalars(lambda e: e.gas.p_ambient),
+        gas=_stack_gas(engines),
+        throws=throws,
+        rays=first.rays,
+    )
+
+
+class _Parts(Generic[Part]):
+    """One part of every engine; what engines share, as in a study of one key, is read once."""
+
+    def __init__(self, parts: Sequence[Part]) -> None:
+        self.distinct = {id(part): part for part in parts}
+        place = {key: number for number, key in enumerate(self.distinct)}
+        self._place = np.array([place[id(part)] for part in parts])
+
+    def values(self, get: Callable[[Part], object]) -> Array:
+        """What ``get`` gives for the part of every engine, engines first."""
+        values: Array = np.array([get(part) for part in self.distinct.values()], dtype=float)
+        each: Array = values[self._place]
+        return each
+
+
+def _one_of_each_kind(engines: Sequence[Engine]) -> Iterable[Engine]:
+    """Engines that differ in what their structure depends on; comparing all would be slow."""
+    return {
+        (e.cylinders, e.strokes, e.step_deg, e.rays, id(e.crankshaft), id(e.arrangement),
+         type(e.gas)): e
+        for e in engines
+    }.values()  # fmt: skip
+
+
+def _common(values: Array) -> Array:
+    """One row for all engines where they agree: what follows from it is computed once."""
+    return values[:1] if np.all(values == values[:1]) else values
+
+
+def _stack_articulated(engines: Sequence[Engine]) -> ArticulatedArrays | None:
+    first = engines[0]
+    pairs = [(i, c.master) for i, c in enumerate(first.arrangement) if c.master is not None]
+    rods = [(e, e.articulated) for e in engines if e.articulated is not None]
+    if not pairs:
+        return None
+    if len(rods) != len(engines):
+        msg = "the arrangement has articulated rods, the engine does not describe them"
+        raise ValueError(msg)
+    slave = pairs[0][0]
+
+    def scalars(get: Callable[[Engine, ArticulatedRod], float]) -> Array:
+        return np.array([get(engine, rod) for engine, rod in rods], dtype=float)[:, None, None]
+
+    link = Linkage(
+        r=scalars(lambda e, _: e.geometry.crank_radius),
+        rod_length=scalars(lambda e, _: e.geometry.rod_length),
+        offset=scalars(lambda e, _: e.geometry.offset),
+        bank=scalars(lambda e, _: e.arrangement[slave].axis),
+        radius=scalars(lambda _, rod: rod.radius),
+        angle=scalars(lambda _, rod: rod.angle),
+        own_length=scalars(lambda _, rod: rod.rod_length),
+    )
+    return ArticulatedArrays(
+        link,
+        reciprocating=scalars(lambda _, rod: rod.reciprocating),
+        big_end=scalars(lambda _, rod: rod.big_end),
+        cylinders=tuple(i for i, _ in pairs),
+        masters=tuple(master for _, master in pairs),
+    )
+
+
+def _stack_gas(engines: Sequence[Engine]) -> PolytropicArrays | None:
+    gases = [engine.gas for engine in engines]
+    if not all(isinstance(gas, PolytropicGas) for gas in gases):
+        return None
+    parts = _Parts(gases)
+    names = PolytropicArrays.__dataclass_fields__
+    columns = {name: _common(parts.values(attrgetter(name)))[:, None, None] for name in names}
+    return PolytropicArrays(**columns)
+
+
+def _stack_throws(engines: Sequence[Engine]) -> ThrowArrays:
+    shafts = _Parts([engine.crankshaft for engine in engines])
+
+    def per_web(name: str) -> Array:
+        get = attrgetter(name)
+        return shafts.values(lambda s: [(get(t.left_web), get(t.right_web)) for t in s.throws])
+
+    def per_throw(name: str) -> Array:
+        get = attrgetter(name)
+        return shafts.values(lambda s: [get(t) for t in s.throws])
+
+    def per_end(name: str) -> Array:
+        get = attrgetter(name)
+        return shafts.values(lambda s: (get(s.nose), get(s.rear)))
+
+    return ThrowArrays(
+        angle=per_throw("angle"),
+        arms=per_throw("arms"),
+        left_web_thickness=per_throw("left_web_thickness"),
+        right_web_thickness=per_throw("right_web_thickness"),
+        web_mass=per_web("mass"),
+        web_angle=per_web("angle"),
+        counterweight_mass=per_web("counterweight_mass"),
+        counterweight_angle=per_web("counterweight_angle"),
+        pin_mass=per_throw("pin_mass"),
+        end_mass=per_end("mass"),
+        end_angle=per_end("angle"),
+        end_arm=per_end("arm"),
+    )

@@ -1,0 +1,1 @@
+"""The working cycle after Grinevetsky and Mazing: an island of its own."""

@@ -1,0 +1,1 @@
+"""Mechanics as pure functions on arrays in SI units."""

@@ -1,0 +1,157 @@
+"""Reduced moment of inertia of the crank mechanism over the crank angle.
+
+@article{ilchenko2011,
+  author = {Ільченко, А. В. and Кубрак, Ю. О. and Ломакін, В. О.},
+  title  = {Приведений момент інерції кривошипно-шатунного механізма одноциліндрового
+            поршневого двигуна внутрішнього згоряння},
+  year   = {2011},
+}
+
+x_L is the distance of the rod's centre of mass from the piston pin: only with this
+reading does the paper's (11) stay near its (10).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kshm.engine.engine import Engine, RodMasses
+from kshm.mechanics import dimensionless
+
+Array = NDArray[np.float64]
+
+STEEL = 7800.0  # kg/m³
+_WEB_ALLOWANCE = 0.01  # m, in the height of the web under (34)
+
+
+@dataclass(frozen=True, slots=True)
+class Parts:
+    """Moving parts of one cylinder, SI units."""
+
+    radius: float
+    rod_length: float
+    crank_inertia: float  # I_к of one throw about the shaft
+    rod_mass: float
+    rod_centre: float  # x_L, from the piston pin
+    rod_inertia: float  # about the rod's own centre of mass
+    piston_mass: float
+
+    @property
+    def lam(self) -> float:
+        """λ = R/L [-]."""
+        return self.radius / self.rod_length
+
+
+def parts_of(engine: Engine) -> Parts:
+    """Parts of an engine; a rod that is not given follows from m_2 and the chosen share."""
+    geometry, choice, masses = engine.geometry, engine.balancing, engine.masses
+    length = geometry.rod_length
+    if isinstance(masses, RodMasses):
+        rod, centre, piston = masses.rod, masses.centre, masses.piston_group
+        known = masses.inertia
+    else:
+        share = choice.rod_small_end_share
+        rod = masses.rod_big_end / (1 - share)
+        centre, piston = (1 - share) * length, masses.reciprocating - share * rod
+        known = None
+    inertia = choice.rod_mass_factor * rod * centre * (length - centre)
+    return Parts(
+        radius=geometry.crank_radius,
+        rod_length=length,
+        crank_inertia=throw_inertia(engine),
+        rod_mass=rod,
+        rod_centre=centre,
+        rod_inertia=inertia if known is None else known,
+        piston_mass=piston,
+    )
+
+
+def throw_inertia(engine: Engine) -> float:
+    """Moment of inertia of one throw without counterweights [kg·m²], Ilchenko (32)-(35).
+
+    With d⁴ in (32), (33) and the web's thickness in (34), as dimensions demand; the main
+    journal is the mean one, half of it on either side.
+    """
+    shaft, r = engine.crankshaft, engine.geometry.crank_radius
+    bore, choice = engine.geometry.bore, engine.balancing
+    main_length = float(np.mean(shaft.main_lengths))
+    journals = cylinder_inertia(shaft.main_diameter, main_length)
+    pin_mass = STEEL * np.pi * shaft.pin_diameter**2 / 4 * shaft.pin_length
+    pin = cylinder_inertia(shaft.pin_diameter, shaft.pin_length) + pin_mass * r**2
+    height = r + (shaft.pin_diameter + shaft.main_diameter) / 2 + _WEB_ALLOWANCE
+    width, thickness = choice.web_width_share * bore, choice.web_thickness_share * bore
+    web_mass = STEEL * height * width * thickness
+    web = web_mass * ((height**2 + width**2) / 12 + r**2 / 4)
+    return float(journals + pin + 2 * web)
+
+
+def cylinder_inertia(diameter: float, length: float) -> float:
+    """Moment of inertia of a steel cylinder about its axis [kg·m²]."""
+    return STEEL * np.pi * diameter**4 / 32 * length
+
+
+def centre_speed(phi: Array, lam: float, share: float) -> Array:
+    """Speed of the rod's centre of mass over ωR [-], Ilchenko (10).
+
+    Args:
+        phi: crank angle [rad].
+        lam: λ [-].
+        share: distance of the centre from the crankpin over the rod length, (L − x_L)/L.
+    """
+    # Straight from the coordinates: the point divides pin and crankpin by ``share``.
+    across = (1 - share) * np.cos(phi)
+    along = (1 - share) * np.sin(phi) + share * dimensionless.velocity(phi, np.array(lam))
+    return np.hypot(along, across)
+
+
+def centre_speed_approx(phi: Array, share: float) -> Array:
+    """The paper's approximation of it, Ilchenko (11)."""
+    return np.abs(share * np.cos(phi) ** 2 - 1)
+
+
+def exact(phi: Array, parts: Parts) -> tuple[Array, Array]:
+    """Reduced inertia of the rod and of the piston 2T/ω² [kg·m²], exact."""
+    lam = np.array(parts.lam)
+    share = 1 - parts.rod_centre / parts.rod_length
+    turning = np.cos(phi) / np.sqrt(1 / lam**2 - np.sin(phi) ** 2)  # ω_ш/ω
+    centre = parts.radius * centre_speed(phi, parts.lam, share)
+    rod = parts.rod_mass * centre**2 + parts.rod_inertia * turning**2
+    piston = parts.piston_mass * (parts.radius * dimensionless.velocity(phi, lam)) ** 2
+    return rod, piston
+
+
+def approximate(phi: Array, parts: Parts) -> Array:
+    """Reduced inertia of one cylinder with its throw [kg·m²], Ilchenko (19) with m_п."""
+    lam, cosine = parts.lam, np.cos(phi)
+    share = 1 - parts.rod_centre / parts.rod_length
+    rod = parts.rod_mass * (parts.radius * (share * cosine**2 - 1)) ** 2
+    turning = parts.rod_inertia * (lam * cosine) ** 2
+    piston = parts.piston_mass * (parts.radius * np.sin(phi) * (1 + lam * cosine)) ** 2
+    result: Array = parts.crank_inertia + rod + turning + piston
+    return result
+
+
+def counterweight_inertia(engine: Engine) -> float:
+    """Least moment of inertia of all counterweights: masses reduced to R, at R [kg·m²]."""
+    shaft = engine.crankshaft
+    webs = [web for throw in shaft.throws for web in (throw.left_web, throw.right_web)]
+    mass = sum(web.counterweight_mass for web in webs) + shaft.nose.mass + shaft.rear.mass
+    return mass * engine.geometry.crank_radius**2
+
+
+def of_engine(phi: Array, engine: Engine) -> Array:
+    """Reduced inertia of the whole engine without flywheel [kg·m²]."""
+    parts = parts_of(engine)
+    phases = phi[None, :] - np.array(engine.firing_offsets)[:, None]
+    rod, piston = exact(phases, parts)
+    total: Array = (rod + piston).sum(axis=0)
+    throws = len(engine.crankshaft.throws)
+    return total + throws * parts.crank_inertia + counterweight_inertia(engine)
+
+
+def variation(values: Array) -> float:
+    """Coefficient δ_I = (I_max − I_min)/(I_max + I_min) [-]; the paper defines none."""
+    return float((values.max() - values.min()) / (values.max() + values.min()))

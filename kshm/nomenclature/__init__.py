@@ -1,0 +1,1 @@
+"""Key, symbol, unit, title and digits of every physical quantity."""

@@ -1,0 +1,1 @@
+"""From arrays to named quantities in the units of the tables."""

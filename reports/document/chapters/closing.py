@@ -1,0 +1,190 @@
+"""Checks, conclusions, bibliography and appendices."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from markupsafe import Markup
+
+from reports.document.chapters.chapter import BOOK, Chapter
+from reports.document.chapters.crankpin import least_ray
+from reports.document.chapters.torque import worst
+from reports.document.page.blocks import Column, TableBlock, table_block
+from reports.document.page.spec_tables import angle_table
+from reports.document.page.writer import TablePlan
+from reports.document.text.numbers import fixed
+from reports.document.text.terms import Terms
+from reports.spec.shape import Shape, rods_table
+from reports.tables.overview.summary import NO, YES
+
+SOURCES = (
+    (
+        BOOK,
+        "Гоц, А. Н. Кинематика и динамика кривошипно-шатунного механизма поршневых двигателей : "
+        "учебное пособие / А. Н. Гоц. — Владимир : Изд-во Владим. гос. ун-та, 2006. — 104 с. — "
+        "ISBN 5-89368-664-0. — Текст : непосредственный.",
+    ),
+    (
+        "vikhert",
+        "Вихерт, М. М. Конструкция и расчет автотракторных двигателей / М. М. Вихерт [и др.] ; "
+        "под редакцией Ю. А. Степанова. — 2-е изд., перераб. и доп. — Москва : Машиностроение, "
+        "1964. — 552 с. — Текст : непосредственный.",
+    ),
+    (
+        "gots_polar",
+        "Гоц, А. Н. Построение полярной диаграммы нагрузки на коренные шейки / А. Н. Гоц. — "
+        "Текст : непосредственный // Тракторы и сельскохозяйственные машины. — 2000. — № 6. — "
+        "С. 16–18.",
+    ),
+)  # fmt: skip
+
+SHORT_EVERY = 3  # rows of the tables over the crank angle in a short report
+
+
+def checks(chapter: Chapter) -> Markup:
+    """Table of checks and what the failed ones mean."""
+    terms = chapter.terms
+    keys = check_keys(terms)
+    plan = TablePlan(partial(_check_table, terms, keys), "Проверки расчёта", lined=True)
+    return chapter.page("checks.html.j2", plan=plan, failed=failed(terms), count=len(keys))
+
+
+def check_keys(terms: Terms) -> list[str]:
+    """Names of the checks in order."""
+    prefix = "check_"
+    return [k.removeprefix(prefix) for k in terms.model.scalars if k.startswith(prefix)]
+
+
+def failed(terms: Terms) -> list[tuple[str, str]]:
+    """Title and value of the checks that did not pass."""
+    return [
+        (terms.model.scalars[f"check_{key}"].note, _check_value(terms, key))
+        for key in check_keys(terms)
+        if terms.values.scalars[f"check_{key}"] == NO
+    ]
+
+
+def _check_value(terms: Terms, key: str) -> str:
+    value = terms.value(f"value_{key}")
+    return fixed(value, 2 if abs(value) >= 1 else 4)
+
+
+def _check_table(terms: Terms, keys: list[str]) -> TableBlock:
+    columns = (Column("Проверка", 6, text=True), Column("Значение", 1.5), Column("Выполнено", 1.5))
+    rows = []
+    for key in keys:
+        note = terms.model.scalars[f"check_{key}"].note
+        verdict = terms.values.scalars[f"check_{key}"]
+        shown = "да" if verdict == YES else "нет"
+        rows.append([note, _check_value(terms, key), shown])
+    return table_block(columns, rows)
+
+
+def conclusion(chapter: Chapter) -> Markup:
+    """Conclusions, each from numbers."""
+    terms, count = chapter.terms, chapter.input.engine.cylinders
+    return chapter.page(
+        "conclusion.html.j2",
+        count=count,
+        failed=failed(terms),
+        checks=len(check_keys(terms)),
+        load=worst(terms, "worst_main_load"),
+        main=worst(terms, "worst_main_torque"),
+        pin=worst(terms, "worst_pin_torque"),
+        ray=least_ray(terms, "hole_pin_ray"),
+        has_power=terms.has("T_ref"),
+        step=chapter.input.calculation.step_deg,
+        exact=chapter.input.calculation.method == "exact",
+        forced=chapter.input.crankshaft.force_offsets_deg is not None,
+        pz=_greatest_pressure(terms),
+    )
+
+
+def _greatest_pressure(terms: Terms) -> tuple[str, str]:
+    values = terms.column("gas.p_MPa")
+    row = int(values.argmax())
+    return fixed(float(values[row]), 2), fixed(terms.model.tables["gas"].rows[row], 0)
+
+
+def sources(chapter: Chapter) -> Markup:
+    """Bibliography."""
+    heading = chapter.writer.heading(1, "Библиографический список", numbered=False)
+    return heading + chapter.writer.sources(SOURCES)
+
+
+def appendices(chapter: Chapter) -> Markup:
+    """All tables over the crank angle: П3 in appendix А, П4 in appendix Б."""
+    terms, shape = chapter.terms, chapter.shape
+    tables, count = terms.model.tables, shape.cylinders
+    main = [
+        (
+            f"P4_3_{k}",
+            _plan(terms, f"P4_3_{k}", ["phi_deg", "Rx_MPa", "Ry_MPa", "R_MPa", "psiR_deg"]),
+        )
+        for k in range(1, shape.throws + 2)
+    ]
+    wear = tables["table_14"]
+    return chapter.page(
+        "appendices.html.j2",
+        kinematic=[(key, _plan(terms, key, number=number)) for key, number in _kinematic(shape)],
+        cylinder=[
+            ("gas", _plan(terms, "gas", number="П4.Г")),
+            ("P4_1", _plan(terms, "P4_1")),
+            ("P4_2", _plan(terms, "P4_2", size="dense" if count > 6 else "")),
+            *((key, _plan(terms, key, number=f"П4.{tables[key].number}")) for key in _loads(shape)),
+        ],
+        main=main,
+        running=[
+            (key, _plan(terms, key, _moments(terms, key), size="dense" if count > 6 else ""))
+            for key in ("P4_4", "P4_5", "P4_5s")
+        ],
+        rays=_plan(
+            terms, "table_14", number="П4.Л", size="tiny" if len(wear.columns) > 14 else "dense"
+        ),
+    )
+
+
+def _kinematic(shape: Shape) -> list[tuple[str, str | None]]:
+    """Tables of appendix А with the numbers of those that the book has not."""
+    found: list[tuple[str, str | None]] = [("P3_1", None), ("P3_2", None)]
+    if shape.offset:
+        found.append(("offset", "П3.Д"))
+    if shape.articulated:
+        found.append(("articulated", "П3.П"))
+    return found
+
+
+def _loads(shape: Shape) -> list[str]:
+    """Tables of the forces on throws and crankpins."""
+    pins = ["crankpin", *(f"crankpin_{n}" for n in range(2, len(shape.pins) + 1))]
+    if shape.single_rods:
+        return pins
+    return [*(rods_table(throw) for throw in range(1, shape.throws + 1)), *pins]
+
+
+def _moments(terms: Terms, table: str) -> list[str]:
+    """Columns of the running-on tables; the cylinders' own torques stand in П4.2."""
+    keys = [column.key for column in terms.model.tables[table].columns if not column.helper]
+    if len(keys) <= 8:
+        return keys
+    return [key for key in keys if key == "phi_deg" or key.startswith(("Mmain", "Mpin"))]
+
+
+def _plan(
+    terms: Terms,
+    key: str,
+    columns: list[str] | None = None,
+    *,
+    number: str | None = None,
+    size: str = "",
+) -> TablePlan:
+    spec = terms.model.tables[key]
+    build = partial(
+        angle_table,
+        terms,
+        key,
+        columns,
+        own_symbols=key in ("gas", "P4_1"),
+        every=SHORT_EVERY if terms.model.input.report.detail == "short" else 1,
+    )
+    return TablePlan(build, spec.title, number=number or spec.number, size=size)

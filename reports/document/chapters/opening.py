@@ -1,0 +1,156 @@
+"""Introduction and the tables of input data."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import partial
+
+from markupsafe import Markup
+
+from reports.document.chapters.chapter import Chapter
+from reports.document.chapters.layout import scheme_text
+from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
+from reports.document.page.spec_tables import list_block, unit_cell
+from reports.document.page.writer import TablePlan
+from reports.document.text.symbols import inline_html
+from reports.document.text.terms import input_text, plain_number
+from reports.formula.tex import input_symbol_tex
+from reports.inputs.fields import Field
+from reports.inputs.sections.input_file import InputFile, TableGasSection
+from reports.spec.shape import Shape
+from reports.tables.gas.diagram import is_smooth
+
+_LISTS = ("firing_offset_", "throw_angle_", "force_offset_", "web_", "gas_point_")
+_ARMS = ("l1", "l2", "l3", "l4", "l5", "l6", "left_web", "right_web")
+_LEFT_OUT = {"engine_name", "engine_layout", "engine_strokes"}
+_TITLES = {
+    "crankshaft_pin_diameter_mm": r"d_{\mathrm{ш.ш}}",
+    "crankshaft_pin_length_mm": r"l_{\mathrm{ш.ш}}",
+    "crankshaft_main_diameter_mm": r"d_{\mathrm{к.ш}}",
+    "crankshaft_pin_mass_kg": r"m_{\mathrm{ш.ш}}",
+}
+
+
+def introduction(chapter: Chapter) -> Markup:
+    """Introduction: what is computed and how."""
+    return chapter.page("introduction.html.j2")
+
+
+def input_data(chapter: Chapter) -> Markup:
+    """Tables of the input data."""
+    model = chapter.input
+    fields = chapter.model.inputs
+    plans = {
+        "inputs": TablePlan(partial(_general, fields), "Исходные данные для расчёта", size="dense"),
+        "phases": TablePlan(partial(_phases, fields, model), "Фазы работы цилиндров и углы колен"),
+        "webs": TablePlan(partial(_webs, fields), "Щёки и их противовесы", keep=True),
+        "arms": TablePlan(partial(_arms, fields), "Размеры колен, мм", size="dense", keep=True),
+        "points": TablePlan(partial(_points, model), "Точки индикаторной диаграммы"),
+    }
+    return chapter.page(
+        "inputs.html.j2",
+        plans=plans,
+        scheme=partial(scheme_text, chapter),
+        by_points=isinstance(model.gas, TableGasSection),
+        smooth=is_smooth(model),
+    )
+
+
+def _is_listed(field: Field) -> bool:
+    return field.name.startswith(_LISTS) or field.name.startswith("throw_")
+
+
+def _general(fields: Sequence[Field]) -> TableBlock:
+    rows = []
+    for field in fields:
+        if field.path[0] in ("report", "regimes") or field.name in _LEFT_OUT or _is_listed(field):
+            continue
+        tex = _TITLES.get(field.name) or input_symbol_tex(field.symbol)
+        symbol = inline_html(tex) if field.symbol else "—"
+        unit = "—" if field.choices is not None else unit_cell(field.unit)
+        rows.append([field.title, symbol, input_text(field), unit])
+    return list_block(rows)
+
+
+def _named(fields: Sequence[Field], pattern: str, count: int) -> Iterator[str]:
+    """Values of the fields ``pattern`` with the numbers 1 … count."""
+    values = {field.name: field.value for field in fields}
+    for number in range(1, count + 1):
+        yield plain_number(float(values[pattern.format(number)]))
+
+
+def _phases(fields: Sequence[Field], model: InputFile) -> TableBlock:
+    shape = Shape.of(model)
+    count, numbers = shape.cylinders, range(1, shape.cylinders + 1)
+    angles = list(_named(fields, "throw_angle_{}_deg", shape.throws))
+    columns = [
+        Column("Цилиндр" if shape.banks else "Цилиндр и колено"),
+        Column(symbol_head(r"\theta_i", "°")),
+        Column(symbol_head(r"\gamma_i", "°")),
+    ]
+    cells = [
+        [str(i) for i in numbers],
+        list(_named(fields, "firing_offset_{}_deg", count)),
+        [angles[shape.throw_of(i) - 1] for i in numbers],
+    ]
+    if shape.banks:
+        columns[1:1] = [Column("Ряд"), Column("Колено")]
+        banks = ["правый" if shape.is_right(i) else "левый" for i in numbers]
+        cells[1:1] = [banks, [str(shape.throw_of(i)) for i in numbers]]
+    if model.crankshaft.force_offsets_deg is not None:
+        columns.append(Column(symbol_head(r"\theta^{*}_i", "°")))
+        cells.append(list(_named(fields, "force_offset_{}_deg", count)))
+    return table_block(columns, list(zip(*cells, strict=True)))
+
+
+def _webs(fields: Sequence[Field]) -> TableBlock:
+    count = sum(field.name.endswith("_counterweight_kg") for field in fields)
+    keys: tuple[str, ...] = (
+        "mass_kg", "angle_deg", "counterweight_kg", "counterweight_angle_deg",
+    )  # fmt: skip
+    heads = (
+        (r"m_{\mathrm{щ}}", "кг"),
+        (r"\alpha_{\mathrm{щ}}", "°"),
+        (r"m_{\mathrm{пр}}", "кг"),
+        (r"\alpha_{\mathrm{пр}}", "°"),
+    )
+    columns = [Column("Щека"), *(Column(symbol_head(tex, unit)) for tex, unit in heads)]
+    names = {field.name for field in fields}
+    if "web_1_actual_mass_kg" in names:
+        keys = ("actual_mass_kg", "centre_mm", *keys[1:])
+        columns.insert(2, Column(symbol_head(r"\rho", "мм")))
+    elif "web_1_mass_kg" not in names:  # estimated: see the section on masses
+        keys, columns = keys[1:], [columns[0], *columns[2:]]
+    cells = [list(_named(fields, f"web_{{}}_{key}", count)) for key in keys]
+    return table_block(
+        columns, [[str(i), *row] for i, row in enumerate(zip(*cells, strict=True), 1)]
+    )
+
+
+def _arms(fields: Sequence[Field]) -> TableBlock:
+    count = sum(field.name.endswith("_l1_mm") for field in fields)
+    heads = [rf"l_{i}" for i in range(1, 7)] + [r"h_{\mathrm{Л}}", r"h_{\mathrm{П}}"]
+    columns = [Column("Колено", 1.3), *(Column(inline_html(tex)) for tex in heads)]
+    cells = [list(_named(fields, f"throw_{{}}_{key}_mm", count)) for key in _ARMS]
+    return table_block(
+        columns, [[str(i), *row] for i, row in enumerate(zip(*cells, strict=True), 1)]
+    )
+
+
+def _points(model: InputFile) -> TableBlock:
+    """Points in three pairs of columns, read down each pair."""
+    if not isinstance(model.gas, TableGasSection):
+        msg = "no table of points"
+        raise TypeError(msg)
+    texts = [(plain_number(angle), plain_number(p)) for angle, p in model.gas.points]
+    groups = 3 if len(texts) > 12 else 1
+    rows = -(-len(texts) // groups)
+    cells = [
+        [part for g in range(groups) for part in _at(texts, g * rows + row)] for row in range(rows)
+    ]
+    heads = [symbol_head(r"\varphi", "°"), symbol_head(r"p_{\mathrm{г}}", "МПа")]
+    return table_block([Column(head) for _ in range(groups) for head in heads], cells)
+
+
+def _at(texts: Sequence[tuple[str, str]], index: int) -> tuple[str, str]:
+    return texts[index] if index < len(texts) else ("", "")

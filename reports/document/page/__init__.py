@@ -1,0 +1,1 @@
+"""From templates to pages: numbering, tables, rendering."""

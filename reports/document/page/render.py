@@ -1,0 +1,276 @@
+"""From templates to HTML and from HTML to PDF, cut off from network and file system."""
+
+from __future__ import annotations
+
+import functools
+import gc
+import logging
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from markupsafe import Markup
+
+from reports.document.page import fonts
+from reports.document.text import texts
+
+if TYPE_CHECKING:
+    import weasyprint
+    from jinja2 import Environment
+    from weasyprint.urls import URLFetcher, URLFetcherResponse
+
+    from reports.document.text.mathsvg import Formula
+
+_EPOCH = datetime(2000, 1, 1, tzinfo=UTC)
+_GC_THRESHOLD = (200_000, 50, 100)
+_DATA_TYPES = ("data:image/png", "data:image/svg+xml", "data:image/jpeg")
+
+
+class RenderError(RuntimeError):
+    """WeasyPrint warned or refused: the PDF would not be what the template says."""
+
+
+@dataclass(frozen=True, slots=True)
+class AttachedFile:
+    """A file to put into the PDF: name, contents, what it is, relationship of PDF/A-3."""
+
+    name: str
+    data: bytes
+    description: str = ""
+    relationship: str = "Source"
+
+
+@dataclass(frozen=True, slots=True)
+class Rendered:
+    """A finished PDF with its page count and what WeasyPrint complained about."""
+
+    pdf: bytes
+    pages: int
+    warnings: tuple[str, ...]
+
+
+def render_pdf(
+    html: str,
+    *,
+    attachments: Iterable[AttachedFile] = (),
+    variant: str | None = "pdf/a-3b",
+    identifier: bytes | None = None,
+) -> bytes:
+    """Render a whole HTML page to PDF; the same text gives the same bytes.
+
+    Args:
+        html: The page with its CSS inside.
+        attachments: Files put into the PDF with a fixed date.
+        variant: PDF variant of WeasyPrint or ``None`` for a plain PDF.
+        identifier: File identifier; by default made from the page itself.
+
+    Raises:
+        RenderError: WeasyPrint logged a warning; the message holds all of them.
+        OSError: pango is missing on this machine.
+    """
+    result = render(html, attachments=attachments, variant=variant, identifier=identifier)
+    if result.warnings:
+        msg = "Вёрстка отчёта с замечаниями: " + "; ".join(result.warnings)
+        raise RenderError(msg)
+    return result.pdf
+
+
+def render(
+    html: str,
+    *,
+    attachments: Iterable[AttachedFile] = (),
+    variant: str | None = "pdf/a-3b",
+    identifier: bytes | None = None,
+) -> Rendered:
+    """Render like :func:`render_pdf`, handing the warnings back instead of raising."""
+    import weasyprint
+    from weasyprint.text.fonts import FontConfiguration
+
+    with _quiet_gc(), _warnings() as warnings:
+        page = weasyprint.HTML(string=html, base_url=None, url_fetcher=_fetcher())
+        # The same configuration for parsing and layout, or @font-face is dropped silently.
+        document = page.render(font_config=FontConfiguration(), pdf_variant=variant, pdf_tags=True)
+        pdf = document.write_pdf(
+            pdf_variant=variant,
+            pdf_tags=True,  # alternative texts stand in the tags
+            pdf_identifier=identifier or _identifier(html),
+            attachments=[_attachment(item) for item in attachments],
+        )
+    return Rendered(pdf, len(document.pages), tuple(warnings))
+
+
+def environment(
+    overrides: Path | None = None, *, media: Literal["print", "screen"] = "print"
+) -> Environment:
+    """Jinja environment of the templates: autoescape on, unknown names refused.
+
+    Every text put in is made printable first (no control characters, nothing that STIX
+    cannot show) and «мин⁻¹» gets a superscript; ``Markup`` passes as it is.  Texts inside of
+    attributes take the filter ``plain``.
+
+    Args:
+        overrides: A folder whose files replace templates of the same name; they may build
+            on the ones they replace, ``{% extends "kshm/report/cover.html.j2" %}``, and run
+            in Jinja's sandbox.
+        media: "print" writes long tables the way that is fast on paper and names the fonts by
+            ``kshm-font:``; "screen" writes plain tables and embeds the fonts.
+    """
+    import jinja2
+    from jinja2.sandbox import ImmutableSandboxedEnvironment
+
+    from reports.shared import resources
+
+    own = jinja2.FileSystemLoader(resources.templates_dir())
+    loaders: list[jinja2.BaseLoader] = [own]
+    if overrides is not None:
+        replaced = {"report": jinja2.FileSystemLoader(overrides), "kshm": own}
+        loaders.insert(0, jinja2.PrefixLoader(replaced))
+    kind = jinja2.Environment if overrides is None else ImmutableSandboxedEnvironment
+    result = kind(
+        loader=jinja2.ChoiceLoader(loaders),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        finalize=_finalize,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=False,
+    )
+    result.globals.update(_globals())
+    result.globals["media"] = media
+    result.filters["plain"] = texts.plain
+    result.filters["sym"] = _symbol
+    result.filters["titled"] = texts.titled
+    result.filters["tex"] = _formula
+    return result
+
+
+def fonts_css(*, embedded: bool = False) -> str:
+    """``@font-face`` rules of the report; see :func:`reports.document.page.fonts.fonts_css`."""
+    return fonts.fonts_css(embedded=embedded)
+
+
+def _globals() -> dict[str, Any]:
+    from reports.document.text import numbers
+
+    return {
+        "fonts_css": lambda embedded=False: Markup(fonts_css(embedded=embedded)),
+        "font_stack": Markup(fonts.STACK),
+        "fixed": numbers.fixed,
+        "significant": numbers.significant,
+        "power": numbers.power_html,
+        "number": numbers.auto_html,
+        "formula_lines": _formula_lines,
+        "nbsp": numbers.NBSP,
+    }
+
+
+def _finalize(value: object) -> object:
+    """What Jinja does to each value put in: foreign text is cleaned, markup is trusted."""
+    if isinstance(value, str) and not isinstance(value, Markup):
+        return texts.rich(value)
+    return value
+
+
+def _symbol(tex: str) -> Markup:
+    from reports.document.text.symbols import inline_html
+
+    return inline_html(str(tex))
+
+
+def _formula(tex: str) -> Markup:
+    from reports.document.text.mathsvg import formula
+
+    return Markup(formula(str(tex)).svg)
+
+
+def _formula_lines(tex: str | Formula, max_em: float = 28.0) -> list[Formula]:
+    """Lines of a displayed formula: TeX is set, a finished ``Formula`` stays one line."""
+    from reports.document.text.mathsvg import Formula, formula_lines
+
+    if isinstance(tex, Formula):
+        return [tex]
+    return list(formula_lines(str(tex), max_em))
+
+
+def _attachment(item: AttachedFile) -> weasyprint.Attachment:
+    import weasyprint
+
+    return weasyprint.Attachment(
+        string=item.data,
+        name=item.name,
+        description=item.description or item.name,
+        created=_EPOCH,
+        modified=_EPOCH,
+        relationship=item.relationship,
+    )
+
+
+def _identifier(html: str) -> bytes:
+    import hashlib
+
+    return hashlib.sha256(html.encode("utf-8", "replace")).hexdigest()[:32].encode("ascii")
+
+
+@functools.cache
+def _fetcher() -> URLFetcher:
+    """Fetcher that knows our fonts and ``data:`` images and nothing else."""
+    from weasyprint.urls import URLFetcher, URLFetcherResponse
+
+    class PackageFetcher(URLFetcher):  # type: ignore[misc]
+        """Serves package resources; every other address is refused."""
+
+        def fetch(self, url: str, headers: dict[str, str] | None = None) -> URLFetcherResponse:
+            scheme, _, rest = url.partition(":")
+            if scheme == fonts.SCHEME:
+                return URLFetcherResponse(url, fonts.font_bytes(rest), {"Content-Type": "font/ttf"})
+            if url.startswith(_DATA_TYPES):
+                return super().fetch(url, headers)
+            msg = f"Адрес вне отчёта не открывается: {url[:80]}"
+            raise ValueError(msg)
+
+    return PackageFetcher(allowed_protocols=[fonts.SCHEME, "data"], allow_redirects=False)
+
+
+@contextmanager
+def _quiet_gc() -> Iterator[None]:
+    """Collect rarely: layout makes millions of small objects that all live to the end."""
+    before = gc.get_threshold()
+    gc.set_threshold(*_GC_THRESHOLD)
+    try:
+        yield
+    finally:
+        gc.set_threshold(*before)
+
+
+class _Collector(logging.Handler):
+    def __init__(self, lines: list[str]) -> None:
+        super().__init__(logging.WARNING)
+        self.lines = lines
+
+    def emit(self, record: logging.LogRecord) -> None:
+        line = record.getMessage()
+        if line not in self.lines:
+            self.lines.append(line)
+
+
+@contextmanager
+def _warnings() -> Iterator[list[str]]:
+    """Collect WeasyPrint's warnings instead of letting them reach the screen."""
+    lines: list[str] = []
+    logger = logging.getLogger("weasyprint")
+    handler, propagate = _Collector(lines), logger.propagate
+    others = logger.handlers[:]
+    for other in others:
+        logger.removeHandler(other)
+    logger.addHandler(handler)
+    logger.propagate = False
+    try:
+        yield lines
+    finally:
+        logger.removeHandler(handler)
+        for other in others:
+            logger.addHandler(other)
+        logger.propagate = propagate

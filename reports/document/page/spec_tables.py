@@ -1,0 +1,107 @@
+"""Tables of the report from the specifications: columns over φ, grids, lists of scalars."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import cast
+
+import numpy as np
+from markupsafe import Markup
+
+from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
+from reports.document.text import numbers
+from reports.document.text.symbols import inline_html
+from reports.document.text.terms import Terms, digits_of
+from reports.spec.blocks import Grid, TableSpec
+
+
+def angle_table(
+    terms: Terms,
+    table: str,
+    keys: Sequence[str] | None = None,
+    *,
+    own_symbols: bool = False,
+    every: int = 1,
+) -> TableBlock:
+    """A table over the crank angle, by default with all rows.
+
+    Args:
+        terms: symbols and values.
+        table: id of the table.
+        keys: its columns, by default all but the helpers.
+        own_symbols: symbols of formulas instead of those of the nomenclature.
+        every: print each row of this number and the last one.
+    """
+    spec = terms.model.tables[table]
+    columns = [c for c in spec.columns if (c.key in keys if keys else not c.helper)]
+    cells: list[list[str]] = []
+    heads = []
+    for column in columns:
+        q = column.quantity
+        digits = digits_of(q.fmt)
+        values = np.asarray(terms.values.columns[table][column.key], dtype=float).tolist()
+        blank = q.fmt.endswith(";")  # such a format shows no zero
+        cells.append(["" if blank and v == 0 else numbers.fixed(v, digits) for v in values])
+        tex = terms.tex(f"{table}.{column.key}") if own_symbols else q.tex
+        heads.append(Column(symbol_head(tex, q.unit_label)))
+    rows = list(zip(*cells, strict=True))
+    last = len(rows) - 1
+    return table_block(heads, [row for i, row in enumerate(rows) if i % every == 0 or i == last])
+
+
+def result_columns(spec: TableSpec, *, but: Iterable[str] = ()) -> list[str]:
+    """Keys of the columns that are results."""
+    left_out = set(but)
+    return [c.key for c in spec.columns if not c.helper and c.key not in left_out]
+
+
+def scalar_table(terms: Terms, keys: Iterable[str]) -> TableBlock:
+    """Quantity, symbol, value, unit: one row for each scalar."""
+    rows = [
+        [_upper(terms.title(k)), terms.sym(k), terms.num(k), unit_cell(terms.unit(k))] for k in keys
+    ]
+    return list_block(rows)
+
+
+def list_block(rows: Sequence[Sequence[str]]) -> TableBlock:
+    """A list «величина, обозначение, значение, единица»."""
+    columns = (
+        Column("Величина", 5.2, text=True),
+        Column("Обозначение", 1.6),
+        Column("Значение", 1.6),
+        Column("Единица", 1.3),
+    )
+    # Values of different kinds: Markup keeps them from being lined up as one column.
+    return table_block(columns, [[a, b, Markup("{}").format(c), d] for a, b, c, d in rows])
+
+
+def unit_cell(unit: str) -> str:
+    """Unit of a cell, a dash for a pure number."""
+    return unit or "—"
+
+
+def grid_table(terms: Terms, grid: Grid, rows: Iterable[str], head: str) -> TableBlock:
+    """A grid with its instances as columns; ``rows`` names the quantities to show."""
+    by_key = {row.of: row for row in grid.rows}
+    shown = []
+    for key in rows:
+        if key not in by_key:
+            continue
+        row = by_key[key]
+        q = row.quantity
+        digits = digits_of(q.fmt)
+        cells = [
+            "—"
+            if cell is None
+            else numbers.fixed(cast(float, terms.values.scalars[cell.key]), digits)
+            for cell in row.cells
+        ]
+        name = inline_html(q.tex)
+        unit = Markup(", {}").format(q.unit_label) if q.unit_label else ""
+        shown.append([name + unit, *cells])
+    columns = [Column(head, 1.4), *(Column(label) for label in grid.labels)]
+    return table_block(columns, shown)
+
+
+def _upper(text: str) -> str:
+    return text[:1].upper() + text[1:]

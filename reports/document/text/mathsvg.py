@@ -1,0 +1,276 @@
+r"""Formulas: TeX set by matplotlib's mathtext, written as SVG on the baseline of the text.
+
+mathtext rounds its metrics to whole pixels, so it sets the formula at a hundred times the
+size and the result is scaled down.  Glyphs are written as text in the STIX faces, so the
+formulas can be searched and copied and the file stays small.
+
+Conventions of the TeX: Cyrillic indices as ``P_{\mathrm{г}}``, decimal comma as ``{,}``
+(:func:`numbers.to_tex` writes it), ``\cdot 10^{-6}``, ``\,`` for a thin space; ``\tg``,
+``\ctg``, ``\arctg`` are known here besides what mathtext knows.
+"""
+
+from __future__ import annotations
+
+import functools
+import json
+import logging
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from html import escape as escape_html
+from typing import Any
+
+from reports.document.page import store
+from reports.document.text.symbols import GREEK
+from reports.document.text.texsplit import balanced, break_points, tokens
+from reports.document.text.texwords import for_mathtext
+
+_UNITS = 1000.0  # size at which mathtext sets the formula; one em of the result
+_PAD = 0.04  # em added left and right: slanted letters reach out of their boxes
+
+_PRIME = 0x2032
+_PRIME_DROP = 0.5
+_PRIME_GROWTH = 1.25
+_NO_SIGN = {r"\left", r"\right", r"\mathrm", r"\text", r"\,", r"\;", r"\:", r"\!"}
+_WORDS = {r"\sin", r"\cos", r"\tg", r"\min", r"\max", r"\arcsin", r"\arccos", r"\arctg"}
+_SIGN = 0.56  # em that a sign takes on the average
+_DECIMAL_POINT = re.compile(r"\d\.\d")
+
+
+class FormulaError(ValueError):
+    """The TeX of a formula cannot be set."""
+
+
+@dataclass(frozen=True, slots=True)
+class Formula:
+    """A formula as an SVG element with its size in em of the surrounding text.
+
+    ``height_em`` counts from the bottom of the box; ``depth_em`` is how far the box hangs
+    below the baseline.  ``svg`` carries its own size and ``vertical-align``.
+    """
+
+    svg: str
+    width_em: float
+    height_em: float
+    depth_em: float
+    tex: str
+
+    def __html__(self) -> str:
+        """Let Jinja put the SVG in without a filter."""
+        return self.svg
+
+
+@functools.lru_cache(maxsize=4096)
+def formula(tex: str) -> Formula:
+    """Set one line of TeX (without dollar signs).
+
+    Raises:
+        FormulaError: mathtext does not understand the TeX; the message shows the place.
+    """
+    key = store.key("formula", tex.encode())
+    kept = store.store().get(key)
+    if kept is not None:
+        found = json.loads(kept)
+        width, height, depth = found["size"]
+        return Formula(found["svg"], width, height, depth, tex)
+    made = _set(tex)
+    size = (made.width_em, made.height_em, made.depth_em)
+    store.store().put(key, json.dumps({"svg": made.svg, "size": size}))
+    return made
+
+
+def _set(tex: str) -> Formula:
+    width, height, depth, glyphs, rects = _parse(tex)
+    baseline = height - depth
+    pad = _PAD * _UNITS
+    body = [*_texts(glyphs, baseline), *_rules(rects, baseline)]
+    width_em = (width + 2 * pad) / _UNITS
+    height_em, depth_em = height / _UNITS, depth / _UNITS
+    style = (
+        f"width:{width_em:.3f}em;height:{height_em:.3f}em;vertical-align:{-depth_em:.3f}em;"
+        f"margin:0 {-_PAD:.2f}em"
+    )
+    svg = (
+        f'<svg class="tex" role="img" style="{style}" '
+        f'viewBox="{-pad:g} 0 {width + 2 * pad:g} {height:g}">'
+        f"<title>{escape_html(plain(tex), quote=False)}</title>{''.join(body)}</svg>"
+    )
+    return Formula(svg, width_em, height_em, depth_em, tex)
+
+
+@functools.lru_cache(maxsize=4096)
+def formula_lines(tex: str, max_em: float = 28.0) -> tuple[Formula, ...]:
+    r"""Set a formula in as many lines as it needs to stay within a width.
+
+    The break falls at a relation sign first, then at plus or minus, then at a product, all
+    outside of brackets where possible; the sign is repeated at the start of the next line
+    as the Russian standard asks (a product as ``\times``).
+
+    Args:
+        tex: The formula; ``\\`` forces a new line.
+        max_em: Room for one line, in em.
+
+    Raises:
+        FormulaError: The TeX is wrong.
+    """
+    lines: list[Formula] = []
+    for forced in tex.split(r"\\"):
+        lines.extend(_fit(forced.strip(), max_em))
+    return tuple(lines)
+
+
+def _fit(tex: str, max_em: float) -> list[Formula]:
+    # Setting a formula costs a millisecond a sign: lines are guessed by counting signs, and
+    # the first guess that fits serves.
+    whole: Formula | None = None
+    scale = _SIGN
+    if _signs(tex) * scale <= 1.2 * max_em:
+        whole = formula(tex)
+        if whole.width_em <= max_em:
+            return [whole]
+        scale = whole.width_em / max(1, _signs(tex))
+
+    def score(end: int, rank: int) -> float:
+        # A full line is good, a break at a relation better than one within a sum, the
+        # left side alone on a line is bad.
+        filled = _signs(tex[:end]) * scale / max_em
+        return min(filled, 1.0) - rank * 0.35 - (0.5 if filled < 0.25 else 0.0)
+
+    guesses = [p for p in break_points(tex) if _signs(tex[: p.end]) * scale <= 1.15 * max_em]
+    for point in sorted(guesses, key=lambda p: score(p.end, p.rank), reverse=True):
+        head = formula(tex[: point.end])
+        if head.width_em <= max_em:
+            return [head, *_fit(point.carried + tex[point.end :], max_em)]
+    return [whole or formula(tex)]
+
+
+@functools.lru_cache(maxsize=8192)
+def _signs(tex: str) -> int:
+    """About how many signs a formula is wide; of a fraction the wider part counts."""
+    total = place = 0
+    source = tokens(tex)
+    while place < len(source):
+        token = source[place]
+        place += 1
+        if token in (r"\dfrac", r"\frac", r"\tfrac"):
+            over, place = _group(source, place)
+            under, place = _group(source, place)
+            total += max(_signs(over), _signs(under))
+        elif not (token.isspace() or token in "{}_^" or token in _NO_SIGN):
+            total += 3 if token in _WORDS else 1
+    return total
+
+
+def _group(source: list[str], place: int) -> tuple[str, int]:
+    """The braced group that begins at a place, and the place after it."""
+    depth, start = 0, place
+    while place < len(source):
+        depth += {"{": 1, "}": -1}.get(source[place], 0)
+        place += 1
+        if depth == 0:
+            break
+    return "".join(source[start:place]), place
+
+
+def _parse(tex: str) -> tuple[float, float, float, Iterable[Any], Iterable[Any]]:
+    from matplotlib.font_manager import FontProperties
+    from matplotlib.mathtext import MathTextParser
+
+    if not tex.strip() or "$" in tex or not balanced(tex) or _DECIMAL_POINT.search(tex):
+        msg = f"Формула пуста, содержит $, десятичную точку или непарные скобки: {tex!r}"
+        raise FormulaError(msg)
+    source = for_mathtext(tex)
+    font = FontProperties(family="STIXGeneral", size=_UNITS, math_fontfamily="stix")
+    with _Complaints() as complaints:
+        try:
+            parsed = MathTextParser("path").parse(f"${source}$", dpi=72, prop=font)
+        except (ValueError, RuntimeError) as error:
+            reason = str(error).strip().splitlines()[-1]
+            msg = f"Формула не набирается: {tex!r}: {reason}"
+            raise FormulaError(msg) from error
+    if complaints.lines:
+        msg = f"Формула не набирается: {tex!r}: {complaints.lines[0]}"
+        raise FormulaError(msg)
+    return parsed.width, parsed.height, parsed.depth, parsed.glyphs, parsed.rects
+
+
+class _Complaints(logging.Handler):
+    """Collects what mathtext logs: a sign without a glyph is no formula for us."""
+
+    def __init__(self) -> None:
+        super().__init__(logging.WARNING)
+        self.lines: list[str] = []
+        self._logger = logging.getLogger("matplotlib.mathtext")
+
+    def emit(self, record: logging.LogRecord) -> None:
+        self.lines.append(record.getMessage())
+
+    def __enter__(self) -> _Complaints:
+        self._logger.addHandler(self)
+        self._propagate, self._logger.propagate = self._logger.propagate, False
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._logger.removeHandler(self)
+        self._logger.propagate = self._propagate
+
+
+def _texts(glyphs: Iterable[Any], baseline: float) -> list[str]:
+    """One ``<text>`` for all glyphs of one face and size, each glyph with its own place.
+
+    Few elements with many glyphs: HTML parsing, styles and drawing cost by the element.
+    """
+    runs: dict[tuple[str, str, str], list[tuple[str, str, str]]] = {}
+    for font, size, code, *_, x, y in glyphs:
+        drop = 0.0
+        if code == _PRIME and size < _UNITS:
+            # STIX draws the prime raised already; as an index mathtext raises it once more.
+            drop, size = _PRIME_DROP * size, _PRIME_GROWTH * size  # noqa: PLW2901
+        style = ' font-style="italic"' if "Italic" in font.style_name else ""
+        style += ' font-weight="bold"' if "Bold" in font.style_name else ""
+        key = (font.family_name, style, _number(size))
+        place = (_number(x), _number(baseline - y + drop), escape_html(chr(code)))
+        runs.setdefault(key, []).append(place)
+    return [
+        f'<text font-family="{family}"{style} font-size="{size}" x="{_list(run, 0)}" '
+        f'y="{_list(run, 1)}">{"".join(char for _, _, char in run)}</text>'
+        for (family, style, size), run in runs.items()
+    ]
+
+
+def _list(run: list[tuple[str, str, str]], part: int) -> str:
+    """Places along one axis; one number serves when all glyphs share it."""
+    places = [place[part] for place in run]
+    return places[0] if len(set(places)) == 1 else " ".join(places)
+
+
+def _rules(rects: Iterable[Any], baseline: float) -> list[str]:
+    return [
+        f'<rect x="{_number(x)}" y="{_number(baseline - y - h)}" '
+        f'width="{_number(w)}" height="{_number(h)}"/>'
+        for x, y, w, h in rects
+    ]
+
+
+def _number(value: float) -> str:
+    return str(round(float(value)))
+
+
+_COMMAND = re.compile(r"\\([A-Za-z]+)\s*")
+
+
+def plain(tex: str) -> str:
+    """A readable text of a formula for people who hear the page or copy it."""
+    text = re.sub(r"\{,\}", ",", tex)
+    text = re.sub(r"\\d?frac\{([^{}]*)\}\{([^{}]*)\}", r"(\1)/(\2)", text)
+    text = re.sub(r"\\sqrt\{([^{}]*)\}", r"√(\1)", text)
+    text = re.sub(r"\\[,;:! ]", " ", text)
+    words = {"cdot": "·", "times": "×", "leq": "≤", "geq": "≥", "circ": "°", "sum": "∑"}
+    silent = {"mathrm", "text", "left", "right", "operatorname", "mathit", "displaystyle"}
+
+    def spoken(match: re.Match[str]) -> str:
+        name = match.group(1)
+        return "" if name in silent else GREEK.get(name) or words.get(name, name + " ")
+
+    text = _COMMAND.sub(spoken, text)
+    return re.sub(r"\s+", " ", text.replace("{", "").replace("}", "").replace("-", "−")).strip()

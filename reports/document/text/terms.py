@@ -1,0 +1,280 @@
+"""Symbols, values and formulas of a model as the report prints them."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+import numpy as np
+from markupsafe import Markup
+
+from kshm.nomenclature.quantity import Quantity, quantity
+from reports.document.page.blocks import WhereItem
+from reports.document.text import numbers
+from reports.document.text.symbols import inline_html
+from reports.document.text.texts import rich
+from reports.formula import tex as formulas
+from reports.formula.numeric import evaluate
+from reports.inputs.fields import Field
+from reports.spec.blocks import Column, Model, Scalar
+from reports.spec.evaluation import Values
+
+# Symbols that would be ambiguous within a formula.
+_SYMBOLS = {
+    "L_rod": "L",
+    "M_Nm": r"M_{\mathrm{ц}}",
+    "volume_ratio": "x",
+    "x_start": r"x_{c}",
+    "p_start": r"p_{c1}",
+    "x_open": r"x_{\mathrm{в.о}}",
+    "share": r"\dfrac{a_{\mathrm{п}}}{l}",
+    "psi_deg": r"\psi",
+    "throw": "",
+}
+_SIGNIFICANT = 5
+_NO_SPACE = {"°"}
+_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+_RUN = re.compile("[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+")
+
+
+def digits_of(fmt: str) -> int:
+    """Decimals of a number format of the sheets such as ``0.00;-0.00;``."""
+    return len(fmt.split(";", maxsplit=1)[0].partition(".")[2])
+
+
+def unit_tex(label: str) -> str:
+    r"""A unit for TeX: ``м/с²`` gives ``\mathrm{м/с}^{2}``."""
+    if not label:
+        return ""
+    if label == "°":
+        return r"^{\circ}"
+    if label == "%":
+        return r"\,\%"
+    text = _RUN.sub(lambda m: "}^{" + m.group().translate(_RAISED) + r"}\mathrm{", label)
+    return r"\;" + rf"\mathrm{{{text}}}".replace(r"\mathrm{}", "")
+
+
+def input_text(field: Field) -> str:
+    """An input value as printed: the label of a choice, a number with decimal comma."""
+    value = field.value
+    if field.choices is not None:
+        return field.choices.get(str(value), str(value))
+    if isinstance(value, str):
+        return value
+    return plain_number(float(value))
+
+
+def plain_number(value: float) -> str:
+    """A number with the digits it was given with."""
+    digits = next((d for d in range(12) if round(value, d) == value), 12)
+    return numbers.fixed(value, digits)
+
+
+@dataclass(frozen=True)
+class Terms:
+    """What a section asks for: symbols, numbers, formulas of nodes.
+
+    A node is a scalar (``omega``), an input (``geometry_bore_mm``) or a column
+    (``P4_1.T_MPa``); a column's number is taken at the row of an angle.
+    """
+
+    model: Model
+    values: Values
+
+    def has(self, name: str) -> bool:
+        """Whether the model has the scalar, input or column."""
+        return name in self.model.scalars or name in self.model.fields or self._column(name)
+
+    def quantity(self, name: str) -> Quantity:
+        """Quantity of a scalar or a column."""
+        table, _, key = name.rpartition(".")
+        node = self._node(name)
+        if isinstance(node, Scalar | Column):
+            return node.quantity
+        return quantity(key if table else name)
+
+    def tex(self, name: str) -> str:
+        """TeX symbol of a node."""
+        if name in self.model.fields:
+            return formulas.input_symbol_tex(self.model.fields[name].symbol)
+        shown = self.quantity(name)
+        key = name.rpartition(".")[2]
+        family = key.split("_", 1)[1] if key.startswith("throw") else key
+        if family in _SYMBOLS:
+            return _SYMBOLS[family]
+        return shown.tex
+
+    def sym(self, name: str) -> Markup:
+        """Symbol for running text."""
+        return inline_html(self.tex(name))
+
+    def title(self, name: str) -> str:
+        """Russian name of a node, for the «где» list."""
+        if name in self.model.fields:
+            title = self.model.fields[name].title
+            return title[:1].lower() + title[1:]
+        return self.quantity(name).title
+
+    def unit(self, name: str) -> str:
+        """Unit label of a node."""
+        if name in self.model.fields:
+            return self.model.fields[name].unit
+        return self.quantity(name).unit_label
+
+    def value(self, name: str, at: float | None = None) -> float:
+        """Number of a node; of a column the one at an angle [deg].
+
+        Raises:
+            KeyError: nothing has that name.
+        """
+        if name in self.model.fields:
+            return float(self.model.fields[name].value)
+        if name in self.values.scalars:
+            return float(self.values.scalars[name])
+        table, _, key = name.rpartition(".")
+        if at is None:
+            msg = f"no angle for the column {name}"
+            raise KeyError(msg)
+        return float(self.values.columns[table][key][self.row(table, at)])
+
+    def column(self, name: str) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+        """A whole column."""
+        table, _, key = name.rpartition(".")
+        return np.asarray(self.values.columns[table][key], dtype=np.float64)
+
+    def row(self, table: str, at: float) -> int:
+        """Row of an angle in a table; the nearest one if the grid lacks it."""
+        rows = np.asarray(self.model.tables[table].rows)
+        return int(np.abs(rows - at).argmin())
+
+    def num(self, name: str, at: float | None = None) -> str:
+        """Number alone, with the decimals of its quantity."""
+        value = self.value(name, at)
+        if name in self.model.fields:
+            return plain_number(value)
+        return numbers.fixed(value, digits_of(self.quantity(name).fmt))
+
+    def val(self, name: str, at: float | None = None) -> Markup:
+        """Number with unit: ``829 Н·м``, ``30°``."""
+        return with_unit(self.num(name, at), self.unit(name))
+
+    def eqv(self, name: str, at: float | None = None) -> Markup:
+        """Symbol, equals sign, number and unit for running text."""
+        return Markup('<span class="nb">{}\u00a0=\u00a0{}</span>').format(
+            self.sym(name), self.val(name, at)
+        )
+
+    def where(self, *names: str) -> list[WhereItem]:
+        """Lines of a «где» list; what the model lacks is left out."""
+        present = (name for name in names if self.has(name))
+        return [WhereItem(self.tex(n), self.title(n), self.unit(n)) for n in present]
+
+    def formula(self, name: str, at: float | None = None) -> str:
+        """``symbol = expression`` in symbols, of the branch in force."""
+        expr = self._expr(name, at)
+        return f"{self.tex(name)} = {formulas.to_tex(expr, self._symbols(name))}"
+
+    def substitution(self, name: str, at: float | None = None, *, symbols: bool = False) -> str:
+        """``symbol = numbers = result unit``; with ``symbols`` the expression stands before."""
+        expr = self._expr(name, at)
+        parts = [self.tex(name)]
+        if symbols:
+            parts.append(formulas.to_tex(expr, self._symbols(name)))
+        table = name.rpartition(".")[0]
+
+        def number(inner: str) -> float | str:
+            return self._number(self._global(inner, table), at)
+
+        parts.append(formulas.to_tex_numbers(expr, self._symbols(name), number))
+        parts.append(self.result_tex(name, at))
+        return " = ".join(parts)
+
+    def result_tex(self, name: str, at: float | None = None) -> str:
+        """Result with unit for TeX."""
+        return numbers.to_tex(self.num(name, at)) + unit_tex(self.unit(name))
+
+    def branches(self, name: str) -> list[formulas.Piece]:
+        """All branches of a formula with choices."""
+        return formulas.pieces(self._node_expr(name), self._symbols(name))
+
+    def book(self, name: str) -> str:
+        """Where the book has it: «формула (3)», «формулы (51), (53)», «п. 2.8», empty else."""
+        node = self._node(name)
+        source = node.source if isinstance(node, Scalar | Column) else ""
+        return book_place(source)
+
+    def _symbols(self, name: str) -> formulas.Symbols:
+        table = name.rpartition(".")[0]
+        return lambda inner: self.tex(self._global(inner, table))
+
+    def _global(self, inner: str, table: str) -> str:
+        local = f"{table}.{inner}"
+        return local if table and "." not in inner and self._column(local) else inner
+
+    def _column(self, name: str) -> bool:
+        table, _, key = name.rpartition(".")
+        return table in self.values.columns and key in self.values.columns[table]
+
+    def _node(self, name: str) -> Scalar | Column | None:
+        if name in self.model.scalars:
+            return self.model.scalars[name]
+        table, _, key = name.rpartition(".")
+        if table in self.model.tables:
+            found = (c for c in self.model.tables[table].columns if c.key == key)
+            return next(found, None)
+        return None
+
+    def _node_expr(self, name: str) -> str:
+        node = self._node(name)
+        if node is None or node.expr is None:
+            msg = f"no formula for {name}"
+            raise KeyError(msg)
+        return node.expr
+
+    def _expr(self, name: str, at: float | None) -> str:
+        table = name.rpartition(".")[0]
+
+        def lookup(inner: str) -> float | str:
+            found = self._global(inner, table)
+            field = self.model.fields.get(found)
+            if field is not None and isinstance(field.value, str):
+                return (field.choices or {}).get(field.value, field.value)
+            return self.value(found, at)
+
+        return formulas.chosen(self._node_expr(name), lambda test: bool(evaluate(test, lookup)))
+
+    def _number(self, name: str, at: float | None) -> float | str:
+        value = self.value(name, at)
+        unit = "" if name in self.model.fields else self.quantity(name).unit
+        if unit == "rad":
+            text = numbers.to_tex(numbers.fixed(float(np.degrees(value)), 3))
+            return formulas.Raw(text + r"^{\circ}")
+        return formulas.Raw(_number_tex(value))
+
+
+def _number_tex(value: float) -> str:
+    text = formulas.number_tex(value, _SIGNIFICANT)
+    return rf"\left({text}\right)" if r"\cdot" in text else text
+
+
+def with_unit(number: str, unit: str) -> Markup:
+    """A number with its unit behind a space that does not break."""
+    if not unit:
+        return Markup(number)
+    space = "" if unit in _NO_SPACE else numbers.NBSP
+    return Markup("{}{}{}").format(number, space, rich(unit))
+
+
+def book_place(source: str) -> str:
+    """Place in the textbook from the source of a specification; empty for other sources."""
+    if not source.startswith("Гоц"):
+        return ""
+    found = re.findall(r"\(\d+[а-я]?\)", source)
+    if found:
+        word = "формула" if len(found) == 1 else "формулы"
+        return f"{word}\u00a0{', '.join(found)}"
+    match = re.search(r"(рис|табл)\.\s*(\d+)", source)
+    if match:
+        return f"{match.group(1)}.\u00a0{match.group(2)}"
+    match = re.search(r"\d\.\d", source)
+    return f"п.\u00a0{match.group()}" if match else ""

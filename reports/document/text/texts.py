@@ -1,0 +1,75 @@
+"""Foreign text as HTML: cleaned, escaped, with raised digits as real superscripts."""
+
+from __future__ import annotations
+
+import functools
+import re
+
+from markupsafe import Markup, escape
+
+from reports.document.page.fonts import printable
+
+_RAISED = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079\u207a\u207b"
+_LEVEL = "0123456789+\u2212"
+_LOWER = str.maketrans(_RAISED, _LEVEL)
+_RUN = re.compile(f"[{_RAISED}]+")
+
+
+@functools.lru_cache(maxsize=8192)
+def rich(text: str) -> str | Markup:
+    """Clean a text; «мин⁻¹» gets a superscript, because STIX has no raised minus.
+
+    Text without raised signs stays a plain string, to be escaped by Jinja.
+    """
+    if not _RUN.search(text):
+        return printable(text)
+    return Markup("").join(
+        Markup("<sup>{}</sup>").format(piece.translate(_LOWER))
+        if _RUN.fullmatch(piece)
+        else escape(printable(piece))
+        for piece in _split(text)
+    )
+
+
+def plain(text: object) -> Markup:
+    """Clean and escape a text for an attribute or a title, where no markup can stand."""
+    return escape(printable(Markup(text).striptags() if isinstance(text, Markup) else str(text)))
+
+
+def titled(svg: str, title: object) -> Markup:
+    """An inline SVG with an alternative text: a ``<title>`` as its first child."""
+    head, bracket, rest = svg.partition(">")
+    return Markup("{}{}<title>{}</title>{}").format(
+        Markup(head), Markup(bracket), plain(title), Markup(rest)
+    )
+
+
+_SPACE_BEFORE = re.compile("([ \u00a0])(<(?:a|i)\\b[^<>]*>)")
+_SPACE_BEFORE_UNBROKEN = re.compile('([ \u00a0])(<span class="nb">)')
+
+
+def spaces_inside(page: str) -> str:
+    """Move a space that ends a text before an inline element into the element.
+
+    A text that fits its line without its last space, but not with it, is taken for one that
+    cannot be broken, and the line ends after its first word or within it.  Before an element
+    that must not break, the space gets an element of its own.
+    """
+    page = _SPACE_BEFORE.sub(r"\2\1", page)
+    return _SPACE_BEFORE_UNBROKEN.sub(r"<span>\1</span>\2", page)
+
+
+def raised(text: str) -> str:
+    """The same for labels of figures: raised signs become mathtext (``мин$^{-1}$``)."""
+    return _RUN.sub(
+        lambda match: "$^{" + match.group().translate(_LOWER).replace("\u2212", "-") + "}$",
+        text,
+    )
+
+
+def _split(text: str) -> list[str]:
+    pieces, place = [], 0
+    for match in _RUN.finditer(text):
+        pieces += [text[place : match.start()], match.group()]
+        place = match.end()
+    return [piece for piece in [*pieces, text[place:]] if piece]

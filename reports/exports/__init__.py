@@ -1,0 +1,1 @@
+"""Files of numbers and the way from an input to all files."""

@@ -1,0 +1,85 @@
+"""From an input to files: what ``kshm build`` and ``kshm solve`` do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from reports.inputs.load import Loaded, load_toml
+from reports.shared.errors import SystemPartMissing
+from reports.shared.files import make_dir, write_bytes, write_text
+from reports.shared.progress import Progress
+
+Kind = Literal["xlsx", "pdf", "html"]
+
+
+@dataclass(frozen=True, slots=True)
+class Built:
+    """Files written, and what could not be made and why."""
+
+    files: tuple[Path, ...]
+    missing: SystemPartMissing | None = None
+
+
+def load_input(path: Path) -> Loaded:
+    """The checked input of a TOML file or of an edited workbook, told by the suffix.
+
+    Raises:
+        InputError: everything that is wrong with it.
+    """
+    if path.suffix.lower() in (".xlsx", ".xlsm", ".xls"):
+        from reports.workbook.read import load_workbook_input
+
+        return load_workbook_input(path)
+    return load_toml(path)
+
+
+def build(path: Path, loaded: Loaded, folder: Path, kinds: tuple[Kind, ...]) -> Built:
+    """Write the workbook and the report of a checked input.
+
+    Without pango the report is written as print-ready HTML instead of a PDF.
+
+    Raises:
+        OutputError: the folder cannot be written.
+        InputError: the input gives no finite result.
+    """
+    from reports.spec.evaluation import evaluate_model
+    from reports.tables.registry import build_model
+
+    make_dir(folder)
+    model = build_model(loaded.model)
+    files: list[Path] = []
+    missing: SystemPartMissing | None = None
+    with Progress("Расчёт") as progress:
+        values = evaluate_model(model)
+        book = b""
+        if "xlsx" in kinds or "pdf" in kinds:
+            from reports.workbook.write import workbook_bytes
+
+            progress.step("Книга Excel")
+            book = workbook_bytes(model, values)
+        if "xlsx" in kinds:
+            target = folder / f"{path.stem}.xlsx"
+            write_bytes(target, book)
+            files.append(target)
+        wants_html = "html" in kinds
+        if "pdf" in kinds:
+            from reports.document.report import report_pdf
+
+            progress.step("Отчёт PDF")
+            try:
+                pdf = report_pdf(model, values, source=path, workbook=book)
+                target = folder / f"{path.stem}.pdf"
+                write_bytes(target, pdf)
+                files.append(target)
+            except SystemPartMissing as error:
+                missing, wants_html = error, True
+        if wants_html:
+            from reports.document.report import report_html
+
+            progress.step("Отчёт HTML")
+            target = folder / f"{path.stem}.html"
+            write_text(target, report_html(model, values, source=path))
+            files.append(target)
+    return Built(tuple(files), missing)

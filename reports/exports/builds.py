@@ -1,0 +1,90 @@
+"""Several inputs built after one another here, or side by side on a Dask cluster."""
+
+from __future__ import annotations
+
+import tempfile
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from reports.exports.build import Built, Kind, build
+from reports.inputs.load import Loaded
+from reports.shared.errors import KshmError, SystemPartMissing
+from reports.shared.files import make_dir, write_bytes
+from reports.shared.ordered import in_order
+
+Input = tuple[Path, Loaded]
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """A checked input with all that building it elsewhere needs."""
+
+    name: str
+    data: bytes
+    loaded: Loaded
+    kinds: tuple[Kind, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Delivery:
+    """Files by name, and what the other machine lacked."""
+
+    files: list[tuple[str, bytes]]
+    missing: tuple[str, str, str] | None = None
+
+
+def build_each(
+    inputs: Sequence[Input], folder: Path, kinds: tuple[Kind, ...], dask: str | None = None
+) -> Iterator[Built]:
+    """What was built for each input, in order; the files are the same wherever it is done.
+
+    Raises:
+        KshmError: results would fall on each other or on an input, or the cluster fails.
+    """
+    _refuse_overlap([path for path, _ in inputs], folder)
+    if dask is None:
+        for path, loaded in inputs:
+            yield build(path, loaded, folder, kinds)
+        return
+    make_dir(folder)
+    orders = (_order(path, loaded, kinds) for path, loaded in inputs)
+    for delivery in in_order(delivered, orders, dask=dask):
+        for name, data in delivery.files:
+            write_bytes(folder / name, data)
+        missing = None
+        if delivery.missing:
+            part, command, purpose = delivery.missing
+            missing = SystemPartMissing(part, command, purpose=purpose)
+        yield Built(tuple(folder / name for name, _ in delivery.files), missing)
+
+
+def delivered(order: Order) -> Delivery:
+    """Build an order in a folder of its own."""
+    with tempfile.TemporaryDirectory(prefix="kshm-build-") as name:
+        source, out = Path(name) / order.name, Path(name) / "out"
+        source.write_bytes(order.data)
+        built = build(source, order.loaded, out, order.kinds)
+        files = [(path.name, path.read_bytes()) for path in built.files]
+        lacks = built.missing
+        return Delivery(files, (lacks.part, lacks.command, lacks.purpose) if lacks else None)
+
+
+def _order(path: Path, loaded: Loaded, kinds: tuple[Kind, ...]) -> Order:
+    if loaded.model.report.templates:
+        msg = f"{path}: свои шаблоны (report.templates) есть только на этом компьютере; без --dask"
+        raise KshmError(msg)
+    return Order(path.name, path.read_bytes(), loaded, kinds)
+
+
+def _refuse_overlap(paths: Sequence[Path], folder: Path) -> None:
+    stem, count = Counter(path.stem for path in paths).most_common(1)[0]
+    if count > 1:
+        msg = f"{stem}: два файла с этим именем дали бы один результат; стройте их в разные папки"
+        raise KshmError(msg)
+    for path in paths:
+        result = folder / f"{path.stem}.xlsx"
+        if path.suffix.lower() == ".xlsx" and result.resolve() == path.resolve():
+            msg = f"{path}: результат лёг бы поверх вашей книги; укажите другую папку ключом -o"
+            raise KshmError(msg)

@@ -1,0 +1,99 @@
+"""Numbers without documents: CSV and JSON of every table."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from kshm.nomenclature.quantity import quantity
+from kshm.results.solution import Solution, reference_tables
+from reports.inputs.fields import iter_fields
+from reports.inputs.sections.input_file import InputFile
+
+_FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
+
+
+def export_tables(solution: Solution) -> dict[str, dict[str, list[float | str | None]]]:
+    """All tables by id, columns by key; cells that the table leaves blank are None."""
+    tables: dict[str, dict[str, list[float | str | None]]] = {}
+    found: dict[str, Mapping[str, Any]] = {**solution.columns, **reference_tables()}
+    for name, columns in found.items():
+        tables[name] = {
+            key: [_plain(value, blank_zero=key.startswith("ray_")) for value in values]
+            for key, values in columns.items()
+        }
+    return tables
+
+
+def _plain(value: Any, *, blank_zero: bool = False) -> float | str | None:  # noqa: ANN401
+    if isinstance(value, str):
+        return value
+    number = float(value) + 0.0  # no negative zero
+    if not math.isfinite(number):
+        msg = f"a result is not a number: {number}"
+        raise ValueError(msg)
+    return None if blank_zero and number == 0 else number
+
+
+def csv_text(columns: dict[str, list[float | str | None]]) -> str:
+    """One table as CSV: keys in the first line, decimal point, comma, full precision."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(columns)
+    for row in zip(*columns.values(), strict=True):
+        writer.writerow([_cell(value) for value in row])
+    return stream.getvalue()
+
+
+def _cell(value: float | str | None) -> str:
+    if value is None:
+        return ""
+    if isinstance(value, float):
+        return str(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)
+    return value
+
+
+def neutralised(text: str) -> str:
+    """Text that a spreadsheet will not take for a formula."""
+    return "'" + text if text.startswith(_FORMULA_STARTS) else text
+
+
+def json_text(model: InputFile, solution: Solution) -> str:
+    """Engine, summary and tables as JSON with symbols, units and titles."""
+    engine = {field.name: field.value for field in iter_fields(model)}
+    summary = {
+        key: {
+            "value": value,
+            "symbol": quantity(key).symbol,
+            "unit": quantity(key).unit_label,
+            "title": quantity(key).title,
+        }
+        for key, value in solution.scalars.items()
+    }
+    tables = {
+        name: {
+            "columns": [_describe(key) for key in columns],
+            "rows": [list(row) for row in zip(*columns.values(), strict=True)],
+        }
+        for name, columns in export_tables(solution).items()
+    }
+    data = {"engine": engine, "summary": summary, "tables": tables}
+    return json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1) + "\n"
+
+
+def _describe(key: str) -> dict[str, str]:
+    try:
+        found = quantity(key)
+    except KeyError:
+        symbol = key.removeprefix("lambda_")
+        return {"key": key, "symbol": symbol, "unit": "", "title": key}
+    return {
+        "key": key,
+        "symbol": found.symbol,
+        "unit": found.unit_label,
+        "title": found.title,
+    }

@@ -1,0 +1,260 @@
+"""What ``kshm grade`` does: every submission graded once, results written as they come."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import re
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from reports.grading.batch.far import grade_far
+from reports.grading.batch.pool import TIMEOUT_S, Outcome, grade_all
+from reports.grading.issuing.issue import latin
+from reports.grading.issuing.register import FILE, Register, load_register
+from reports.grading.issuing.ticket import read_secret, secret_path
+from reports.grading.judging.marking import FORMAT, Marker, blank_result
+from reports.grading.judging.rubric import load_rubric
+from reports.grading.pages.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
+from reports.grading.pages.pages import class_page, student_page
+from reports.grading.pages.summary import summarise, table_rows
+from reports.grading.reading.submissions import Submission, collect
+from reports.shared.errors import InputError, Problem
+from reports.shared.files import make_dir, write_bytes, write_text
+from reports.shared.progress import Progress
+
+RESULTS, PAGES = "results", "pages"
+_EVERY_S = 5.0  # how often the gradebook is written anew while the batch runs
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """How to grade; ``workers`` 0 takes all processors, ``dask`` a cluster instead."""
+
+    workers: int = 0
+    dask: str | None = None
+    timeout_s: float = TIMEOUT_S
+    pdf: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Graded:
+    """What came out."""
+
+    folder: Path
+    summary: dict[str, Any]
+    reused: int
+    seconds: float
+
+    @property
+    def needs_a_person(self) -> bool:
+        """Whether anything could not be decided."""
+        return bool(self.summary["manual"])
+
+
+def grade(
+    issued: Path,
+    submitted: Path,
+    folder: Path,
+    *,
+    rubric_file: Path | None = None,
+    secret_file: Path | None = None,
+    options: Options | None = None,
+) -> Graded:
+    """Grade everything that was handed in.
+
+    Raises:
+        InputError: the register, the rubric or the secret is wrong, or nothing was handed in.
+        OutputError: the folder cannot be written.
+    """
+    started = time.monotonic()
+    options = options or Options()
+    register = checked_register(issued, secret_file)
+    if rubric_file is not None:
+        register = replace(register, rubric=load_rubric(rubric_file))
+        Marker(register).assignment(register.books[0])  # the rubric must fit the engine
+    submissions = collect(submitted)
+    _refuse_overlap(submitted, folder, issued)
+    make_dir(folder)
+    batch = _Batch(register, folder)
+    batch.start(submissions)
+    workers = options.workers or len(os.sched_getaffinity(0))
+    outcomes = (
+        grade_far(
+            batch.waiting, batch.register_file, timeout_s=options.timeout_s, dask=options.dask
+        )
+        if options.dask
+        else grade_all(
+            batch.waiting, batch.register_file, workers=workers, timeout_s=options.timeout_s
+        )
+    )
+    with Progress("Проверка работ") as progress:
+        for outcome in outcomes:
+            batch.take(outcome)
+            done = len(batch.results)
+            progress.step(f"Проверка работ: {done} из {len(submissions)}")
+        summary = batch.finish()
+    if options.pdf:
+        batch.write_pdf()
+    reused = len(submissions) - len(batch.waiting)
+    return Graded(folder, summary, reused, time.monotonic() - started)
+
+
+def checked_register(issued: Path, secret_file: Path | None) -> Register:
+    """The register, proved to be the one that was issued with the secret.
+
+    Raises:
+        InputError: it is not.
+    """
+    register = load_register(issued)
+    if not register.books:
+        raise InputError(Problem(str(issued), "в реестре нет ни одной работы", "выдайте варианты"))
+    register.check(read_secret(secret_path(secret_file)), issued)
+    return register
+
+
+class _Batch:
+    """The results of a batch on disk, so that it can be stopped and started again."""
+
+    def __init__(self, register: Register, folder: Path) -> None:
+        self.register, self.folder = register, folder
+        self.results: dict[str, dict[str, Any]] = {}
+        self.waiting: list[Submission] = []
+        self.register_file = folder / RESULTS / FILE
+        self._written = time.monotonic()
+        self._rules = hashlib.sha256(
+            f"{FORMAT} {register.json_text()}".encode() + _program().encode()
+        ).hexdigest()
+        self._hashes: dict[str, str] = {}
+
+    def start(self, submissions: Sequence[Submission]) -> None:
+        """Take over what an earlier run has finished of the same files under the same rules."""
+        make_dir(self.folder / RESULTS)
+        make_dir(self.folder / PAGES)
+        for place in (self.folder, self.folder / RESULTS, self.folder / PAGES):
+            for leftover in place.glob(".kshm-*"):  # of a run that was killed while writing
+                leftover.unlink(missing_ok=True)
+        write_text(self.register_file, self.register.json_text())
+        keys = {submission.key for submission in submissions}
+        done = self._earlier(keys)
+        for submission in submissions:
+            self._hashes[submission.key] = self._fingerprint(submission)
+            earlier = done.get(submission.key)
+            if earlier and earlier["fingerprint"] == self._hashes[submission.key]:
+                self.results[submission.key] = earlier
+            else:
+                self.waiting.append(submission)
+
+    def _earlier(self, keys: set[str]) -> dict[str, dict[str, Any]]:
+        found = {}
+        for path in sorted((self.folder / RESULTS).glob("*.json")):
+            if path.name == FILE:
+                continue
+            try:
+                result = json.loads(path.read_text(encoding="utf-8"))
+                key, page = result["key"], self.folder / result["page"]
+                assert result["fingerprint"]
+            except (OSError, ValueError, KeyError, TypeError, AssertionError):
+                continue
+            if key in keys and page.exists():
+                found[key] = result
+            else:  # of a file that is no longer there
+                path.unlink(missing_ok=True)
+                if page.parent == self.folder / PAGES:
+                    page.unlink(missing_ok=True)
+        return found
+
+    def _fingerprint(self, submission: Submission) -> str:
+        try:
+            data = hashlib.sha256(submission.read()).hexdigest()
+        except InputError as error:
+            data = str(error)
+        about = f"{data} {submission.key} {submission.time} {self._rules}"
+        return hashlib.sha256(about.encode()).hexdigest()
+
+    def take(self, outcome: Outcome) -> None:
+        """Write one result and its page."""
+        submission, result, page = outcome.submission, outcome.result, outcome.page
+        if result is None:
+            marker = Marker(self.register)
+            blank = blank_result(submission)
+            result = marker.refused(blank, submission, outcome.problem)
+            page = student_page(result, self.register.rubric)
+        stem = _stem(result)
+        result["fingerprint"] = self._hashes[submission.key]
+        result["page"] = f"{PAGES}/{stem}.html"
+        write_text(self.folder / result["page"], page)
+        text = json.dumps(result, ensure_ascii=False, allow_nan=False, sort_keys=True) + "\n"
+        write_text(self.folder / RESULTS / f"{stem}.json", text)
+        self.results[submission.key] = result
+        if time.monotonic() - self._written > _EVERY_S:
+            self._tables()
+
+    @property
+    def ordered(self) -> list[dict[str, Any]]:
+        """Results in the order of their keys, whatever the order in which they came."""
+        return [self.results[key] for key in sorted(self.results)]
+
+    def _tables(self) -> list[dict[str, Any]]:
+        rows = table_rows(self.register, self.ordered)
+        write_text(self.folder / "gradebook.csv", gradebook_csv(rows, self.register.rubric.maximum))
+        self._written = time.monotonic()
+        return rows
+
+    def finish(self) -> dict[str, Any]:
+        """All tables, the page of the class and its JSON."""
+        rows = self._tables()
+        summary = summarise(self.register, self.ordered)
+        maximum = self.register.rubric.maximum
+        write_bytes(self.folder / "gradebook.xlsx", gradebook_xlsx(rows, maximum))
+        write_text(self.folder / "moodle.csv", moodle_csv(rows))
+        write_text(self.folder / "summary.html", class_page(summary))
+        data = {**summary, "rows": [{k: v for k, v in r.items() if k != "result"} for r in rows]}
+        text = json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1)
+        write_text(self.folder / "summary.json", text + "\n")
+        return summary
+
+    def write_pdf(self) -> None:
+        """A PDF beside every page.
+
+        Raises:
+            SystemPartMissing: pango is not on this machine.
+        """
+        from reports.document.page.render import render
+        from reports.shared.doctor import need_pango
+
+        need_pango()
+        for result in self.ordered:
+            page = self.folder / result["page"]
+            made = render(page.read_text(encoding="utf-8"), variant=None)
+            write_bytes(page.with_suffix(".pdf"), made.pdf)
+
+
+def _program() -> str:
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        return version("kshm")
+    except PackageNotFoundError:
+        return "?"
+
+
+def _stem(result: dict[str, Any]) -> str:
+    """A file name that depends on the submission alone."""
+    mark = hashlib.sha256(result["key"].encode()).hexdigest()[:6]
+    name = result["folder"] or re.sub(r"[^a-z0-9]+", "-", latin(Path(result["key"]).stem))[:40]
+    return f"{name.strip('-') or 'file'}-{mark}"
+
+
+def _refuse_overlap(submitted: Path, folder: Path, issued: Path) -> None:
+    """Results must not land among the files that are read."""
+    target = folder.resolve()
+    for place in (submitted, issued):
+        source = place.resolve()
+        if source.is_dir() and (target == source or source in target.parents):
+            what = f"результаты легли бы в папку {place}"
+            raise InputError(Problem(str(folder), what, "укажите другую папку ключом -o"))

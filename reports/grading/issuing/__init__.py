@@ -1,0 +1,1 @@
+"""Variants out: roster, work-books, register."""

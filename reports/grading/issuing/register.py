@@ -1,0 +1,135 @@
+"""The register of what was issued: the instructor's file, never a student's."""
+
+from __future__ import annotations
+
+import csv
+import hmac
+import io
+import json
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from reports.exports.numbers import neutralised
+from reports.grading.issuing.roster import Student
+from reports.grading.issuing.ticket import ticket
+from reports.grading.judging.rubric import Rubric, rubric_of
+from reports.shared.errors import InputError, Problem
+from reports.shared.files import reason
+
+VERSION = 1
+FILE = "register.json"
+MAX_BYTES = 50_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class Issued:
+    """One work-book: whose, which variant, under which identifier."""
+
+    number: int
+    student: Student
+    folder: str
+    file: str
+    ticket: str
+    drawn: dict[str, float | int | str]
+    raw: dict[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Register:
+    """All work-books of a batch and the rubric that they were issued under."""
+
+    batch: str
+    seed: int
+    source: str
+    rubric: Rubric
+    books: tuple[Issued, ...]
+
+    def json_text(self) -> str:
+        """The register as a file."""
+        data = {
+            "format": "kshm-register",
+            "version": VERSION,
+            "batch": self.batch,
+            "seed": self.seed,
+            "source": self.source,
+            "rubric": self.rubric.model_dump(mode="json"),
+            "books": [asdict(book) for book in self.books],
+        }
+        return json.dumps(data, ensure_ascii=False, indent=1) + "\n"
+
+    def csv_text(self) -> str:
+        """A table to look at: who got what."""
+        stream = io.StringIO()
+        writer = csv.writer(stream, delimiter=";", lineterminator="\n")
+        keys = list(self.books[0].drawn)
+        writer.writerow(["Вариант", "Фамилия", "Имя", "Группа", "Файл", "Идентификатор", *keys])
+        for book in self.books:
+            student = book.student
+            texts = [str(book.number), student.surname, student.name, student.group,
+                     f"{book.folder}/{book.file}", book.ticket]  # fmt: skip
+            values = [str(book.drawn[key]) for key in keys]
+            writer.writerow([neutralised(text) for text in texts] + values)
+        return "\ufeff" + stream.getvalue()
+
+    def check(self, secret: bytes, where: Path) -> None:
+        """Make sure that the register was not changed since it was issued.
+
+        Raises:
+            InputError: an identifier that this secret did not make.
+        """
+        for book in self.books:
+            made = ticket_of(secret, self.batch, book.student, book.file, book.raw)
+            if not hmac.compare_digest(made, book.ticket):
+                what = f"запись {book.number} ({book.student.full}) не соответствует секрету"
+                hint = "реестр изменён или выдан с другим секретом; укажите его ключом --secret"
+                raise InputError(Problem(str(where), what, hint))
+
+
+def ticket_of(secret: bytes, batch: str, student: Student, file: str, raw: dict[str, Any]) -> str:
+    """Identifier of a student's work-book."""
+    return ticket(secret, batch=batch, student=student.id, file=file, variant=raw)
+
+
+def load_register(folder: Path) -> Register:
+    """The register of a folder that ``kshm issue`` made.
+
+    Raises:
+        InputError: there is none, or it is damaged.
+    """
+    path = folder / FILE if folder.is_dir() else folder
+    try:
+        if path.stat().st_size > MAX_BYTES:
+            raise InputError(Problem(str(path), "файл больше 50 МБ", "это не реестр kshm"))
+        data = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        hint = "укажите папку, которую сделала команда kshm issue"
+        raise InputError(Problem(str(path), f"нет реестра: {reason(error)}", hint)) from None
+    except (ValueError, RecursionError):
+        raise InputError(_damaged(path)) from None
+    if not isinstance(data, dict) or data.get("format") != "kshm-register":
+        raise InputError(_damaged(path))
+    if data.get("version") != VERSION:
+        what = f"реестр версии {data.get('version')}, а нужна {VERSION}"
+        raise InputError(Problem(str(path), what, "обновите kshm"))
+    rubric = rubric_of(data.get("rubric") or {}, str(path))
+    try:
+        books = tuple(
+            Issued(
+                int(book["number"]),
+                Student(**book["student"]),
+                str(book["folder"]),
+                str(book["file"]),
+                str(book["ticket"]),
+                dict(book["drawn"]),
+                dict(book["raw"]),
+            )
+            for book in data["books"]
+        )
+        return Register(str(data["batch"]), int(data["seed"]), str(data["source"]), rubric, books)
+    except (KeyError, TypeError, ValueError):
+        raise InputError(_damaged(path)) from None
+
+
+def _damaged(path: Path) -> Problem:
+    return Problem(str(path), "это не реестр kshm или он повреждён", "возьмите его копию")

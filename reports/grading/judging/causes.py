@@ -1,0 +1,284 @@
+"""The likely cause of a wrong column: usual mistakes are tried one after the other."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reports.formula.numeric import evaluate_tree
+from reports.formula.parse import names, parse
+from reports.grading.judging.items import Item
+from reports.grading.judging.verdicts import Judgement, close, tolerance
+from reports.grading.reading.student import Student, known_values
+from reports.inputs.sections.input_file import METHODS
+from reports.spec.blocks import TableSpec
+from reports.spec.evaluation import Evaluation
+from reports.spec.graph import node_of
+
+Array = NDArray[np.float64]
+
+_FACTORS = (10.0, 100.0, 1000.0, 1e4, 1e5, 1e6, 1e9)
+
+_OTHERS = 200  # variants that are tried
+
+# Quantities that are taken for each other.
+_MIXED = (
+    ("r_crank", "S_stroke", "ход поршня S вместо радиуса кривошипа r"),
+    ("S_stroke", "r_crank", "радиус кривошипа r вместо хода поршня S"),
+    ("r_crank", "L_rod", "длина шатуна L вместо радиуса кривошипа r"),
+    ("L_rod", "r_crank", "радиус кривошипа r вместо длины шатуна L"),
+    ("omega", "regime_speed_rpm", "частота вращения n в мин⁻¹ вместо угловой скорости ω"),
+    ("F_piston", "geometry_bore_mm", "диаметр цилиндра вместо площади поршня"),
+    ("geometry_bore_mm", "S_stroke", "ход поршня S вместо диаметра цилиндра"),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class OtherVariant:
+    """Drawn values of another student's variant by the name of their input cell."""
+
+    number: int
+    values: dict[str, float]
+
+
+class Causes:
+    """Tries the usual mistakes on one student's wrong columns."""
+
+    def __init__(
+        self, student: Student, others: Sequence[OtherVariant], titles: dict[str, str]
+    ) -> None:
+        self.student, self.others, self.titles = student, others, titles
+        self._others: dict[tuple[str, float], Evaluation] = {}
+
+    def find(self, judgement: Judgement) -> str:
+        """The cause in words, empty where none fits."""
+        item, values = judgement.item, judgement.values
+        if not np.isfinite(values).any():
+            return ""
+        bases = [self._known(judgement)] if judgement.own is not None else []
+        bases.append({})
+        for known in bases:
+            run = self.student.expected.fork(known)
+            right = self._values(item, run)
+            if right is None:
+                continue
+            for words, attempt in self._attempts(item, run, right, values):
+                if attempt is not None and self._fits(item, values, attempt, right):
+                    return words
+        return ""
+
+    def _known(self, judgement: Judgement) -> dict[str, object]:
+        nodes = judgement.precedents - set(judgement.item.nodes)
+        return known_values(self.student.answers, nodes)
+
+    def _fits(self, item: Item, values: Array, attempt: Array, right: Array) -> bool:
+        """Whether an attempt explains the values, and differs from what is right."""
+        if attempt.shape != values.shape or not np.isfinite(attempt).any():
+            return False
+        allowed = tolerance(item, attempt, self.student)
+        there = np.isfinite(values)
+        if there.sum() < max(1, len(values) // 2):
+            return False
+        explained = close(item, values, attempt, allowed)[there].all()
+        return bool(explained) and not close(item, attempt, right, allowed).all()
+
+    def _attempts(
+        self, item: Item, run: Evaluation, right: Array, values: Array
+    ) -> Iterator[tuple[str, Array | None]]:
+        yield "обратный знак", -right
+        for factor in _FACTORS:
+            yield f"значения больше правильных в {factor:g} раз: проверьте единицы", right * factor
+            yield f"значения меньше правильных в {factor:g} раз: проверьте единицы", right / factor
+        yield "результат в градусах вместо радиан", np.degrees(right)
+        yield "результат в радианах вместо градусов", np.radians(right)
+        yield from self._changed_formulas(item, run)
+        if len(right) > 3 and item.is_column:
+            yield "значения сдвинуты на одну строку вниз", _shifted(right, values, 1)
+            yield "значения сдвинуты на одну строку вверх", _shifted(right, values, -1)
+        yield from self._columns(item, run)
+        yield from self._methods(item)
+        yield from self._variants(item)
+        yield "результат вдвое больше правильного", right * 2
+        yield "результат вдвое меньше правильного", right / 2
+
+    def _values(self, item: Item, run: Evaluation) -> Array | None:
+        parts = [np.ravel(np.asarray(run.value(node), dtype=float)) for node in item.nodes]
+        return np.concatenate(parts)
+
+    # --- the formula itself -------------------------------------------------------------
+
+    def _changed_formulas(self, item: Item, run: Evaluation) -> Iterator[tuple[str, Array | None]]:
+        yield "градусы вместо радиан в sin, cos", self._rewritten(item, run, _without_radians)
+        for wrong_for, taken, words in _MIXED:
+            uses = any(wrong_for in self._names(node) for node in item.nodes)
+            known = self.student.assignment.model
+            if uses and (taken in known.scalars or taken in known.fields):
+                yield words, self._rewritten(item, run, _Renamed(wrong_for, taken).visit)
+        for number, words in _SIGNS:
+            yield words, self._rewritten(item, run, _Flipped(number).visit)
+
+    def _names(self, node: str) -> frozenset[str]:
+        text = self.student.assignment.graph.expression(node)
+        return names(text) if text is not None else frozenset()
+
+    def _rewritten(
+        self, item: Item, run: Evaluation, change: Callable[[ast.expr], Any]
+    ) -> Array | None:
+        graph = self.student.assignment.graph
+        parts = []
+        changed = False
+        for node in item.nodes:
+            text = graph.expression(node)
+            assert text is not None
+            tree = parse(text)
+            other = change(ast.parse(ast.unparse(tree), mode="eval").body)
+            changed = changed or ast.unparse(other) != ast.unparse(tree)
+            with np.errstate(all="ignore"):
+                value = evaluate_tree(other, _resolver(node, run))
+            if isinstance(value, str):
+                return None
+            length = self.student.assignment.length(node)
+            parts.append(np.broadcast_to(np.asarray(value, dtype=float), (length,)))
+        return np.concatenate(parts) if changed else None
+
+    # --- other columns, methods and variants ---------------------------------------------
+
+    def _columns(self, item: Item, run: Evaluation) -> Iterator[tuple[str, Array | None]]:
+        """Values of another column: of the same table, then of any table with the same rows."""
+        if not item.is_column:
+            for key, scalar in self._neighbours(item):
+                value = run.value(key)
+                if not isinstance(value, str):
+                    yield f"это значение величины {scalar}", np.array([float(value)])
+            return
+        model = self.student.assignment.model
+        own = model.tables[item.block]
+        tables = [own, *(table for table in model.tables.values() if table is not own)]
+        for table in tables:
+            rows = _row_indices(own, table)
+            if rows is None:
+                continue
+            for column in table.columns:
+                node = f"{table.id}.{column.key}"
+                if node == item.nodes[0] or column.expr is None:
+                    continue
+                about = column.quantity
+                where = "соседнего столбца" if table is own else "столбца"
+                words = f"это значения {where} {about.symbol} ({about.title})"
+                if "точн" in about.title or "точн" in table.title.lower():
+                    words = f"точная формула вместо двучленной: {about.symbol} ({about.title})"
+                value = run.value(node)
+                if not isinstance(value, str):
+                    yield words, np.asarray(value, dtype=float)[rows]
+
+    def _neighbours(self, item: Item) -> Iterator[tuple[str, str]]:
+        for other in self.student.assignment.items:
+            if other.block == item.block and other.id != item.id and len(other.nodes) == 1:
+                yield other.nodes[0], f"{other.symbol} ({other.title})"
+
+    def _methods(self, item: Item) -> Iterator[tuple[str, Array | None]]:
+        model = self.student.assignment.model
+        field = model.fields.get("calculation_method")
+        if field is None or field.choices is None:
+            return
+        now = field.choices[str(field.value)]
+        other = next(label for label in METHODS.values() if label != now)
+        exact = other == METHODS["exact"]
+        words = "точная формула вместо двучленной" if exact else "двучленная формула вместо точной"
+        run = self.student.expected.fork({"calculation_method": other})
+        yield words, self._values(item, run)
+
+    def _variants(self, item: Item) -> Iterator[tuple[str, Array | None]]:
+        """One parameter of another variant, its λ, then the whole other variant."""
+        tried: set[tuple[str, float]] = set()
+        for other in self.others[:_OTHERS]:
+            for name, value in other.values.items():
+                if (name, value) in tried:
+                    continue
+                tried.add((name, value))
+                run = self.student.expected.fork({name: value})
+                title = self.titles.get(name, name)
+                words = f"{title} из варианта {other.number}: {value:g}"
+                yield words, self._values(item, run)
+        for other in self.others[:_OTHERS]:
+            theirs = self.student.expected.fork(dict(other.values))
+            if "lam" in theirs.nodes:
+                lam = theirs.value("lam")
+                run = self.student.expected.fork({"lam": lam})
+                yield f"λ из варианта {other.number}: {lam:.4g}", self._values(item, run)
+            words = f"исходные данные варианта {other.number}, а не вашего"
+            yield words, self._values(item, theirs)
+
+
+def _resolver(node: str, run: Evaluation) -> Callable[[str], Any]:
+    """Values of the names in a node's formula."""
+    table = node.split(".", maxsplit=1)[0] if "." in node else ""
+    return lambda name: run.value(node_of(name, table, run.model))
+
+
+def _shifted(right: Array, values: Array, by: int) -> Array:
+    """Right values moved by a row; the row without a right value is the student's own."""
+    moved = np.roll(right, by)
+    moved[0 if by > 0 else -1] = values[0 if by > 0 else -1]
+    return moved
+
+
+def _row_indices(own: TableSpec, other: TableSpec) -> NDArray[np.intp] | None:
+    """For each row of a table the row of another table with the same angle."""
+    if own.rows == other.rows:
+        return np.arange(len(own.rows))
+    places = {angle: i for i, angle in enumerate(other.rows)}
+    if any(angle not in places for angle in own.rows):
+        return None
+    return np.array([places[angle] for angle in own.rows])
+
+
+def _without_radians(tree: ast.expr) -> ast.expr:
+    result = _NoRadians().visit(tree)
+    assert isinstance(result, ast.expr)
+    return result
+
+
+class _NoRadians(ast.NodeTransformer):
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        self.generic_visit(node)
+        if isinstance(node.func, ast.Name) and node.func.id == "rad":
+            return node.args[0]
+        return node
+
+
+class _Renamed(ast.NodeTransformer):
+    def __init__(self, old: str, new: str) -> None:
+        self.old, self.new = old, new
+
+    def visit_Name(self, node: ast.Name) -> ast.AST:
+        return (
+            ast.copy_location(ast.Name(self.new, ast.Load()), node) if node.id == self.old else node
+        )
+
+
+_SIGNS = tuple((number, f"знак слагаемого {number + 2}") for number in range(3))
+
+
+class _Flipped(ast.NodeTransformer):
+    """Turns the sign of one sum in the formula."""
+
+    def __init__(self, number: int) -> None:
+        self.number, self.seen = number, -1
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        self.generic_visit(node)
+        if isinstance(node.op, (ast.Add, ast.Sub)):
+            self.seen += 1
+            if self.seen == self.number:
+                node.op = ast.Sub() if isinstance(node.op, ast.Add) else ast.Add()
+        return node
+
+    def visit(self, node: ast.AST) -> Any:  # noqa: ANN401
+        """Count from the left in each formula anew."""
+        return super().visit(node)

@@ -1,0 +1,169 @@
+"""How one verdict came about: formula, precedents and numbers, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from reports.formula.excel import compile_formula
+from reports.grading.batch.grade import checked_register
+from reports.grading.issuing.register import FILE
+from reports.grading.judging.causes import Causes
+from reports.grading.judging.items import Item
+from reports.grading.judging.marking import Marker
+from reports.grading.judging.rubric import load_rubric
+from reports.grading.judging.verdicts import WORDS, WRONG, Judgement, judge, tolerance
+from reports.grading.pages.pages import number, rows
+from reports.grading.reading.matching import find_owner
+from reports.grading.reading.student import Student
+from reports.grading.reading.submissions import collect
+from reports.recalculation.by_columns import BadBook, read_grid
+from reports.recalculation.by_columns.syntax import column_number, render
+from reports.shared.errors import InputError, Problem
+from reports.workbook.intake import check_data
+from reports.workbook.layout import Layout, RowReferences, at_row
+
+_SHOWN = 6
+
+
+def explain(
+    issued: Path | None, file: Path, target: str, rubric: Path | None, secret: Path | None
+) -> Iterator[str]:
+    """Lines that explain the verdict on ``SHEET!COLUMN`` of a submitted workbook.
+
+    Raises:
+        InputError: the file or the column cannot be found or read.
+    """
+    register = checked_register(issued or _find_issued(file), secret)
+    if rubric is not None:
+        from dataclasses import replace
+
+        register = replace(register, rubric=load_rubric(rubric))
+    if not file.is_file():
+        raise InputError(Problem(str(file), "нет такого файла", "проверьте путь"))
+    submission = collect(file)[0]
+    data = submission.read()
+    package = check_data(data, file.name)
+    try:
+        grid = read_grid(package)
+    except BadBook as error:
+        raise InputError(Problem(file.name, str(error), "сдайте его заново")) from None
+    match = find_owner(register, submission, grid, package)
+    if match.book is None:
+        raise InputError(Problem(file.name, "; ".join(match.doubts), "проверьте файл"))
+    marker = Marker(register)
+    student, helped = marker.student(match.book, grid)
+    item = _find_item(student, target)
+    judgement = judge(item, student)
+    yield f"Студент: {match.book.student.full}, вариант {match.book.number}"
+    yield "Основание: " + "; ".join(match.evidence)
+    if helped:
+        yield "Книгу пересчитал formualizer: в ней есть функции вне быстрого списка."
+    others = marker.others(match.book.number)
+    causes = Causes(student, others, marker.titles(student.assignment))
+    yield from _about(student, item, judgement, causes)
+
+
+def _find_issued(file: Path) -> Path:
+    """The nearest folder with a register: here, beside the file or above it."""
+    for folder in (Path(), *file.resolve().parents):
+        for place in (folder, folder / "issued"):
+            if (place / FILE).is_file():
+                return place
+    what = "не найден реестр выдачи"
+    raise InputError(Problem(str(file), what, "укажите папку выдачи первым аргументом"))
+
+
+def _find_item(student: Student, target: str) -> Item:
+    """The item under ``SHEET!COLUMN``: a letter, a header's symbol, a cell or an item's id."""
+    sheet, _, column = target.rpartition("!")
+    wanted = column.strip().replace("$", "")
+    items = student.assignment.items
+    for item in items:
+        if target in (item.id, *item.nodes):
+            return item
+    letters = wanted.rstrip("0123456789")
+    digits = wanted[len(letters) :]
+    at = column_number(letters) if letters.isascii() and letters.isalpha() else 0
+    hits = []
+    for item in items:
+        for node in item.nodes:
+            place = student.placement.places.get(node)
+            if place is None or place.sheet.casefold() != sheet.strip("'").casefold():
+                continue
+            by_cell = place.column == at and (not digits or int(digits) in place.rows)
+            if by_cell or wanted in (item.symbol, item.quantity.header):
+                hits.append(item)
+                break
+    if not hits:
+        hint = "пример: «П3.1!D», «Массы!C9» или «P3_1.s_mm»"
+        raise InputError(Problem(target, "такого заполняемого столбца в книге нет", hint))
+    return hits[0]
+
+
+def _about(student: Student, item: Item, judgement: Judgement, causes: Causes) -> Iterator[str]:
+    assignment = student.assignment
+    unit = f", {item.quantity.unit_label}" if item.quantity.unit_label else ""
+    yield f"Столбец: {item.id} — {item.symbol}{unit}, {item.title}"
+    for node in item.nodes[:1]:
+        place = student.placement.places.get(node)
+        if place is not None:
+            how = "по определённому имени" if place.by == "name" else "по заголовку"
+            yield f"Где: лист «{place.sheet}», найдено {how}"
+        yield f"Формула учебника ({item.source or 'без номера'}): {_textbook(student, node)}"
+        for run in student.runs(node)[:_SHOWN]:
+            text = render(run.pattern, run.first, run.column) if run.pattern else "=" + run.text
+            yield f"Формула студента, строки {run.first}–{run.last}: {text[:300]}"
+    found = frozenset().union(*(student.precedents(node) for node in item.nodes))
+    names = ", ".join(sorted(found)) or "ни на одну величину книги"
+    yield f"Ссылается на: {names}"
+    for name in sorted(found):
+        answer = student.answers.get(name)
+        if answer is not None:
+            right = np.ravel(np.asarray(student.expected.value(name), dtype=object))
+            pair = f"{number(float(answer.values[0]))} при правильном {_value(right[0])}"
+            yield f"  {name}: у студента {pair} (первая строка)"
+    allowed = tolerance(item, judgement.expected, student)
+    yield f"Допуск: {number(allowed)} (округление учебника {item.quantity.fmt})"
+    for index in _rows_to_show(judgement):
+        own = judgement.own[index] if judgement.own is not None else None
+        line = (
+            f"  {item.labels[index] or 'значение'}: у студента {number(judgement.values[index])}, "
+            f"правильно {number(judgement.expected[index])}"
+        )
+        yield line + (f", по его предыдущим значениям {number(own)}" if own is not None else "")
+    yield f"Вердикт: {WORDS[judgement.verdict]}"
+    if judgement.reason:
+        yield f"Пояснение: {judgement.reason}"
+    if judgement.path:
+        ways = {
+            "expression": "формула учебника на его предыдущих значениях даёт тот же столбец",
+            "formula": "его формула на правильных предыдущих значениях даёт правильный столбец",
+        }
+        yield f"Почему перенос: {ways[judgement.path]}"
+    if judgement.typed:
+        yield "Числа вместо формул: " + rows([item.labels[i] for i in judgement.typed])
+    if judgement.verdict == WRONG:
+        yield f"Вероятная причина: {causes.find(judgement) or 'обычные ошибки не подходят'}"
+    yield f"Баллы за столбец: {number(assignment.points[item.id])} при верном ответе"
+
+
+def _rows_to_show(judgement: Judgement) -> list[int]:
+    rows = list(judgement.rows) or list(range(len(judgement.values)))
+    return rows[:_SHOWN]
+
+
+def _value(value: object) -> str:
+    return number(float(value)) if isinstance(value, (int, float)) else str(value)
+
+
+def _textbook(student: Student, node: str) -> str:
+    text = student.assignment.graph.expression(node)
+    if text is None:
+        return "—"
+    layout: Layout = student.layout
+    table = student.assignment.model.tables.get(node.partition(".")[0]) if "." in node else None
+    formula = compile_formula(text, RowReferences(layout, table))
+    return at_row(formula, layout.rows_of(table)[0]) if table is not None else formula

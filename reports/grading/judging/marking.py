@@ -1,0 +1,342 @@
+"""From a submitted workbook to its result: points, feedback, notes and signals, as plain data."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from dataclasses import dataclass, replace
+from datetime import datetime, timedelta
+from typing import Any
+
+import numpy as np
+
+from reports.grading.issuing.issue import assignment_for
+from reports.grading.issuing.register import Issued, Register
+from reports.grading.judging.causes import Causes, OtherVariant
+from reports.grading.judging.items import Assignment, Item
+from reports.grading.judging.rubric import Rubric
+from reports.grading.judging.verdicts import (
+    BROKEN,
+    CARRIED,
+    EMPTY,
+    RIGHT,
+    TYPED,
+    UNKNOWN,
+    WRONG,
+    Judgement,
+    judge_all,
+)
+from reports.grading.reading.matching import Match, file_properties, find_by_name, find_owner
+from reports.grading.reading.stronger import recalculate_unknown
+from reports.grading.reading.student import Student, address
+from reports.grading.reading.submissions import Submission
+from reports.inputs.fields import cell_name
+from reports.inputs.ranges import Range
+from reports.recalculation.by_columns import BadBook, Grid, read_grid
+from reports.shared.errors import InputError
+from reports.workbook.intake import check_data
+from reports.workbook.layout import Layout
+from reports.workbook.package import Package
+
+FORMAT = 1
+SHOWN_ROWS = 12  # wrong cells shown in the feedback of an item
+Result = dict[str, Any]
+
+
+def blank_result(submission: Submission) -> Result:
+    """The result of a file before anything is known about it."""
+    return {
+        "format": FORMAT,
+        "key": submission.key,
+        "file": submission.label,
+        "time": submission.time.isoformat() if submission.time else None,
+        "moodle_id": submission.moodle_id,
+        "sha256": "",
+        "items": [],
+        "manual": [],
+        "notes": [],
+        "moved": [],
+        "changed": [],
+        "altered": [],
+        "evidence": [],
+    }
+
+
+@dataclass
+class Marker:
+    """Grades submissions against a register; keeps what all students share."""
+
+    register: Register
+
+    def __post_init__(self) -> None:
+        self._assignments: dict[int, tuple[Assignment, Layout]] = {}
+        self._first: tuple[Assignment, Layout] | None = None  # the others are mostly alike
+
+    def mark(self, submission: Submission, data: bytes) -> Result:
+        """The result of one file; whatever is wrong with it is part of the result."""
+        result = blank_result(submission)
+        result["sha256"] = hashlib.sha256(data).hexdigest()
+        try:
+            package = check_data(data, submission.label)
+            grid = read_grid(package)
+            match = find_owner(self.register, submission, grid, package)
+        except InputError as error:
+            problem = error.problems[0]
+            hint = f"; {problem.hint}" if problem.hint else ""
+            return self.refused(result, submission, problem.what + hint)
+        except BadBook as error:
+            return self.refused(result, submission, str(error))
+        _take_match(result, match)
+        if match.book is None:
+            result["status"] = "unmatched"
+            result["manual"].append("не удалось установить, чья это работа")
+            return result
+        result["properties"] = file_properties(package)
+        assignment, layout = self.assignment(match.book)
+        self._grade(result, assignment, layout, grid, match.book, package)
+        _score(result, self.register.rubric, submission.time)
+        return result
+
+    def assignment(self, book: Issued) -> tuple[Assignment, Layout]:
+        """The tables of a student's work-book and where they were issued."""
+        found = self._assignments.get(book.number)
+        if found is None:
+            like, layout = self._first or (None, None)
+            assignment = assignment_for(book, self.register.rubric, like)
+            if layout is None or like is None or assignment.fill is not like.fill:
+                layout = Layout.of(assignment.model)
+            self._first = self._first or (assignment, layout)
+            if len(self._assignments) > 8:  # a class must not fill the memory
+                self._assignments.clear()
+            found = self._assignments[book.number] = (
+                assignment,
+                replace(layout, model=assignment.model),
+            )
+        return found
+
+    def refused(self, result: Result, submission: Submission, why: str) -> Result:
+        """The result of a file that cannot be graded."""
+        _take_match(result, find_by_name(self.register, submission))
+        result |= {"status": "refused", "reason": why}
+        result["manual"].append(f"файл не принят: {why}")
+        return result
+
+    def student(self, book: Issued, grid: Grid) -> tuple[Student, bool]:
+        """The workbook under its assignment; whether a stronger referee had to help."""
+        assignment, layout = self.assignment(book)
+        student = Student.of(assignment, layout, grid)
+        return student, recalculate_unknown(student)
+
+    def _grade(
+        self,
+        result: Result,
+        assignment: Assignment,
+        layout: Layout,
+        grid: Grid,
+        book: Issued,
+        package: Package,
+    ) -> None:
+        student, helped = self.student(book, grid)
+        judgements = judge_all(student)
+        causes = Causes(student, self.others(book.number), self.titles(assignment))
+        items = [_line(student, judgement, causes, assignment) for judgement in judgements]
+        result |= {
+            "status": "graded",
+            "feedback": self.register.rubric.feedback.mode,
+            "items": items,
+            "moved": student.placement.moved[:50],
+            "changed": [
+                {"where": c.where, "name": c.name, "was": c.was, "now": c.now}
+                for c in student.changed[:50]
+            ],
+            "altered": altered(student, read_grid(package) if student.changed else None)[:50],
+            "helped": helped,
+        }
+        notes = result["notes"]
+        if student.changed:
+            notes.append(f"изменены исходные или защищённые данные: ячеек {len(student.changed)}")
+        if result["altered"]:
+            notes.append("сохранённые значения не соответствуют формулам: " + result["altered"][0])
+        unknown = [line["id"] for line in items if line["verdict"] == UNKNOWN]
+        if unknown:
+            result["manual"].append("не удалось проверить: " + ", ".join(unknown[:8]))
+
+    def others(self, number: int) -> list[OtherVariant]:
+        """What the other students' variants have different."""
+        mine = next(book for book in self.register.books if book.number == number)
+        found = []
+        for other in self.register.books:
+            if other.number == number:
+                continue
+            values = {
+                cell_name(Range.path_of(key)): float(value)
+                for key, value in other.drawn.items()
+                if isinstance(value, (int, float)) and value != mine.drawn.get(key)
+            }
+            found.append(OtherVariant(other.number, values))
+        return found
+
+    @staticmethod
+    def titles(assignment: Assignment) -> dict[str, str]:
+        """Name of an input → its title."""
+        return {name: field.title for name, field in assignment.model.fields.items()}
+
+
+def _take_match(result: Result, match: Match) -> None:
+    book = match.book
+    result["number"] = book.number if book else None
+    result["student"] = book.student.full if book else None
+    result["group"] = book.student.group if book else None
+    result["folder"] = book.folder if book else None
+    result["evidence"] = list(match.evidence)
+    result["manual"] += list(match.doubts)
+
+
+def _line(
+    student: Student, judgement: Judgement, causes: Causes, assignment: Assignment
+) -> dict[str, Any]:
+    """One item of the feedback."""
+    item = judgement.item
+    worth = assignment.points[item.id]
+    share = {
+        RIGHT: 1.0,
+        CARRIED: assignment.rubric.credit.carried,
+        TYPED: assignment.rubric.credit.typed,
+    }.get(judgement.verdict, 0.0)
+    tables = assignment.model.tables
+    cause = causes.find(judgement) if judgement.verdict == WRONG else ""
+    line: dict[str, Any] = {
+        "id": item.id,
+        "block": item.block,
+        "table": tables[item.block].number if item.block in tables else "",
+        "title": item.title,
+        "symbol": item.symbol,
+        "unit": item.quantity.unit_label,
+        "source": item.source,
+        "fmt": item.quantity.fmt,
+        "verdict": judgement.verdict,
+        "points": round(worth * share, 6),
+        "of": round(worth, 6),
+        "reason": judgement.reason,
+        "cause": cause,
+        "rows": [item.labels[i] for i in judgement.rows],
+        "typed": [item.labels[i] for i in judgement.typed] if judgement.verdict != RIGHT else [],
+    }
+    if judgement.verdict in (WRONG, CARRIED, TYPED, BROKEN):
+        line["cells"] = _cells(student, judgement)
+        line["mark"] = _fingerprint(item, judgement.values)
+        line["right_mark"] = _fingerprint(item, judgement.expected)
+        if item.is_column:
+            line["chart"] = {
+                "x": [float(label) for label in item.labels],
+                "own": _plain(judgement.values),
+                "right": _plain(judgement.expected),
+            }
+    return line
+
+
+def _cells(student: Student, judgement: Judgement) -> list[dict[str, Any]]:
+    item = judgement.item
+    rows = judgement.rows or judgement.typed
+    places = [
+        (student.placement.places.get(node), i)
+        for node in item.nodes
+        for i in range(student.assignment.length(node))
+    ]
+    cells = []
+    for row in rows[:SHOWN_ROWS]:
+        place, index = places[row]
+        at = place.rows[index] if place is not None else None
+        cells.append(
+            {
+                "row": item.labels[row],
+                "cell": f"{place.sheet}!{address(at, place.column)}" if place and at else "",
+                "own": _number(judgement.values[row]),
+                "right": _number(judgement.expected[row]),
+                "carried": _number(judgement.own[row]) if judgement.own is not None else None,
+            }
+        )
+    return cells
+
+
+def _number(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None
+
+
+def _plain(values: np.ndarray[Any, np.dtype[np.float64]]) -> list[float | None]:
+    return [float(f"{v:.6g}") if math.isfinite(v) else None for v in values]
+
+
+def _fingerprint(item: Item, values: np.ndarray[Any, np.dtype[np.float64]]) -> str:
+    """The same for equal values, whatever the book: for the signals of similarity."""
+    if item.is_column and np.unique(values[np.isfinite(values)]).size < 4:
+        return ""  # zeros and constants are alike by themselves
+    text = ";".join(f"{value:.6g}" for value in values)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def altered(student: Student, original: Grid | None) -> list[str]:
+    """Cells whose saved value is not what their formula gives."""
+    from reports.recalculation.by_columns import Engine, UnknownFormula
+
+    grid = original or student.grid
+    engine = student.engine if original is None else Engine(original)
+    found = []
+    places = [student.placement.places.get(node) for node in student.answers]
+    columns = {(place.sheet, place.column): place for place in places if place is not None}
+    for place in columns.values():
+        column = grid.column(place.sheet, place.column)
+        for run in column.runs:
+            claims = column.saved_of(run)
+            if not claims.size or np.isnan(claims).all():
+                continue
+            try:
+                values = engine.all_of(run)
+            except (UnknownFormula, RecursionError):
+                continue
+            away = np.abs(claims - values)
+            if not (away > 1e-6).any():
+                continue
+            known = np.abs(values[np.isfinite(values)])
+            scale = max(1.0, float(known.max())) if known.size else 1.0
+            off = away > 1e-6 * scale
+            for index in np.flatnonzero(off)[:3]:
+                where = address(run.first + int(index), place.column)
+                now, was = values[index], claims[index]
+                found.append(f"{place.sheet}!{where}: сохранено {was:g}, формула даёт {now:g}")
+    return found
+
+
+def _score(result: Result, rubric: Rubric, time: datetime | None) -> None:
+    lines = result["items"]
+    paid = [line for line in lines if line["of"] > 0]
+    filled = [line for line in paid if line["verdict"] != EMPTY]
+    result["filled"] = round(len(filled) / len(paid), 4) if paid else 0.0
+    raw = sum(line["points"] for line in lines)
+    result["raw"] = round(raw, 2)
+    result["maximum"] = rubric.maximum
+    if result["filled"] < rubric.minimum.filled:
+        result["notes"].append(
+            f"заполнено {result['filled']:.0%} при наименьшем {rubric.minimum.filled:.0%}: 0 баллов"
+        )
+        raw = 0.0
+    factor = late_factor(rubric, time)
+    result["late"] = factor
+    if factor < 1:
+        result["notes"].append(f"сдано после срока: баллы умножены на {factor:g}")
+    result["points"] = round(raw * factor, 2)
+
+
+def late_factor(rubric: Rubric, time: datetime | None) -> float:
+    """Factor of the strictest late rule that applies; without a time none does."""
+    deadline = rubric.late.deadline
+    if deadline is None or time is None:
+        return 1.0
+    # File times carry no zone: they are the clock of the place where the deadline is meant.
+    late = time - deadline.replace(tzinfo=None)
+    if late <= timedelta(0):
+        return 1.0
+    hours = late.total_seconds() / 3600
+    return min(
+        [rule.factor for rule in rubric.late.rules if hours >= rule.after_hours], default=1.0
+    )

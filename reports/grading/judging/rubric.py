@@ -1,0 +1,164 @@
+"""The rubric: what is filled in, what it is worth, what is allowed.  Every rule has a default."""
+
+from __future__ import annotations
+
+import tomllib
+from datetime import datetime
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from reports.inputs import messages
+from reports.inputs.source import read_text, refuse_bomb
+from reports.shared.errors import InputError, Problem, one_line
+
+Share = Annotated[float, Field(ge=0, le=1)]
+Positive = Annotated[float, Field(gt=0)]
+Points = Annotated[float, Field(ge=0, le=1e6)]
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+class Work(_Part):
+    """[work]: the tables of the work-book, by id; ``*`` stands for any ending."""
+
+    title: Annotated[str, Field(max_length=200)] = ""
+    fill: tuple[str, ...] = ("geometry", "masses", "P3_*", "P4_*")
+    given: tuple[str, ...] = ()
+
+
+class Credit(_Part):
+    """[credit]: share of the points."""
+
+    carried: Share = 1.0
+    typed: Share = 0.5
+
+
+class Formulas(_Part):
+    """[formulas]: where formulas are demanded."""
+
+    required: bool = True
+    optional: tuple[str, ...] = ()
+
+
+class Tolerance(_Part):
+    """[tolerance]: ``units`` of the last printed digit, and absolute ones by item."""
+
+    units: Positive = 0.5
+    share: Share = 0.01
+    items: dict[str, Positive] = {}
+
+
+class LateRule(_Part):
+    """After so many hours past the deadline the points are multiplied by the factor."""
+
+    after_hours: Annotated[float, Field(ge=0)] = 0.0
+    factor: Share
+
+
+class Late(_Part):
+    """[late]: no deadline, no rule."""
+
+    deadline: datetime | None = None
+    rules: tuple[LateRule, ...] = (LateRule(after_hours=0, factor=0.9),)
+
+
+class Minimum(_Part):
+    """[minimum]: share of the items that must be filled in for any points at all."""
+
+    filled: Share = 0.0
+
+
+class Feedback(_Part):
+    """[feedback]: hints only, or the right values too."""
+
+    mode: Literal["hints", "full"] = "hints"
+
+
+class Rubric(_Part):
+    """All rules."""
+
+    maximum: Positive = 100.0
+    work: Work = Work()
+    points: dict[str, Points] = {}
+    credit: Credit = Credit()
+    formulas: Formulas = Formulas()
+    tolerance: Tolerance = Tolerance()
+    late: Late = Late()
+    minimum: Minimum = Minimum()
+    feedback: Feedback = Feedback()
+
+
+def load_rubric(path: Path | None) -> Rubric:
+    """The rubric of a file, or the defaults.
+
+    Raises:
+        InputError: everything that is wrong with the file.
+    """
+    if path is None:
+        return Rubric()
+    text = read_text(path)
+    refuse_bomb(path.name, text)
+    try:
+        raw = tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        what, hint = (
+            messages.toml_error(error, text)
+            if isinstance(error, ValueError)
+            else ("слишком глубокая вложенность", "уберите лишние скобки")
+        )
+        raise InputError(Problem(path.name, what, hint)) from None
+    return rubric_of(raw, path.name)
+
+
+def rubric_of(raw: dict[str, Any], source: str) -> Rubric:
+    """The rubric of a mapping.
+
+    Raises:
+        InputError: everything that is wrong with it.
+    """
+    try:
+        return Rubric.model_validate(raw)
+    except ValidationError as error:
+        problems = []
+        for item in error.errors(include_url=False, include_context=False)[:50]:
+            key = ".".join(str(part) for part in item["loc"])
+            where = one_line(f"{source}: {key}", 120)
+            if item["type"] == "extra_forbidden":
+                likely = messages.likely_word(str(item["loc"][-1]), _keys(item["loc"]))
+                hint = f"возможно, имелось в виду {likely}" if likely else "удалите его"
+                problems.append(Problem(where, "неизвестный ключ", hint))
+            else:
+                what = f"недопустимое значение {messages.shown(item.get('input'))}"
+                problems.append(Problem(where, what, _WANTED.get(item["type"], "смотрите образец")))
+        raise InputError(problems) from None
+
+
+_WANTED = {
+    "less_than_equal": "нужно число от 0 до 1",
+    "greater_than_equal": "нужно число не меньше нуля",
+    "greater_than": "нужно положительное число",
+    "float_type": "нужно число",
+    "float_parsing": "нужно число",
+    "finite_number": "нужно конечное число",
+    "bool_parsing": "нужно true или false",
+    "bool_type": "нужно true или false",
+    "literal_error": 'нужно "hints" или "full"',
+    "tuple_type": "нужен список",
+    "dict_type": "нужен раздел",
+    "string_type": "нужен текст",
+    "missing": "ключ обязателен",
+    "datetime_from_date_parsing": "нужна дата и время: 2026-12-20T23:59:00+03:00",
+    "datetime_parsing": "нужна дата и время: 2026-12-20T23:59:00+03:00",
+}
+
+
+def _keys(location: tuple[int | str, ...]) -> list[str]:
+    model: Any = Rubric
+    for part in location[:-1]:
+        info = getattr(model, "model_fields", {}).get(str(part))
+        model = info.annotation if info is not None else None
+    return list(getattr(model, "model_fields", {}))

@@ -1,0 +1,111 @@
+"""The tables of grades: CSV and a workbook for the instructor, CSV for Moodle."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+from typing import Any
+
+from reports.exports.numbers import neutralised
+
+_HEAD = ("Вариант", "Студент", "Группа", "Баллы", "Из", "Состояние", "Файл", "Замечания")
+
+
+def gradebook_csv(rows: Sequence[dict[str, Any]], maximum: float) -> str:
+    """The gradebook: a row a student, a column a table; opens in Excel as it is."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, delimiter=";", lineterminator="\n")
+    blocks = _blocks(rows)
+    writer.writerow([*_HEAD, *blocks])
+    for row in rows:
+        shares = _shares(row)
+        writer.writerow(
+            [
+                "" if row["number"] is None else row["number"],
+                neutralised(row["student"]),
+                neutralised(row["group"]),
+                _decimal(row["points"]),
+                _decimal(maximum),
+                row["status"],
+                neutralised(row["file"]),
+                neutralised(row["remark"]),
+                *(_decimal(shares.get(block)) for block in blocks),
+            ]
+        )
+    return "\ufeff" + stream.getvalue()
+
+
+def moodle_csv(rows: Sequence[dict[str, Any]]) -> str:
+    """Grades as Moodle's import of grades from a CSV file takes them."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(["Identifier", "Full name", "Email address", "ID number", "Grade", "Feedback"])
+    for row in rows:
+        result = row["result"]
+        if row["number"] is None or result is None:
+            continue
+        participant = f"Participant {result['moodle_id']}" if result["moodle_id"] else ""
+        # No grade where a person has to look first.
+        grade = "" if row["points"] is None or row["manual"] else f"{row['points']:g}"
+        texts = [participant, row["student"], row["email"], row["id"]]
+        writer.writerow([*map(neutralised, texts), grade, neutralised(row["remark"])])
+    return stream.getvalue()
+
+
+def gradebook_xlsx(rows: Sequence[dict[str, Any]], maximum: float) -> bytes:
+    """The gradebook as a workbook with a filter."""
+    from openpyxl import Workbook
+    from openpyxl.styles import Alignment, Font, PatternFill
+
+    from reports.workbook.caches import finish
+    from reports.workbook.styles import as_text
+
+    book = Workbook()
+    sheet = book.active
+    sheet.title = "Оценки"
+    blocks = _blocks(rows)
+    sheet.append([*_HEAD, *blocks])
+    for row in rows:
+        shares = _shares(row)
+        sheet.append(
+            [row["number"], row["student"], row["group"], row["points"], maximum, row["status"],
+             row["file"], row["remark"], *(shares.get(block) for block in blocks)]
+        )  # fmt: skip
+        for cell in sheet[sheet.max_row]:
+            as_text(cell)
+        if row["manual"]:
+            sheet.cell(sheet.max_row, 6).fill = PatternFill("solid", fgColor="F8CBAD")
+    for cell in sheet[1]:
+        cell.font = Font(bold=True)
+        cell.alignment = Alignment(wrap_text=True, vertical="top")
+    widths = (9, 34, 14, 10, 8, 24, 40, 60, *(12 for _ in blocks))
+    for cell, width in zip(sheet[1], widths, strict=True):
+        sheet.column_dimensions[cell.column_letter].width = width
+    sheet.freeze_panes = sheet.cell(2, 3)
+    sheet.auto_filter.ref = sheet.dimensions
+    stream = io.BytesIO()
+    book.save(stream)
+    return finish(stream.getvalue())
+
+
+def _blocks(rows: Sequence[dict[str, Any]]) -> list[str]:
+    found: dict[str, None] = {}
+    for row in rows:
+        for line in (row["result"] or {}).get("items", []):
+            if line["of"]:
+                found.setdefault(line["block"])
+    return list(found)
+
+
+def _shares(row: dict[str, Any]) -> dict[str, float]:
+    """Points of each table before the factor for lateness."""
+    found: dict[str, float] = {}
+    for line in (row["result"] or {}).get("items", []):
+        if line["of"]:
+            found[line["block"]] = found.get(line["block"], 0.0) + line["points"]
+    return {block: round(value, 2) for block, value in found.items()}
+
+
+def _decimal(value: float | None) -> str:
+    return "" if value is None else f"{value:g}".replace(".", ",")

@@ -1,0 +1,101 @@
+"""Pages for people: feedback of a student and the summary of a class."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
+from reports.grading.judging.rubric import Rubric
+from reports.grading.judging.verdicts import WORDS
+from reports.grading.pages.chart import line_chart
+from reports.shared.resources import templates_dir
+from reports.workbook.sheets import capital
+
+MINUS = "−"
+
+
+@lru_cache(maxsize=1)
+def _environment() -> Environment:
+    environment = Environment(
+        loader=FileSystemLoader(templates_dir() / "grading"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters |= {
+        "number": number,
+        "points": points,
+        "rows": rows,
+        "capitalize_first": capital,
+    }
+    return environment
+
+
+def student_page(result: dict[str, Any], rubric: Rubric) -> str:
+    """Feedback of one submission as a page that needs no other file."""
+    lines = result.get("items", [])
+    full = rubric.feedback.mode == "full"
+    blocks: dict[str, list[dict[str, Any]]] = {}
+    for line in lines:
+        if line["verdict"] != "empty" or line["of"] > 0:
+            blocks.setdefault(_heading(line), []).append({**line, "svg": _chart(line, full)})
+    counts = dict.fromkeys(WORDS, 0)
+    for line in lines:
+        if line["of"] > 0:
+            counts[line["verdict"]] += 1
+    template = _environment().get_template("student.html.j2")
+    return template.render(
+        result=result,
+        blocks=blocks,
+        counts={key: n for key, n in counts.items() if n},
+        words=WORDS,
+        full=full,
+        title=rubric.work.title,
+    )
+
+
+def class_page(summary: dict[str, Any]) -> str:
+    """The summary of a class."""
+    return _environment().get_template("summary.html.j2").render(summary=summary, words=WORDS)
+
+
+def _heading(line: dict[str, Any]) -> str:
+    return f"Таблица {line['table']}" if line["table"] else "Отдельные величины"
+
+
+def _chart(line: dict[str, Any], full: bool) -> Markup:
+    chart = line.get("chart")
+    if not chart or line["verdict"] not in ("wrong", "error"):
+        return Markup("")
+    # The right curve would give away what a hint only points at.
+    right = chart["right"] if full else None
+    # The chart is made of numbers only: no text of a person's is in it.
+    return Markup(line_chart(chart["x"], chart["own"], right))
+
+
+def number(value: float | None, fmt: str = "") -> str:
+    """A number as Russian print has it, with a digit more than the book."""
+    if value is None:
+        return "—"
+    if fmt and "E" not in fmt:
+        digits = len(fmt.partition(";")[0].partition(".")[2])
+        text = f"{value:.{min(digits + 1, 9)}f}"
+    else:
+        text = f"{value:.6g}"
+    return text.replace(".", ",").replace("-", MINUS)
+
+
+def points(value: float) -> str:
+    """Points without needless zeros."""
+    return f"{round(value, 2):g}".replace(".", ",")
+
+
+def rows(labels: list[str], limit: int = 14) -> str:
+    """Rows of a column in words."""
+    named = [label.replace(".", ",") for label in labels if label]
+    text = "; ".join(named[:limit])
+    return f"{text} и ещё {len(named) - limit}" if len(named) > limit else text

@@ -1,0 +1,157 @@
+"""The class as a whole: who got what, how points are spread, what was hardest."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from statistics import mean, median
+from typing import Any
+
+from reports.grading.issuing.register import Register
+from reports.grading.judging.similarity import signals
+from reports.grading.judging.verdicts import CARRIED, EMPTY, RIGHT, TYPED
+
+_BAR = 160  # px of the longest bar
+_STEPS = 10
+
+
+def choose(results: Sequence[dict[str, Any]]) -> dict[int, dict[str, Any]]:
+    """The result that counts for each student: of several graded files the last one."""
+    chosen: dict[int, dict[str, Any]] = {}
+    for result in sorted(results, key=_order):
+        if result.get("number") is not None:
+            chosen[result["number"]] = result
+    return chosen
+
+
+def _order(result: dict[str, Any]) -> tuple[bool, str, str]:
+    """A graded file counts before any other, a later one before an earlier."""
+    return result["status"] == "graded", result["time"] or "", result["key"]
+
+
+def table_rows(register: Register, results: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """A row for each student of the register, then one for each file without an owner."""
+    chosen = choose(results)
+    copies = Counter(r["number"] for r in results if r.get("number") is not None)
+    rows = []
+    for book in register.books:
+        result = chosen.get(book.number)
+        remarks = _remarks(result, copies[book.number])
+        rows.append(
+            {
+                "number": book.number,
+                "student": book.student.full,
+                "group": book.student.group,
+                "id": book.student.number,
+                "email": book.student.email,
+                "file": result["file"] if result else "",
+                "status": _status(result),
+                "points": result.get("points") if result else None,
+                "result": result,
+                "page": result.get("page", "") if result else "",
+                "manual": bool(result and result["manual"]),
+                "remark": "; ".join(remarks),
+            }
+        )
+    for result in results:
+        if result.get("number") is None:
+            rows.append(
+                {
+                    "number": None, "student": f"? ({result['file']})", "group": "", "id": "",
+                    "email": "", "file": result["file"], "status": _status(result), "points": None,
+                    "result": result, "page": result.get("page", ""), "manual": True,
+                    "remark": "; ".join(result["manual"]),
+                }
+            )  # fmt: skip
+    return rows
+
+
+def _status(result: dict[str, Any] | None) -> str:
+    if result is None:
+        return "не сдано"
+    words = {"graded": "проверено", "refused": "не принято", "unmatched": "не опознано"}
+    word = words[result["status"]]
+    return "нужна ручная проверка" if result["status"] == "graded" and result["manual"] else word
+
+
+def _remarks(result: dict[str, Any] | None, copies: int) -> list[str]:
+    if result is None:
+        return ["работа не сдана"]
+    found = [*result["manual"], *result["notes"]]
+    if copies > 1:
+        found.append(f"сдано файлов: {copies}, оценён последний ({result['file']})")
+    return found
+
+
+def summarise(register: Register, results: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """Everything that the page of the class shows."""
+    rows = table_rows(register, results)
+    chosen = choose(results)
+    graded = [r for _, r in sorted(chosen.items()) if r["status"] == "graded"]
+    marks = [float(result["points"]) for result in graded]
+    times = sorted(r["time"] for r in chosen.values() if r["time"])
+    return {
+        "files": len(results),
+        "students": len(register.books),
+        "graded": len(graded),
+        "absent": [row["student"] for row in rows if row["status"] == "не сдано"],
+        "maximum": register.rubric.maximum,
+        "mean": mean(marks) if marks else 0.0,
+        "median": median(marks) if marks else 0.0,
+        "first_time": times[0].replace("T", " ") if times else "",
+        "last_time": times[-1].replace("T", " ") if times else "",
+        "late": sum(result.get("late", 1) < 1 for result in graded),
+        "distribution": _distribution(marks, register.rubric.maximum),
+        "hardest": _hardest(graded),
+        "signals": signals(results),
+        "manual": [
+            {"who": _name(r), "why": r["manual"], "page": r.get("page", "")}
+            for r in results
+            if r["manual"]
+        ],
+        "rows": rows,
+    }
+
+
+def _name(result: dict[str, Any]) -> str:
+    return str(result["student"] or result["file"])
+
+
+def _distribution(marks: list[float], maximum: float) -> list[dict[str, Any]]:
+    counts = [0] * _STEPS
+    for mark in marks:
+        counts[min(_STEPS - 1, int(mark / maximum * _STEPS))] += 1
+    most = max(counts) or 1
+    return [
+        {
+            "label": f"{i * 10}–{i * 10 + 10}\u00a0%",
+            "count": count,
+            "width": round(_BAR * count / most),
+        }
+        for i, count in enumerate(counts)
+    ]
+
+
+def _hardest(graded: list[dict[str, Any]], limit: int = 15) -> list[dict[str, Any]]:
+    lines: dict[str, dict[str, Any]] = {}
+    causes: dict[str, Counter[str]] = {}
+    for result in graded:
+        for line in result["items"]:
+            if not line["of"]:
+                continue
+            where = f"{line['table']}, " if line["table"] else ""
+            entry = lines.setdefault(
+                line["id"],
+                {"title": f"{where}{line['symbol']} — {line['title']}", "right": 0, "carried": 0,
+                 "typed": 0, "wrong": 0, "empty": 0},
+            )  # fmt: skip
+            verdict = line["verdict"]
+            entry[verdict if verdict in (RIGHT, CARRIED, TYPED, EMPTY) else "wrong"] += 1
+            if line["cause"]:
+                causes.setdefault(line["id"], Counter())[line["cause"]] += 1
+    for key, entry in lines.items():
+        found = causes.get(key)
+        entry["cause"] = min(found, key=lambda c: (-found[c], c)) if found else ""
+    hard = [entry for entry in lines.values() if entry["wrong"] + entry["empty"] + entry["typed"]]
+    hard.sort(key=lambda e: (-(e["wrong"] + e["empty"]), -e["typed"], e["title"]))
+    return hard[:limit]

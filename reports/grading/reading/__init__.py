@@ -1,0 +1,1 @@
+"""A returned workbook in: whose it is, where its cells went, its values."""

@@ -1,0 +1,152 @@
+"""Whose file this is: by the identifier first, then by the names, with the evidence."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from reports.grading.issuing.handout import TICKET_NAME, TICKET_TITLE
+from reports.grading.issuing.issue import latin
+from reports.grading.issuing.register import Issued, Register
+from reports.grading.issuing.ticket import PATTERN
+from reports.grading.reading.submissions import Submission
+from reports.recalculation.by_columns import BadBook, Grid
+from reports.recalculation.by_columns.sheet_xml import parse_xml
+from reports.workbook.package import Package
+
+
+@dataclass(frozen=True, slots=True)
+class Match:
+    """The issued work-book a file belongs to, why, and what speaks against it."""
+
+    book: Issued | None
+    evidence: tuple[str, ...]
+    doubts: tuple[str, ...]
+
+
+def find_owner(register: Register, submission: Submission, grid: Grid, package: Package) -> Match:
+    """Match a readable workbook with the register."""
+    tickets = _tickets(grid, package)
+    by_ticket = {book.ticket: book for book in register.books}
+    known = {text: where for text, where in tickets.items() if text in by_ticket}
+    named = _by_name(register, submission)
+    evidence = [f"идентификатор {text} ({where})" for text, where in known.items()]
+    doubts = [
+        f"идентификатор {text} ({where}) не выдавался в этой группе"
+        for text, where in tickets.items()
+        if text not in by_ticket
+    ]
+    if len(known) > 1:
+        names = ", ".join(by_ticket[text].student.full for text in known)
+        return Match(
+            None, tuple(evidence), (*doubts, f"в файле идентификаторы разных работ: {names}")
+        )
+    if len(known) == 1:
+        book = by_ticket[next(iter(known))]
+        if named is not None and named[0] is not book:
+            doubts.append(
+                f"файл сдал(а) {named[0].student.full} ({named[1]}), "
+                f"а идентификатор выдан: {book.student.full}"
+            )
+        elif named is not None:
+            evidence.append(named[1])
+        return Match(book, tuple(evidence), tuple(doubts))
+    if named is None:
+        return Match(None, (), (*doubts, "нет идентификатора, имя файла не указывает на студента"))
+    if tickets:
+        return Match(None, (named[1],), tuple(doubts))
+    return Match(named[0], (f"идентификатора нет; {named[1]}",), ())
+
+
+def find_by_name(register: Register, submission: Submission) -> Match:
+    """Match a file that cannot be read."""
+    named = _by_name(register, submission)
+    return Match(named[0], (named[1],), ()) if named else Match(None, (), ())
+
+
+def _tickets(grid: Grid, package: Package) -> dict[str, str]:
+    """Identifiers in a workbook → where they stand."""
+    found: dict[str, str] = {}
+    at = grid.names.get(TICKET_NAME.casefold())
+    if at is not None:
+        _take(found, grid.constant(*at), f"ячейка с именем {TICKET_NAME}")
+    _take(found, _property(package), "свойство файла")
+    if not found:
+        for columns in grid.sheets.values():
+            for number, column in columns.items():
+                for row, value in column.constants.items():
+                    if isinstance(value, str) and value.strip() == TICKET_TITLE:
+                        beside = columns.get(number + 1)
+                        text = beside.constants.get(row) if beside is not None else None
+                        _take(found, text, f"ячейка «{TICKET_TITLE}»")
+    return found
+
+
+def _take(found: dict[str, str], text: object, where: str) -> None:
+    if isinstance(text, str) and PATTERN.fullmatch(text.strip()):
+        found.setdefault(text.strip(), where)
+
+
+def _property(package: Package) -> str | None:
+    try:
+        root = parse_xml(package.read("docProps/custom.xml"))
+    except (KeyError, BadBook):
+        return None
+    for item in root.iter("{*}property"):
+        if item.get("name") == TICKET_NAME:
+            return "".join(item.itertext())
+    return None
+
+
+def file_properties(package: Package) -> dict[str, str]:
+    """Who made and last saved a workbook, and when, as the file claims."""
+    wanted = {"creator", "lastModifiedBy", "created", "modified"}
+    try:
+        root = parse_xml(package.read("docProps/core.xml"))
+    except (KeyError, BadBook):
+        return {}
+    found = {}
+    for item in root:
+        name = str(item.tag).rpartition("}")[2]
+        if name in wanted and item.text:
+            found[name] = item.text.strip()[:100]
+    return found
+
+
+def _by_name(register: Register, submission: Submission) -> tuple[Issued, str] | None:
+    """The only student whose name stands in Moodle's folder or in the name of the file."""
+    for text, where in (
+        (submission.moodle_name, "имя участника Moodle"),
+        (submission.key, "имя файла"),
+    ):
+        words = _words(text)
+        if not words:
+            continue
+        hits = [book for book in register.books if book.folder in submission.key.split("/")]
+        hits = hits or [book for book in register.books if _file_stem(book) in submission.key]
+        hits = hits or [book for book in register.books if _names(book) <= words]
+        hits = hits or [book for book in register.books if _words(book.student.surname) <= words]
+        if len(hits) == 1:
+            return hits[0], f"{where}: «{text[:120]}»"
+    return None
+
+
+def _file_stem(book: Issued) -> str:
+    return book.file.removesuffix(".xlsx")
+
+
+def _names(book: Issued) -> set[str]:
+    first = book.student.name.split(" ")[0]
+    return _words(f"{book.student.surname} {first}")
+
+
+def _words(text: str) -> set[str]:
+    """Words in Latin letters, so that Иванов is found in ivanov_kr.xlsx."""
+    plain = latin(unicodedata.normalize("NFC", text).casefold())
+    return set(_split(plain))
+
+
+def _split(text: str) -> Iterable[str]:
+    return (word for word in re.split(r"[^a-z]+", text) if word)

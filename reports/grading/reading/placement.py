@@ -1,0 +1,249 @@
+"""Where the cells of a work-book went: by defined names first, then by headers.
+
+A person may rename and move sheets and insert rows and columns.  Rows of a
+table are told by the angles in its first column.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from reports.grading.issuing.handout import anchor_name, cell_name
+from reports.recalculation.by_columns import Engine, Grid, UnknownFormula
+from reports.spec.blocks import Model, TableSpec
+from reports.workbook.layout import KEY_COLUMN, SYMBOL_COLUMN, TITLE_COLUMN, VALUE_COLUMN, Layout
+from reports.workbook.sheets import capital
+
+_SEARCH_ROWS = 2000
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Cells of a node: one column, a row for each value; None where a row is lost."""
+
+    sheet: str
+    column: int
+    rows: tuple[int | None, ...]
+    by: str  # "name" or "header"
+    span: Span | None
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """First and last row of a place; ``whole`` where all rows between belong to it."""
+
+    first: int
+    last: int
+    whole: bool
+
+
+def span_of(rows: tuple[int | None, ...]) -> Span | None:
+    """Where some rows begin and end; None where all are lost."""
+    found = [row for row in rows if row is not None]
+    if not found:
+        return None
+    first, last = min(found), max(found)
+    return Span(first, last, len(found) == len(rows) == last - first + 1)
+
+
+def _one_cell(at: tuple[str, int, int], by: str) -> Place:
+    return Place(at[0], at[2], (at[1],), by, Span(at[1], at[1], True))
+
+
+@dataclass
+class Placement:
+    """Places of nodes, angles and inputs; what was found out on the way."""
+
+    places: dict[str, Place] = field(default_factory=dict)
+    moved: list[str] = field(default_factory=list)
+
+
+def find_places(model: Model, layout: Layout, grid: Grid) -> Placement:
+    """Find the tables and cells of a model in a workbook."""
+    search = _Search(grid)
+    found = Placement()
+    for table in model.tables.values():
+        _find_table(table, layout, search, found)
+    for key in model.scalars:
+        cell = layout.cells[key]
+        at = grid.names.get((key if key in layout.named else cell_name(key)).casefold())
+        by = "name"
+        if at is None or at[0] not in grid.sheets:
+            at, by = search.scalar(model, key), "header"
+        if at is None and search.same_headers(model, layout, key):
+            at = (cell.sheet, cell.row, cell.column)
+        if at is not None:
+            found.places[key] = _one_cell(at, by)
+            if by == "header":
+                found.moved.append(f"{key}: найдено по подписи, {at[0]}")
+    for name, item in model.fields.items():
+        at = grid.names.get(name.casefold())
+        by = "name"
+        if at is None or at[0] not in grid.sheets:
+            key = ".".join(str(p + 1 if isinstance(p, int) else p) for p in item.path)
+            at, by = search.beside(key, VALUE_COLUMN - KEY_COLUMN), "header"
+        if at is not None:
+            found.places[name] = _one_cell(at, by)
+    _report_sheets(model, layout, found)
+    return found
+
+
+def _find_table(table: TableSpec, layout: Layout, search: _Search, found: Placement) -> None:
+    heads: dict[int, tuple[str, int, int]] = {}
+    by = "name"
+    for index in range(len(table.columns)):
+        at = search.grid.names.get(anchor_name(table.id, index).casefold())
+        if at is not None and at[0] in search.grid.sheets:
+            heads[index] = at
+    if len(heads) < len(table.columns):
+        by = "header"
+        missing = {i: c for i, c in search.table(table).items() if i not in heads}
+        if missing:
+            found.moved.append(f"таблица {table.number}: столбцы найдены по заголовкам")
+        heads.update(missing)
+    index_column = next((i for i, c in enumerate(table.columns) if c.expr is None), None)
+    if index_column is None or index_column not in heads:
+        return
+    sheet, row, column = heads[index_column]
+    rows = _rows(search.grid, sheet, row, column, table.rows)
+    first = layout.rows_of(table)[0]
+    if any(r is not None and r != first + i for i, r in enumerate(rows)):
+        found.moved.append(f"таблица {table.number}: строки сдвинуты")
+    span = span_of(rows)
+    for index, (title, _, at_column) in heads.items():
+        if title == sheet:
+            key = f"{table.id}.{table.columns[index].key}"
+            found.places[key] = Place(title, at_column, rows, by, span)
+
+
+def _rows(
+    grid: Grid, sheet: str, header: int, column: int, wanted: tuple[float, ...]
+) -> tuple[int | None, ...]:
+    """Rows below the header whose index is the wanted one, in order."""
+    known = grid.column(sheet, column)
+    constants = dict(known.constants)
+    if known.runs:  # angles calculated from the row above
+        constants |= _calculated(grid, sheet, header, column)
+    expected = tuple(range(header + 2, header + 2 + len(wanted)))
+    if tuple(map(constants.get, expected)) == wanted:
+        return expected
+    rows = sorted(r for r in constants if header + 1 < r <= header + _SEARCH_ROWS)
+    found: list[int | None] = []
+    at = 0
+    for value in wanted:
+        hit = None
+        for i in range(at, len(rows)):
+            given = constants[rows[i]]
+            if isinstance(given, float) and abs(given - value) <= 1e-6 * max(1.0, abs(value)):
+                hit = i
+                break
+        if hit is None:
+            found.append(None)
+        else:
+            found.append(rows[hit])
+            at = hit + 1
+    return tuple(found)
+
+
+def _calculated(grid: Grid, sheet: str, header: int, column: int) -> dict[int, float]:
+    first, last = header + 2, header + _SEARCH_ROWS
+    try:
+        values, kinds = Engine(grid).values(sheet, column, first, last)
+    except (UnknownFormula, RecursionError):
+        return {}
+    numbers = zip(values.tolist(), kinds, strict=True)
+    return {first + i: value for i, (value, kind) in enumerate(numbers) if kind == "n"}
+
+
+def _report_sheets(model: Model, layout: Layout, found: Placement) -> None:
+    renamed: dict[str, str] = {}
+    for table in model.tables.values():
+        place = found.places.get(f"{table.id}.{table.columns[0].key}")
+        if place is not None and place.sheet != table.sheet:
+            renamed[table.sheet] = place.sheet
+    for key in model.scalars:
+        place = found.places.get(key)
+        if place is not None and place.sheet != layout.cells[key].sheet:
+            renamed.setdefault(layout.cells[key].sheet, place.sheet)
+    for old, new in renamed.items():
+        found.moved.append(f"лист «{old}» теперь «{new}»")
+
+
+class _Search:
+    """Texts of a workbook by what they say."""
+
+    def __init__(self, grid: Grid) -> None:
+        self.grid = grid
+        self._texts: dict[str, list[tuple[str, int, int]]] | None = None
+
+    @property
+    def texts(self) -> dict[str, list[tuple[str, int, int]]]:
+        """Text → cells; built when first needed."""
+        if self._texts is None:
+            self._texts = {}
+            for sheet, columns in self.grid.sheets.items():
+                for number, column in columns.items():
+                    for row, value in column.constants.items():
+                        if isinstance(value, str):
+                            self._texts.setdefault(_plain(value), []).append((sheet, row, number))
+        return self._texts
+
+    def beside(self, text: str, distance: int) -> tuple[str, int, int] | None:
+        """The cell so many columns beside the only cell with a text."""
+        hits = self.texts.get(_plain(text), [])
+        if len(hits) != 1 or hits[0][2] + distance < 1:
+            return None
+        return hits[0][0], hits[0][1], hits[0][2] + distance
+
+    def scalar(self, model: Model, key: str) -> tuple[str, int, int] | None:
+        """The value cell of a list's scalar by its title and symbol."""
+        scalar = model.scalars[key]
+        title = _plain(capital(scalar.note or scalar.quantity.title))
+        symbol = _plain(scalar.quantity.symbol)
+        step = SYMBOL_COLUMN - TITLE_COLUMN
+        hits = [
+            (sheet, row, column)
+            for sheet, row, column in self.texts.get(title, [])
+            if _plain(str(self.grid.constant(sheet, row, column + step) or "")) == symbol
+        ]
+        if len(hits) != 1:
+            return None
+        return hits[0][0], hits[0][1], hits[0][2] + VALUE_COLUMN - TITLE_COLUMN
+
+    def same_headers(self, model: Model, layout: Layout, key: str) -> bool:
+        """Whether a grid's cell still stands under its own label, in its own row."""
+        cell = layout.cells[key]
+        about = model.scalars[key].quantity
+        texts = {_plain(capital(about.title)), _plain(about.header)}
+        return _plain(str(self.grid.constant(cell.sheet, cell.row, 1) or "")) in texts
+
+    def table(self, table: TableSpec) -> dict[int, tuple[str, int, int]]:
+        """Header cells of a table by the number of the column, from its caption."""
+        captions = self.texts.get(_plain(f"Таблица {table.number} — {table.title}"), [])
+        found: dict[int, tuple[str, int, int]] = {}
+        if len(captions) != 1:
+            return found
+        sheet, row, column = captions[0]
+        for index, item in enumerate(table.columns):
+            hits = [
+                at
+                for at in self.texts.get(_plain(item.quantity.header), [])
+                if at[0] == sheet and row < at[1] <= row + 3 and at[2] >= column
+            ]
+            taken = set(found.values())
+            free = [at for at in sorted(hits, key=lambda at: at[2]) if at not in taken]
+            if free:
+                found[index] = free[0]
+        return found
+
+
+def _plain(text: str) -> str:
+    return " ".join(text.split()).casefold()
+
+
+def nodes_at(placement: Placement) -> Iterator[tuple[str, int, int, str]]:
+    """Sheet, column, row and node of every placed cell of a scalar or input."""
+    for node, place in placement.places.items():
+        if len(place.rows) == 1 and place.rows[0] is not None:
+            yield place.sheet, place.column, place.rows[0], node

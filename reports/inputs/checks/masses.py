@@ -1,0 +1,222 @@
+"""Checks of the [masses] section: one way at a time, and what the book calls usual."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from reports.inputs.findings import Finding, Values, radius_and_rod
+from reports.inputs.sections.masses import ESTIMATE_EXTRA, SWUNG, WEIGHED
+from reports.inputs.units import number_text
+
+USUAL_SHARE = (0.2, 0.3)
+DIRECT = ("reciprocating_kg", "rod_big_end_kg")
+PARTS = ("piston_group_kg", "rod_kg")
+CENTRE = ("rod_centre_mm", "rod_small_end_share")
+_REST = (*WEIGHED, *SWUNG, "rod_inertia_kg_m2", "estimate_fuel", *ESTIMATE_EXTRA)
+_ADVICE = (
+    "задайте либо reciprocating_kg и rod_big_end_kg, "
+    "либо piston_group_kg, rod_kg и одно из rod_centre_mm, rod_small_end_share"
+)
+_MORE = "; еще способы: взвешивание, качания, оценка estimate_fuel"
+_USUAL_AREA = {  # table 4 over all materials [kg/m²]
+    "piston_group_kg": ((80, 200), (150, 400), "поршневой группы"),
+    "rod_kg": ((100, 200), (250, 400), "шатуна"),
+}
+_GRAVITY_MM = 9810.0
+
+
+def check_masses(values: Values) -> Iterator[Finding]:
+    """Yield what is wrong or odd about the masses."""
+    yield from _webs(values)
+    keys = (*DIRECT, *PARTS, *CENTRE, *_REST)
+    if not values.sure("masses", *keys):
+        return
+    given = {key for key in keys if values.get("masses", key) is not None}
+    wrong = list(_ways(given))
+    yield from wrong
+    if wrong:
+        return
+    yield from _shaft_masses(values, estimated="estimate_fuel" in given)
+    if "estimate_fuel" in given:
+        yield from _estimated(values, given)
+    yield from _centre(values)
+    yield from _swung(values)
+    yield from _inertia(values)
+    yield from _area(values)
+
+
+def _ways(given: set[str]) -> Iterator[Finding]:
+    """Whether the keys belong to one way and are complete."""
+    path = ("masses",)
+    rest = given - set(DIRECT)
+    centres = [
+        name
+        for name, keys in (
+            *((key, (key,)) for key in CENTRE),
+            ("взвешивание", WEIGHED),
+            ("качания", SWUNG),
+        )
+        if given & set(keys)
+    ]
+    estimate = "estimate_fuel" in given
+    if given & set(DIRECT) and rest - {"estimate_fuel", *ESTIMATE_EXTRA}:
+        yield Finding(path, "смешаны два способа задания масс", _ADVICE)
+    elif not estimate and given & set(ESTIMATE_EXTRA):
+        key = sorted(given & set(ESTIMATE_EXTRA))[0]
+        yield Finding((*path, key), "ключ нужен только при оценке", "добавьте estimate_fuel")
+    elif len(centres) > 1:
+        yield Finding(path, f"заданы и {centres[0]}, и {centres[1]}", _ADVICE)
+    elif set(SWUNG) & given and not set(SWUNG) <= given:
+        missing = next(key for key in SWUNG if key not in given)
+        yield Finding((*path, missing), "не хватает данных качаний", "нужны " + ", ".join(SWUNG))
+    elif "swing_edges_mm" in given and "rod_inertia_kg_m2" in given:
+        hint = "оставьте что-нибудь одно"
+        yield Finding((*path, "rod_inertia_kg_m2"), "I_ш следует из качаний", hint)
+    elif not (
+        set(DIRECT) <= given
+        or (estimate and not given & set(DIRECT))
+        or (set(PARTS) <= given and centres)
+    ):
+        yield Finding(path, "масс недостаточно", _ADVICE + _MORE)
+
+
+def _webs(values: Values) -> Iterator[Finding]:
+    """Each web by its reduced mass or by mass and radius, all webs alike."""
+    if not values.sure("crankshaft", "webs"):
+        return
+    ways = set()
+    for index, web in enumerate(values.get("crankshaft", "webs") or ()):
+        actual = web.actual_mass_kg is not None
+        if actual != (web.centre_mm is not None) or (actual and web.mass_kg is not None):
+            what = "нужна либо mass_kg, либо actual_mass_kg с centre_mm"
+            yield Finding(("crankshaft", "webs", index), what, "уберите лишний ключ")
+            return
+        ways.add((actual, web.mass_kg is None))
+    if len(ways) > 1:
+        what = "массы щек заданы разными способами"
+        yield Finding(("crankshaft", "webs"), what, "задайте все щеки одинаково")
+
+
+def _shaft_masses(values: Values, *, estimated: bool) -> Iterator[Finding]:
+    """Without an estimate pin and webs need their masses."""
+    webs = values.get("crankshaft", "webs") or ()
+    bare = [i for i, web in enumerate(webs) if web.mass_kg is None and web.actual_mass_kg is None]
+    lacks_pin = values.get("crankshaft", "pin_mass_kg") is None
+    hint = "впишите массу или задайте masses.estimate_fuel для оценки"
+    if estimated or not values.sure("crankshaft", "pin_mass_kg", "webs"):
+        return
+    what = "масса не задана"
+    if lacks_pin:
+        yield Finding(("crankshaft", "pin_mass_kg"), what, hint)
+    if bare:
+        yield Finding(("crankshaft", "webs", bare[0], "mass_kg"), what, hint)
+
+
+def _estimated(values: Values, given: set[str]) -> Iterator[Finding]:
+    webs = values.get("crankshaft", "webs") or ()
+    lacking = [] if given & set(DIRECT) else [
+        name
+        for key, name in (("piston_group_kg", "поршневая группа"), ("rod_kg", "шатун"))
+        if key not in given
+    ]  # fmt: skip
+    if values.get("crankshaft", "pin_mass_kg") is None:
+        lacking.append("шатунная шейка")
+    if any(web.mass_kg is None and web.actual_mass_kg is None for web in webs):
+        lacking.append("щеки")
+    path = ("masses", "estimate_fuel")
+    if not lacking:
+        yield Finding(path, "оценивать нечего: все массы заданы", "уберите estimate_fuel")
+        return
+    what = f"оценены по таблице 4 учебника: {', '.join(lacking)}"
+    yield Finding(path, what, "замените их массами вашего двигателя", warning=True)
+
+
+def _centre(values: Values) -> Iterator[Finding]:
+    pair = radius_and_rod(values)
+    place = values.get("masses", "rod_centre_mm")
+    share = values.get("masses", "rod_small_end_share")
+    weighed, rod = values.get("masses", "rod_weighed_small_end_kg"), values.get("masses", "rod_kg")
+    key = "rod_small_end_share"
+    if weighed is not None and rod is not None:
+        key = "rod_weighed_small_end_kg"
+        if weighed >= rod:
+            what = f"весы показали {number_text(weighed)} кг, не меньше массы шатуна"
+            yield Finding(("masses", key), what, f"масса шатуна {number_text(rod)} кг")
+            return
+        share = weighed / rod
+    if place is not None:
+        key = "rod_centre_mm"
+        if pair is None:
+            return
+        if place >= pair[1]:
+            what = f"центр масс {number_text(place)} мм лежит не между головками шатуна"
+            yield Finding(("masses", key), what, f"длина шатуна {number_text(pair[1])} мм")
+            return
+        share = 1 - place / pair[1]
+    if share is not None and not USUAL_SHARE[0] <= share <= USUAL_SHARE[1]:
+        what = f"доля массы шатуна у пальца {number_text(round(share, 4))} необычна"
+        hint = f"обычно от {USUAL_SHARE[0]} до {USUAL_SHARE[1]}"
+        yield Finding(("masses", key), what, hint, warning=True)
+
+
+def _swung(values: Values) -> Iterator[Finding]:
+    """Places and inertia that the swings give, Gots (25)-(27)."""
+    found = [values.get("masses", key) for key in SWUNG]
+    if None in found:
+        return
+    n_a, n_c, radius, edges = found
+    k_a, k_c = (_GRAVITY_MM / (2 * math.pi * n / 60) ** 2 for n in (n_a, n_c))
+    below = k_a + k_c - 2 * edges
+    path = ("masses", "swing_edges_mm")
+    if abs(below) < 1e-9 * edges:
+        yield Finding(path, "по этим качаниям центр масс не определяется", "повторите опыт")
+        return
+    arm = edges * (k_c - edges) / below
+    centre = arm - radius
+    pair = radius_and_rod(values)
+    if not 0 < arm < edges or centre <= 0 or (pair is not None and centre >= pair[1]):
+        what = f"по качаниям l1 = {number_text(round(centre, 2))} мм, вне шатуна"
+        length = "" if pair is None else f"длина шатуна {number_text(pair[1])} мм; "
+        yield Finding(path, what, length + "проверьте n_A, n_C, r_1 и l_3")
+        return
+    if k_a * arm - arm**2 <= 0:
+        what = "по качаниям момент инерции шатуна отрицателен"
+        yield Finding(path, what, "проверьте n_A, n_C, r_1 и l_3")
+        return
+    if pair is not None and not USUAL_SHARE[0] <= 1 - centre / pair[1] <= USUAL_SHARE[1]:
+        share = number_text(round(1 - centre / pair[1], 4))
+        what = f"доля массы шатуна у пальца {share} необычна"
+        yield Finding(path, what, f"обычно от {USUAL_SHARE[0]} до {USUAL_SHARE[1]}", warning=True)
+
+
+def _inertia(values: Values) -> Iterator[Finding]:
+    """A moment of inertia that two masses on the ends cannot exceed by much."""
+    given, rod = values.get("masses", "rod_inertia_kg_m2"), values.get("masses", "rod_kg")
+    pair = radius_and_rod(values)
+    if None in (given, rod) or pair is None:
+        return
+    ratio = given / (rod * (pair[1] / 1000) ** 2)
+    if not 0.02 <= ratio <= 0.5:
+        what = f"I_ш/(m_ш·l²) = {number_text(round(ratio, 4))} необычно"
+        path = ("masses", "rod_inertia_kg_m2")
+        yield Finding(path, what, "обычно от 0.02 до 0.5: проверьте кг·м²", warning=True)
+
+
+def _area(values: Values) -> Iterator[Finding]:
+    """Masses over the piston area against the bounds of table 4."""
+    bore = values.get("geometry", "bore_mm")
+    if bore is None:
+        return
+    area = math.pi * (bore / 1000) ** 2 / 4
+    kind = values.get("masses", "estimate_fuel") or values.get("cycle", "kind")
+    for key, (petrol, diesel, name) in _USUAL_AREA.items():
+        mass = values.get("masses", key)
+        if mass is None:
+            continue
+        low, high = {"petrol": petrol, "diesel": diesel}.get(kind, (petrol[0], diesel[1]))
+        found = mass / area
+        if not low <= found <= high:
+            what = f"удельная масса {name} {number_text(round(found))} кг/м² необычна"
+            hint = f"по таблице 4 учебника от {low} до {high} кг/м²"
+            yield Finding(("masses", key), what, hint, warning=True)

@@ -1,0 +1,1 @@
+"""The sections of the input file as strict pydantic models."""

@@ -1,0 +1,73 @@
+"""[gas], source = "rounded": the rounded real diagram of figure 22, and ways to read points."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from reports.inputs.meta import Strictly, choice, number
+from reports.inputs.sections.cycle import KINDS
+from reports.inputs.units import DEG, MPA, NONE
+
+ROUNDED = {"rounded": "скругленная действительная диаграмма"}
+INTERPOLATIONS = {"linear": "прямыми", "monotone": "гладко, без выбросов"}
+PEAK_SHARE = {"petrol": 0.85, "diesel": 1.0}
+PEAK_DEG = {"petrol": 12.0, "diesel": 10.0}
+JOIN_DEG = {"petrol": 40.0, "diesel": 45.0}
+
+
+class RoundedGasSection(Strictly):
+    """[gas], source = "rounded": c', c'', z_д, b', b'' and r of figure 22 joined smoothly."""
+
+    source: Annotated[
+        Literal["rounded"], choice("Индикаторная диаграмма", ROUNDED, structural=True)
+    ]
+    kind: Annotated[Literal["petrol", "diesel"], choice("Вид двигателя", KINDS, structural=True)]
+    ambient_pressure_mpa: Annotated[
+        float, number("Давление окружающей среды", "p_0", MPA, 0.01, 0.5)
+    ] = 0.1
+    intake_pressure_mpa: Annotated[float, number("Давление впуска", "p_a", MPA, 0.01, 3)]
+    residual_pressure_mpa: Annotated[
+        float, number("Давление остаточных газов", "p_r", MPA, 0.01, 3)
+    ]
+    max_pressure_mpa: Annotated[
+        float, number("Расчетное давление конца сгорания в точке z", "p_z", MPA, 0.2, 60)
+    ]
+    compression_exponent: Annotated[
+        float, number("Показатель политропы сжатия", "n_1", NONE, 1, 1.7)
+    ]
+    expansion_exponent: Annotated[
+        float, number("Показатель политропы расширения", "n_2", NONE, 1, 1.7)
+    ]
+    preexpansion_ratio: Annotated[
+        float, number("Степень предварительного расширения", "ρ", NONE, 1, 6)
+    ] = 1.0
+    injection_advance_deg: Annotated[
+        float, number("Угол опережения впрыска (зажигания)", "θ_оп", DEG, 0.5, 90)
+    ]
+    ignition_delay_deg: Annotated[
+        float, number("Период задержки воспламенения", "Δφ_з", DEG, 0, 90)
+    ]
+    tdc_rise: Annotated[
+        float, number("Давление в точке c'' к давлению конца сжатия", "p_c''/p_c", NONE, 1, 2)
+    ] = 1.2
+    peak_share: (
+        Annotated[
+            float, number("Действительное давление z_д к расчетному", "p_zд/p_z", NONE, 0.5, 1)
+        ]
+        | None
+    ) = None
+    peak_after_tdc_deg: (
+        Annotated[float, number("Точка z_д после ВМТ", "φ_zд", DEG, 2, 45)] | None
+    ) = None
+    expansion_after_tdc_deg: (
+        Annotated[float, number("Выход на линию расширения после ВМТ", "φ_j", DEG, 4, 90)] | None
+    ) = None
+    exhaust_start_before_bdc_deg: Annotated[
+        float, number("Начало выпуска до НМТ, точка b'", "φ_в1", DEG, 5, 120)
+    ]
+    exhaust_end_after_bdc_deg: Annotated[
+        float, number("Конец свободного выпуска после НМТ", "φ_в2", DEG, 5, 150)
+    ]
+    intake_settle_deg: Annotated[
+        float, number("Угол после ВМТ, при котором устанавливается p_a", "φ_a'", DEG, 2, 90)
+    ] = 30.0

@@ -1,0 +1,1 @@
+"""From the input file in user units to the engine in SI."""

@@ -1,0 +1,282 @@
+"""From the input file in user units to the solver's engine in SI."""
+
+from __future__ import annotations
+
+from kshm.cycle.diagram import polytropic_gas
+from kshm.cycle.run import CycleRun
+from kshm.engine.arrangement import Arrangement, ArticulatedRod
+from kshm.engine.engine import (
+    Balancing,
+    Crankshaft,
+    EndMass,
+    Engine,
+    Gas,
+    Geometry,
+    PolytropicGas,
+    Regime,
+    TabulatedGas,
+    Throw,
+    Web,
+)
+from reports.inputs.firing import arrangement
+from reports.inputs.sections.articulated import ArticulatedSection
+from reports.inputs.sections.balance import BalanceSection
+from reports.inputs.sections.crankshaft import ArmsSection, CrankshaftSection, WebSection
+from reports.inputs.sections.gas import RoundedGasSection
+from reports.inputs.sections.input_file import (
+    CycleGasSection,
+    GasSection,
+    GeometrySection,
+    InputFile,
+    PolytropicGasSection,
+    RegimeSection,
+    TableGasSection,
+)
+from reports.inputs.to_si.cycle import cycle_run
+from reports.inputs.to_si.gas import rounded_gas
+from reports.inputs.to_si.masses import to_masses, with_masses
+from reports.inputs.units import DEG, KG, KW, MM, MPA, RPM
+
+BDC_DEG = 540.0
+TWO_STROKE_BDC_DEG = 180.0
+FIRING_TDC_DEG = 360.0
+
+
+def to_engine(model: InputFile) -> Engine:
+    """Return the engine in SI units; the input must have passed `reports.inputs.load`."""
+    regime, reference = model.regime, model.reference
+    run = cycle_run(model)
+    geometry = _geometry(model, run)
+    shaft = with_masses(model, geometry)
+    forces = shaft.force_offsets_deg
+    power, efficiency, fullness = _power(model, run)
+    return Engine(
+        geometry=geometry,
+        omega=RPM.to_si(regime.speed_rpm),
+        gas=_gas(model.gas, run, strokes=model.engine.strokes),
+        masses=to_masses(model, geometry),
+        crankshaft=_crankshaft(shaft),
+        arrangement=arrangement_of(model),
+        articulated=_articulated(model.articulated),
+        firing_offsets=tuple(DEG.to_si(value) for value in shaft.firing_offsets_deg),
+        strokes=model.engine.strokes,
+        method=model.calculation.method,
+        step_deg=model.calculation.step_deg,
+        rays=model.calculation.wear_rays,
+        mechanical_efficiency=efficiency,
+        indicated_power=power,
+        fullness=fullness,
+        force_offsets=None if forces is None else tuple(DEG.to_si(value) for value in forces),
+        balancing=_balancing(model.balance),
+        name=model.engine.name,
+        cycle=run,
+        oil_hole=None if shaft.oil_hole_deg is None else DEG.to_si(shaft.oil_hole_deg),
+        regimes=tuple(_regime(regime, model.engine.strokes) for regime in model.regimes),
+        reference_lambdas=() if reference is None else reference.lambdas,
+        reference_angle=0.0 if reference is None else DEG.to_si(reference.angle_deg),
+    )
+
+
+def _regime(section: RegimeSection, strokes: int) -> Regime:
+    power = section.indicated_power_kw
+    return Regime(
+        name=section.name,
+        omega=RPM.to_si(section.speed_rpm),
+        gas=_gas(section.gas, None, strokes=strokes),
+        mechanical_efficiency=float(section.mechanical_efficiency),
+        indicated_power=None if power is None else KW.to_si(power),
+        fullness=float(section.fullness),
+    )
+
+
+def arrangement_of(model: InputFile) -> Arrangement:
+    """Return the places of the cylinders of a checked input."""
+    shaft = model.crankshaft
+    places = arrangement(
+        model.engine.layout,
+        model.engine.cylinders,
+        shaft.bank_angle_deg,
+        shaft.split_pin_deg,
+        articulated=model.articulated is not None,
+    )
+    if places is None:
+        msg = "the layout has no arrangement"
+        raise ValueError(msg)
+    return places
+
+
+def _articulated(section: ArticulatedSection | None) -> ArticulatedRod | None:
+    if section is None:
+        return None
+    return ArticulatedRod(
+        rod_length=MM.to_si(section.rod_length_mm),
+        radius=MM.to_si(section.radius_mm),
+        angle=DEG.to_si(section.angle_deg),
+        reciprocating=KG.to_si(section.reciprocating_kg),
+        big_end=KG.to_si(section.big_end_kg),
+    )
+
+
+def _geometry(model: InputFile, run: CycleRun | None) -> Geometry:
+    given = model.geometry
+    crank_offset = pin_offset = None
+    if isinstance(given, GeometrySection):
+        crank_offset, pin_offset = (
+            None if value is None else MM.to_si(value)
+            for value in (given.crank_offset_mm, given.pin_offset_mm)
+        )
+        bore = MM.to_si(given.bore_mm)
+        radius, rod = MM.to_si(crank_radius_mm(given)), MM.to_si(rod_length_mm(given))
+    else:
+        if run is None or run.design is None:
+            msg = "geometry without bore needs a wanted power"
+            raise ValueError(msg)
+        bore, radius = run.design.bore, run.design.stroke / 2
+        rod = radius / given.lambda_
+    ratio = float(given.compression_ratio)
+    return Geometry(bore, radius, rod, ratio, crank_offset, pin_offset)
+
+
+def _power(model: InputFile, run: CycleRun | None) -> tuple[float | None, float, float]:
+    """Indicated power [W], mechanical efficiency and fullness, from the cycle if there is one."""
+    if run is not None:
+        return run.gas_power, run.cycle.effective.eta_m, 1.0
+    regime = model.regime
+    power = regime.indicated_power_kw
+    efficiency, fullness = float(regime.mechanical_efficiency), float(regime.fullness)
+    return None if power is None else KW.to_si(power), efficiency, fullness
+
+
+def crank_radius_mm(geometry: GeometrySection) -> float:
+    """Return r [mm] from r, S = 2r, or λ and L."""
+    if geometry.crank_radius_mm is not None:
+        return float(geometry.crank_radius_mm)
+    if geometry.stroke_mm is not None:
+        return geometry.stroke_mm / 2
+    if geometry.lambda_ is None or geometry.rod_length_mm is None:
+        msg = "geometry does not fix the crank radius"
+        raise ValueError(msg)
+    return geometry.lambda_ * geometry.rod_length_mm
+
+
+def rod_length_mm(geometry: GeometrySection) -> float:
+    """Return L [mm] as given, or from r and λ."""
+    if geometry.rod_length_mm is not None:
+        return float(geometry.rod_length_mm)
+    if geometry.lambda_ is None:
+        msg = "geometry does not fix the rod length"
+        raise ValueError(msg)
+    return crank_radius_mm(geometry) / geometry.lambda_
+
+
+def _gas(gas: GasSection, run: CycleRun | None, *, strokes: int) -> Gas:
+    p_ambient = MPA.to_si(gas.ambient_pressure_mpa)
+    if isinstance(gas, TableGasSection):
+        return TabulatedGas(
+            p_ambient=p_ambient,
+            angles=tuple(DEG.to_si(angle) for angle, _ in gas.points),
+            pressures=tuple(MPA.to_si(pressure) for _, pressure in gas.points),
+            smooth=gas.interpolation == "monotone",
+        )
+    if isinstance(gas, RoundedGasSection):
+        return rounded_gas(gas)
+    if run is not None:
+        advance, start, opens, closes = _angles(gas)
+        return polytropic_gas(
+            run.cycle,
+            ignition_advance=advance,
+            combustion_start=start,
+            exhaust_open=opens,
+            exhaust_close=closes,
+        )
+    if isinstance(gas, CycleGasSection):
+        msg = "gas from a cycle needs its section"
+        raise TypeError(msg)
+    advance, start, opens, closes = _angles(gas, strokes)
+    scavenge = gas.scavenge_start_before_bdc_deg
+    return PolytropicGas(
+        p_ambient=p_ambient,
+        p_intake=MPA.to_si(gas.intake_pressure_mpa),
+        p_residual=MPA.to_si(gas.residual_pressure_mpa),
+        p_max=MPA.to_si(gas.max_pressure_mpa),
+        n_compression=float(gas.compression_exponent),
+        n_expansion=float(gas.expansion_exponent),
+        rho=float(gas.preexpansion_ratio),
+        combustion_start=start,
+        ignition_advance=advance,
+        exhaust_open=opens,
+        exhaust_close=closes,
+        scavenge_open=0.0 if scavenge is None else DEG.to_si(TWO_STROKE_BDC_DEG - scavenge),
+    )
+
+
+def _angles(
+    gas: PolytropicGasSection | CycleGasSection, strokes: int = 4
+) -> tuple[float, float, float, float]:
+    """Advance, start of combustion, start and end of the exhaust [rad]."""
+    bdc = BDC_DEG if strokes == 4 else TWO_STROKE_BDC_DEG
+    start = gas.combustion_start_deg
+    if start is None:
+        start = FIRING_TDC_DEG - gas.injection_advance_deg + gas.ignition_delay_deg
+    return (
+        DEG.to_si(gas.injection_advance_deg),
+        DEG.to_si(start),
+        DEG.to_si(bdc - gas.exhaust_start_before_bdc_deg),
+        DEG.to_si(bdc + gas.exhaust_end_after_bdc_deg),
+    )
+
+
+def _balancing(section: BalanceSection) -> Balancing:
+    values = {key: float(value) for key, value in section.model_dump().items()}
+    radius = MM.to_si(values.pop("shaft_radius_mm"))
+    return Balancing(**values, shaft_radius=radius)
+
+
+def _crankshaft(shaft: CrankshaftSection) -> Crankshaft:
+    return Crankshaft(
+        throws=tuple(
+            _throw(shaft, angle, arms, shaft.webs[2 * index], shaft.webs[2 * index + 1])
+            for index, (angle, arms) in enumerate(
+                zip(shaft.throw_angles_deg, shaft.arms, strict=True)
+            )
+        ),
+        nose=EndMass(
+            mass=KG.to_si(shaft.nose_mass_kg),
+            angle=DEG.to_si(shaft.nose_angle_deg),
+            arm=MM.to_si(shaft.nose_arm_mm),
+        ),
+        rear=EndMass(
+            mass=KG.to_si(shaft.rear_mass_kg),
+            angle=DEG.to_si(shaft.rear_angle_deg),
+            arm=MM.to_si(shaft.rear_arm_mm),
+        ),
+        pin_diameter=MM.to_si(shaft.pin_diameter_mm),
+        pin_length=MM.to_si(shaft.pin_length_mm),
+        main_diameter=MM.to_si(shaft.main_diameter_mm),
+        main_lengths=tuple(MM.to_si(length) for length in shaft.main_lengths_mm),
+    )
+
+
+def _throw(
+    shaft: CrankshaftSection, angle: float, arms: ArmsSection, left: WebSection, right: WebSection
+) -> Throw:
+    lengths = (arms.l1_mm, arms.l2_mm, arms.l3_mm, arms.l4_mm, arms.l5_mm, arms.l6_mm)
+    l1, l2, l3, l4, l5, l6 = (MM.to_si(length) for length in lengths)
+    return Throw(
+        angle=DEG.to_si(angle),
+        arms=(l1, l2, l3, l4, l5, l6),
+        left_web=_web(left),
+        right_web=_web(right),
+        pin_mass=KG.to_si(shaft.pin_mass_kg or 0.0),
+        left_web_thickness=MM.to_si(arms.left_web_mm),
+        right_web_thickness=MM.to_si(arms.right_web_mm),
+    )
+
+
+def _web(web: WebSection) -> Web:
+    return Web(
+        mass=KG.to_si(web.mass_kg or 0.0),
+        angle=DEG.to_si(web.angle_deg),
+        counterweight_mass=KG.to_si(web.counterweight_kg),
+        counterweight_angle=DEG.to_si(web.counterweight_angle_deg),
+    )

@@ -1,0 +1,139 @@
+"""What this machine has and lacks, and the command that installs it."""
+
+from __future__ import annotations
+
+import ctypes
+import importlib.util
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from reports.shared.errors import SystemPartMissing
+
+MIN_PYTHON = (3, 11)
+PANGO_COMMAND = "sudo apt-get install -y libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0"
+OFFICE_COMMAND = "sudo apt-get install -y libreoffice-calc-nogui python3-uno poppler-utils"
+_PANGO = ("libgobject-2.0", "libpango-1.0", "libharfbuzz", "libpangoft2-1.0", "libfontconfig")
+_FONTS = (
+    "STIXGeneral.ttf",
+    "STIXGeneralBol.ttf",
+    "STIXGeneralItalic.ttf",
+    "STIXGeneralBolIta.ttf",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """One part of the system.
+
+    Attributes:
+        name: Russian name.
+        ok: It is there and works.
+        detail: What was found, or what is missing it for.
+        install_command: The command that installs it, empty if it is there.
+        required: Without it `kshm build` cannot make everything.
+    """
+
+    name: str
+    ok: bool
+    detail: str
+    install_command: str = ""
+    required: bool = True
+
+    def line(self) -> str:
+        """Return the Russian line `kshm doctor` prints."""
+        mark = "есть" if self.ok else "НЕТ " if self.required else "нет "
+        text = f"{mark}  {self.name}: {self.detail}"
+        return text if self.ok or not self.install_command else f"{text}; {self.install_command}"
+
+
+def check_system() -> list[Part]:
+    """Return every part, present or missing, in the order to show."""
+    return [_python(), _fonts(), _pango(), _office(), _uno()]
+
+
+def need_pango() -> None:
+    """Refuse a PDF where pango is not there.
+
+    Raises:
+        SystemPartMissing: pango is not on this machine.
+    """
+    if not pango_loads():
+        raise SystemPartMissing("pango", PANGO_COMMAND, purpose="нужен для PDF")
+
+
+def pango_loads() -> bool:
+    """Tell whether the libraries WeasyPrint needs can be loaded."""
+    return not _missing_libraries()
+
+
+def _python() -> Part:
+    version = ".".join(str(part) for part in sys.version_info[:3])
+    ok = sys.version_info >= MIN_PYTHON
+    command = "" if ok else "sudo apt-get install -y python3 python3-venv"
+    return Part("Python", ok, f"{version}, нужен 3.11 или новее", command)
+
+
+def _fonts() -> Part:
+    # The package is found without importing it: matplotlib takes half a second.
+    spec = importlib.util.find_spec("matplotlib")
+    places = list(spec.submodule_search_locations or ()) if spec is not None else []
+    folder = Path(places[0], "mpl-data", "fonts", "ttf") if places else None
+    missing = [name for name in _FONTS if folder is None or not (folder / name).is_file()]
+    detail = "нет " + ", ".join(missing) if missing else "STIXGeneral из matplotlib"
+    command = f'"{sys.executable}" -m pip install --force-reinstall matplotlib' if missing else ""
+    return Part("шрифты", not missing, detail, command)
+
+
+def _pango() -> Part:
+    missing = _missing_libraries()
+    if not missing:
+        return Part("pango", True, "библиотеки для PDF загружаются")
+    if sys.platform == "win32":
+        command = "pacman -S mingw-w64-x86_64-pango (в оболочке MSYS2)"
+    else:
+        command = "brew install pango" if sys.platform == "darwin" else PANGO_COMMAND
+    return Part("pango", False, f"для PDF не загружается {', '.join(missing)}", command)
+
+
+def _missing_libraries() -> list[str]:
+    return [name for name in _PANGO if not any(_loads(file) for file in _file_names(name))]
+
+
+def _file_names(name: str) -> tuple[str, ...]:
+    # The names WeasyPrint tries; fontconfig and harfbuzz have other version numbers.
+    version = "1" if name == "libfontconfig" else "0"
+    return (f"{name}-{version}", f"{name}.so.{version}", f"{name}.{version}.dylib", f"{name}.dylib")
+
+
+def _loads(file: str) -> bool:
+    try:
+        ctypes.CDLL(file)
+    except OSError:
+        return False
+    return True
+
+
+def _office() -> Part:
+    program = shutil.which("soffice") or shutil.which("libreoffice")
+    command = "" if program else OFFICE_COMMAND
+    detail = program or "нужен только для сверки книги в тестах"
+    return Part("LibreOffice", program is not None, detail, command, required=False)
+
+
+def _uno() -> Part:
+    # python3-uno belongs to the system's Python, not to this one.
+    python = "/usr/bin/python3"
+    ok = Path(python).exists() and _runs([python, "-c", "import uno"])
+    detail = "есть у системного Python" if ok else "нужен только для сверки книги в тестах"
+    return Part("python3-uno", ok, detail, "" if ok else OFFICE_COMMAND, required=False)
+
+
+def _runs(command: list[str]) -> bool:
+    try:
+        done = subprocess.run(command, capture_output=True, timeout=20, check=False)
+    except (OSError, subprocess.TimeoutExpired):
+        return False
+    return done.returncode == 0

@@ -1,0 +1,194 @@
+"""Atomic writing: a reader sees the old file or the new one, never half of one."""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import errno
+import os
+import secrets
+import shutil
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from reports.shared.errors import OutputError, Problem
+from reports.shared.interrupt import check, held
+
+_REASONS = {
+    errno.EACCES: "нет прав",
+    errno.EPERM: "нет прав",
+    errno.EROFS: "диск доступен только для чтения",
+    errno.ENOSPC: "на диске нет места",
+    errno.EDQUOT: "превышена дисковая квота",
+    errno.ENOTDIR: "часть пути — файл, а не папка",
+    errno.EEXIST: "на этом месте уже есть файл",
+    errno.EISDIR: "на этом месте уже есть папка",
+    errno.EFBIG: "файл больше, чем разрешено",
+    errno.ENAMETOOLONG: "слишком длинное имя",
+    errno.ENOENT: "нет такого файла или папки",
+}
+_ADVICE = "укажите другое место ключом -o"
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write text as UTF-8, line ends as they are, atomically.
+
+    Raises:
+        OutputError: The place cannot be written; the old file is untouched.
+    """
+    write_bytes(path, text.encode("utf-8"))
+
+
+def write_bytes(path: Path, data: bytes) -> None:
+    """Write bytes atomically.
+
+    Raises:
+        OutputError: The place cannot be written; the old file is untouched.
+    """
+    with atomic_path(path) as temporary, _reported(path):
+        temporary.write_bytes(data)
+
+
+@contextmanager
+def atomic_path(path: Path) -> Iterator[Path]:
+    """Yield a temporary file beside `path` that replaces it when the block succeeds.
+
+    Raises:
+        OutputError: The place cannot be written; the old file is untouched.
+    """
+    make_dir(path.parent)
+    if path.is_dir():
+        raise _failure(path, IsADirectoryError(errno.EISDIR, ""))
+    # The name's suffix is kept: some writers choose the format by it.
+    temporary = _fresh_name(path.parent, path.suffix)
+    _unfinished.add(temporary)
+    try:
+        with _reported(path):
+            _create(temporary, path)
+            yield temporary
+            check()
+            _replace(temporary, path)
+    finally:
+        _remove(temporary)
+
+
+@contextmanager
+def atomic_dir(path: Path) -> Iterator[Path]:
+    """Yield a temporary folder beside `path` that replaces it when the block succeeds.
+
+    Raises:
+        OutputError: The place cannot be written; the old folder is untouched.
+    """
+    make_dir(path.parent)
+    if path.exists() and not path.is_dir():
+        raise _failure(path, FileExistsError(errno.EEXIST, ""))
+    temporary = _fresh_name(path.parent, "")
+    old = temporary.with_name(temporary.name + ".old")
+    _unfinished.add(temporary)
+    try:
+        with _reported(path):
+            temporary.mkdir()
+            yield temporary
+            check()
+            _swap_dir(temporary, path, old)
+    finally:
+        _remove(temporary)
+        if old.exists():
+            _remove(old)
+
+
+def make_dir(path: Path) -> None:
+    """Make a folder and its parents if they are missing.
+
+    Raises:
+        OutputError: It cannot be made or cannot be written.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise _failure(path, error) from None
+    if not os.access(path, os.W_OK | os.X_OK):
+        reading_only = hasattr(os, "statvfs") and os.statvfs(path).f_flag & os.ST_RDONLY
+        raise _failure(path, OSError(errno.EROFS if reading_only else errno.EACCES, ""))
+
+
+def reason(error: OSError) -> str:
+    """Return in Russian why the system refused."""
+    return _REASONS.get(error.errno or 0, "ошибка ввода-вывода")
+
+
+def temporary_failure(error: Exception) -> OutputError:
+    """The error of a temporary file that a library could not write."""
+    number = error.errno if isinstance(error, OSError) else None
+    known = number if number is not None else getattr(errno, str(error).removeprefix("IO_"), 0)
+    text = "нет папки" if number == errno.ENOENT else _REASONS.get(known, "ошибка ввода-вывода")
+    hint = "освободите место или укажите другую папку переменной TMPDIR"
+    return OutputError(Problem("временные файлы", f"не удается записать: {text}", hint))
+
+
+# Removed at the latest when the program ends: an interruption may come between two lines.
+_unfinished: set[Path] = set()
+
+
+def _fresh_name(folder: Path, suffix: str) -> Path:
+    return folder / f".kshm-{secrets.token_hex(8)}{suffix}"
+
+
+def _create(temporary: Path, path: Path) -> None:
+    # As readable as any other file, or as the file that it replaces.
+    handle = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
+    os.close(handle)
+    if path.exists():
+        temporary.chmod(path.stat().st_mode & 0o777)
+
+
+def _remove(place: Path) -> None:
+    if place.is_dir():
+        shutil.rmtree(place, ignore_errors=True)
+    else:
+        with contextlib.suppress(OSError):
+            place.unlink()
+    _unfinished.discard(place)
+
+
+@atexit.register
+def _remove_unfinished() -> None:
+    for place in list(_unfinished):
+        _remove(place)
+
+
+def _replace(temporary: Path, path: Path) -> None:
+    with temporary.open("rb+") as stream:
+        os.fsync(stream.fileno())
+    temporary.replace(path)
+
+
+def _swap_dir(temporary: Path, path: Path, old: Path) -> None:
+    # os.replace refuses a target folder that is not empty; nothing may come between the two steps.
+    with held(signal.SIGINT, signal.SIGTERM):
+        if path.exists():
+            path.rename(old)
+        try:
+            temporary.rename(path)
+        except OSError:
+            if old.exists():
+                old.rename(path)
+            raise
+        _unfinished.add(old)
+
+
+@contextmanager
+def _reported(path: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise _failure(path, error) from None
+
+
+def _failure(path: Path, error: OSError) -> OutputError:
+    text = reason(error)
+    if isinstance(error, PermissionError) and os.name == "nt":
+        text = "файл занят (закройте его в Excel) или нет прав"
+    return OutputError(Problem(str(path), f"не удается записать: {text}", _ADVICE))

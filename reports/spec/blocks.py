@@ -1,0 +1,213 @@
+"""What a table is: frozen descriptions that all renderers and the grading take."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Literal
+
+from kshm.nomenclature.quantity import Quantity, quantity
+from reports.inputs.fields import Field
+from reports.inputs.sections.input_file import InputFile
+
+_POINT = re.compile(r"gas_point_\d+_(?P<unit>deg|mpa)(?P<regime>_R\d+)?")
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """One column: its formula per row; ``expr`` is None for the column of angles.
+
+    ``of`` names the quantity where the key alone does not; a helper column
+    serves the formulas of the workbook and is no result.
+    """
+
+    key: str
+    expr: str | None
+    source: str = ""
+    helper: bool = False
+    of: str = ""
+
+    @property
+    def quantity(self) -> Quantity:
+        """Symbol, unit and title."""
+        return quantity(self.of or self.key)
+
+
+@dataclass(frozen=True, slots=True)
+class TableSpec:
+    """A table over the crank angle.  ``number`` is the book's, ``sheet`` where it stands.
+
+    ``step`` is the distance of the rows of a table on its own grid, None the step of
+    the calculation.
+    """
+
+    id: str
+    number: str
+    title: str
+    sheet: str
+    columns: tuple[Column, ...]
+    rows: tuple[float, ...]
+    note: str = ""
+    helper: bool = False
+    step: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Scalar:
+    """One named value with its formula; ``of`` names its quantity where the key does not."""
+
+    key: str
+    expr: str
+    source: str = ""
+    note: str = ""
+    of: str = ""
+
+    @property
+    def quantity(self) -> Quantity:
+        """Symbol, unit and title."""
+        return quantity(self.of or self.key)
+
+
+@dataclass(frozen=True, slots=True)
+class ScalarTable:
+    """A list of scalars, one below the other."""
+
+    id: str
+    title: str
+    sheet: str
+    scalars: tuple[Scalar, ...]
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class GridRow:
+    """The same quantity for each instance; None where an instance has none."""
+
+    of: str
+    cells: tuple[Scalar | None, ...]
+
+    @property
+    def quantity(self) -> Quantity:
+        """Symbol, unit and title."""
+        return quantity(self.of)
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """Scalars as quantity × instance (throws, rays)."""
+
+    id: str
+    title: str
+    sheet: str
+    labels: tuple[str, ...]
+    rows: tuple[GridRow, ...]
+    note: str = ""
+
+
+Block = TableSpec | ScalarTable | Grid
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """A curve: columns or grid rows as ``table.key``; ``name`` overrides the symbol."""
+
+    x: str
+    y: str
+    name: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class ChartSpec:
+    """A chart beside its table; ``figure`` is the number in the textbook."""
+
+    id: str
+    sheet: str
+    title: str
+    kind: Literal["line", "polar", "path", "scheme"]
+    series: tuple[Series, ...]
+    x_title: str
+    y_title: str
+    figure: str = ""
+
+
+@dataclass(frozen=True)
+class Model:
+    """All specifications for one input file: what a workbook or a report consists of."""
+
+    input: InputFile
+    inputs: tuple[Field, ...]
+    blocks: tuple[Block, ...]
+    charts: tuple[ChartSpec, ...]
+
+    @cached_property
+    def tables(self) -> Mapping[str, TableSpec]:
+        """Tables over the crank angle by id."""
+        return {block.id: block for block in self.blocks if isinstance(block, TableSpec)}
+
+    @cached_property
+    def scalars(self) -> Mapping[str, Scalar]:
+        """Computed scalars by key."""
+        return {scalar.key: scalar for block in self.blocks for scalar in scalars_of(block)}
+
+    @cached_property
+    def fields(self) -> Mapping[str, Field]:
+        """Input fields by the name of their cell."""
+        return {field.name: field for field in self.inputs}
+
+    @cached_property
+    def input_runs(self) -> Mapping[str, tuple[str, ...]]:
+        """Names of the cells of a diagram given by points, ``gas_points_deg`` and the like."""
+        runs: dict[str, list[str]] = {}
+        for item in self.inputs:
+            match = _POINT.fullmatch(item.name)
+            if match is not None:
+                key = f"gas_points_{match['unit']}{match['regime'] or ''}"
+                runs.setdefault(key, []).append(item.name)
+        return {key: tuple(names) for key, names in runs.items()}
+
+    @cached_property
+    def sheets(self) -> tuple[str, ...]:
+        """Titles of the sheets that carry blocks, in order."""
+        return tuple(dict.fromkeys(block.sheet for block in self.blocks))
+
+    @cached_property
+    def nodes(self) -> Mapping[str, Scalar | Column]:
+        """Scalars by key and columns as ``table.column``."""
+        found: dict[str, Scalar | Column] = dict(self.scalars)
+        for table in self.tables.values():
+            found.update({f"{table.id}.{column.key}": column for column in table.columns})
+        return found
+
+    @cached_property
+    def grid_runs(self) -> Mapping[str, tuple[str, ...]]:
+        """Keys of the scalars of a grid's row, as ``grid.quantity``."""
+        return {
+            f"{block.id}.{row.of}": tuple(cell.key for cell in row.cells if cell is not None)
+            for block in self.blocks
+            if isinstance(block, Grid)
+            for row in block.rows
+        }
+
+    @cached_property
+    def programs(self) -> dict[str, Any]:
+        """How nodes are calculated, as ``reports.spec.evaluation`` finds it out."""
+        return {}
+
+    def with_inputs(self, input_file: InputFile, inputs: tuple[Field, ...]) -> Model:
+        """The same specifications for an input of the same structure."""
+        made = Model(input_file, inputs, self.blocks, self.charts)
+        # What follows from the blocks and from the names of the inputs is the same as well.
+        for name in ("tables", "scalars", "input_runs", "sheets", "nodes", "grid_runs", "programs"):
+            made.__dict__[name] = getattr(self, name)
+        return made
+
+
+def scalars_of(block: Block) -> Iterator[Scalar]:
+    """All scalars of a block."""
+    if isinstance(block, ScalarTable):
+        yield from block.scalars
+    elif isinstance(block, Grid):
+        for row in block.rows:
+            yield from (cell for cell in row.cells if cell is not None)

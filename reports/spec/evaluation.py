@@ -1,0 +1,130 @@
+"""Numeric values of a model's expressions: the second statement of the mechanics."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reports.formula.numeric import compiled
+from reports.formula.parse import names
+from reports.spec.blocks import Column, Model
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Values:
+    """Values by scalar key and by (table, column)."""
+
+    scalars: dict[str, float | str]
+    columns: dict[str, dict[str, Array]]
+
+
+class Evaluation:
+    """Evaluates every node once, whatever the order in which the tables stand.
+
+    Args:
+        model: the specifications.
+        known: values that take the place of the formulas of their nodes, by the key of a
+            scalar or input or by ``table.column``.
+    """
+
+    def __init__(self, model: Model, known: Mapping[str, Any] | None = None) -> None:
+        self.model = model
+        self.done: dict[str, Any] = {}
+        self.running: set[str] = set()
+        self.nodes, self.runs, self.programs = model.nodes, model.grid_runs, model.programs
+        for field in model.inputs:
+            value = field.value
+            if field.choices is not None and isinstance(value, str):
+                value = field.choices[value]
+            self.done[field.name] = value
+        for key, cells in model.input_runs.items():
+            points = [model.fields[name].value for name in cells]
+            self.done[key] = np.array(points, dtype=float)
+        self.inputs = dict(self.done)
+        self.done.update(known or {})
+
+    def fork(self, known: Mapping[str, Any]) -> Evaluation:
+        """The same model with other known values, nothing else evaluated yet."""
+        other = Evaluation.__new__(Evaluation)
+        other.model, other.nodes, other.running = self.model, self.nodes, set()
+        other.inputs, other.runs, other.programs = self.inputs, self.runs, self.programs
+        other.done = {**self.inputs, **known}
+        return other
+
+    def value(self, key: str) -> Any:  # noqa: ANN401
+        """Value of a node or input: a number, a text, or an array of one value per row."""
+        if key in self.done:
+            return self.done[key]
+        if not self.running:
+            with np.errstate(all="ignore"):  # branches not taken may divide by zero
+                return self._calculated(key)
+        return self._calculated(key)
+
+    def _calculated(self, key: str) -> Any:  # noqa: ANN401
+        done = self.done
+        if key in self.runs:
+            done[key] = np.array([self.value(name) for name in self.runs[key]], dtype=float)
+            return done[key]
+        if key in self.running:
+            msg = f"the formulas refer to each other in a circle at {key}"
+            raise ValueError(msg)
+        self.running.add(key)
+        program = self.programs.get(key)
+        if program is None:
+            program = self.programs[key] = _program(self.model, key)
+        for name in program.needs:
+            if name not in done:
+                self._calculated(name)
+        result = program.act(done)
+        if program.rows:
+            result = np.asarray(result)
+            if result.shape != (program.rows,):
+                result = np.broadcast_to(result, (program.rows,))
+        self.running.discard(key)
+        done[key] = result
+        return result
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """How a node is calculated; ``rows`` of a column, 0 of a scalar."""
+
+    needs: tuple[str, ...]
+    act: Callable[[dict[str, Any]], Any]
+    rows: int
+
+
+def _program(model: Model, key: str) -> Program:
+    node = model.nodes[key]
+    if not isinstance(node, Column):
+        return Program(tuple(names(node.expr)), _act(node.expr, "", frozenset()), 0)
+    table = model.tables[key.split(".", maxsplit=1)[0]]
+    if node.expr is None:
+        return Program((), lambda _: np.array(table.rows), len(table.rows))
+    # A bare name is a column of the same table first, then a scalar.
+    local = frozenset(name for name in names(node.expr) if f"{table.id}.{name}" in model.nodes)
+    needs = tuple(f"{table.id}.{name}" if name in local else name for name in names(node.expr))
+    return Program(needs, _act(node.expr, table.id, local), len(table.rows))
+
+
+@lru_cache(maxsize=8192)  # many models have the same formulas
+def _act(text: str, table: str, local: frozenset[str]) -> Callable[[dict[str, Any]], Any]:
+    return compiled(text, lambda name: f"{table}.{name}" if name in local else name)
+
+
+def evaluate_model(model: Model) -> Values:
+    """Evaluate all expressions of a model in numpy."""
+    run = Evaluation(model)
+    scalars = {key: run.value(key) for key in model.scalars}
+    columns = {
+        table.id: {column.key: run.value(f"{table.id}.{column.key}") for column in table.columns}
+        for table in model.tables.values()
+    }
+    return Values({k: v if isinstance(v, str) else float(v) for k, v in scalars.items()}, columns)

@@ -1,0 +1,166 @@
+"""What the layout of an engine makes of its tables: how many there are and what refers to what.
+
+Numbers count from 1 here, as people count cylinders, throws and journals.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from kshm.engine.arrangement import Arrangement, pins, throws
+from reports.inputs.sections.input_file import GeometrySection, InputFile
+from reports.inputs.to_si.engine import arrangement_of
+
+TIMING = "timing_deg"  # helper column: the angle in the cycle counted on from the piston's TDC
+
+
+@dataclass(frozen=True)
+class Shape:
+    """Structure of an engine; expressions that depend on it ask here."""
+
+    arrangement: Arrangement
+    strokes: int
+    offset: bool
+
+    @classmethod
+    def of(cls, model: InputFile) -> Shape:
+        """Shape of a checked input."""
+        given = model.geometry
+        offset = isinstance(given, GeometrySection) and (
+            given.crank_offset_mm is not None or given.pin_offset_mm is not None
+        )
+        return cls(arrangement_of(model), model.engine.strokes, offset)
+
+    @property
+    def cylinders(self) -> int:
+        """Number of cylinders."""
+        return len(self.arrangement)
+
+    @cached_property
+    def groups(self) -> tuple[tuple[int, ...], ...]:
+        """Cylinders on every throw from the nose."""
+        return _numbered(throws(self.arrangement))
+
+    @property
+    def throws(self) -> int:
+        """Number of throws."""
+        return len(self.groups)
+
+    @property
+    def single_rods(self) -> bool:
+        """Whether every throw carries one rod."""
+        return all(len(group) == 1 for group in self.groups)
+
+    @cached_property
+    def pins(self) -> tuple[tuple[int, ...], ...]:
+        """Cylinders on every crankpin that has a table: one pin where all carry one rod."""
+        found = _numbered(pins(self.arrangement))
+        return found[:1] if all(len(group) == 1 for group in found) else found
+
+    @property
+    def period(self) -> int:
+        """Length of the cycle [deg]."""
+        return 180 * self.strokes
+
+    @property
+    def split(self) -> bool:
+        """Whether the pins are split."""
+        return any(place.pin for place in self.arrangement)
+
+    @property
+    def articulated(self) -> bool:
+        """Whether there are articulated rods."""
+        return any(place.master is not None for place in self.arrangement)
+
+    @property
+    def banks(self) -> bool:
+        """Whether the cylinders stand in two rows."""
+        return any(place.axis for place in self.arrangement) or not self.single_rods
+
+    @property
+    def basic(self) -> bool:
+        """Four-stroke, in line, central: what the companion sources are about."""
+        in_line = [place.throw for place in self.arrangement] == list(range(self.cylinders))
+        return in_line and not self.banks and self.strokes == 4 and not self.offset
+
+    @property
+    def by_orders(self) -> bool:
+        """Whether Neiman's series describes all pistons: central, without articulated rods."""
+        return not self.offset and not self.articulated
+
+    def is_hung(self, cylinder: int) -> bool:
+        """Whether the cylinder's rod is an articulated one."""
+        return self.arrangement[cylinder - 1].master is not None
+
+    def is_right(self, cylinder: int) -> bool:
+        """Whether the cylinder stands in the right bank."""
+        return self.banks and 2 * cylinder > self.cylinders
+
+    def throw_of(self, cylinder: int) -> int:
+        """Number of the cylinder's throw."""
+        return self.arrangement[cylinder - 1].throw + 1
+
+    def throw_torque(self, throw: int) -> tuple[str, str]:
+        """Key of a throw's torque in the running-on tables and the column that has it."""
+        group = self.groups[throw - 1]
+        if len(group) == 1:
+            return f"M{group[0]}_Nm", f"P4_2.M{group[0]}_Nm"
+        return f"Mthrow{throw}_Nm", f"{rods_table(throw)}.Mthrow_Nm"
+
+    # --- expressions ------------------------------------------------------------------
+
+    @property
+    def tdc(self) -> str:
+        """Name of the angle of TDC, empty where it is 0."""
+        return "phi_tdc_deg" if self.offset else ""
+
+    @property
+    def bdc(self) -> str:
+        """Name of the angle of BDC, empty where it is 180°."""
+        return "phi_bdc_deg" if self.offset else ""
+
+    @property
+    def turn(self) -> str:
+        """Angle of the cycle in radians, as an expression."""
+        return "4*pi" if self.strokes == 4 else "2*pi"
+
+    def beta(self, phi: str) -> str:
+        """Rod angle [rad], Gots (7), with an offset (17)."""
+        if self.offset:
+            return f"asin(lam*(sin(rad({phi})) - k_offset))"
+        return f"asin(lam*sin(rad({phi})))"
+
+    def displacement(self, phi: str) -> str:
+        """Exact displacement over the crank radius, Gots (1), with an offset (12)."""
+        if self.offset:
+            return (
+                f"(sqrt((1/lam + 1)**2 - k_offset**2) - (cos(rad({phi}))"
+                f" + sqrt(1 - lam**2*(sin(rad({phi})) - k_offset)**2)/lam))"
+            )
+        return f"((1 - cos(rad({phi}))) + (1 - sqrt(1 - lam**2*sin(rad({phi}))**2))/lam)"
+
+    def volume_ratio(self, phi: str) -> str:
+        """V/V_c from the exact displacement."""
+        if self.offset:
+            scale = "(geometry_compression_ratio - 1)*r_crank/S_stroke"
+            return f"1 + {scale}*{self.displacement(phi)}"
+        return f"1 + (geometry_compression_ratio - 1)/2*{self.displacement(phi)}"
+
+    def axis(self, cylinder: int) -> str:
+        """Angle of the cylinder's axis from that of cylinder 1 [deg]."""
+        return "crankshaft_bank_angle_deg" if self.is_right(cylinder) else "0"
+
+
+def _numbered(groups: tuple[tuple[int, ...], ...]) -> tuple[tuple[int, ...], ...]:
+    return tuple(tuple(i + 1 for i in group) for group in groups)
+
+
+def rods_table(throw: int) -> str:
+    """Id of the table with the forces of both rods on a throw."""
+    return f"rods_{throw}"
+
+
+def pin_name(number: int) -> str:
+    """Number of a crankpin within keys: empty for the first one."""
+    return "" if number == 1 else str(number)

@@ -1,0 +1,137 @@
+"""What a parameter study varies: axes, their combinations, and the base they change."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from reports.inputs.fields import Field, Path, iter_fields, to_mapping
+from reports.inputs.sections.input_file import InputFile
+from reports.inputs.units import number_text
+from reports.shared.errors import InputError, Problem, one_line
+
+MOST_POINTS = 10_000_000
+_EXAMPLE = "пример: --vary geometry.bore_mm=84:92:9"
+
+
+@dataclass(frozen=True, slots=True)
+class Axis:
+    """One varied input: its key in the file, where it stands, its values in user units."""
+
+    key: str
+    path: Path
+    title: str
+    unit: str
+    values: tuple[float | int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """The base file's sections and the axes; the first axis changes fastest."""
+
+    source: str
+    raw: dict[str, Any]
+    axes: tuple[Axis, ...]
+    pairwise: bool
+
+    @property
+    def count(self) -> int:
+        """Number of combinations."""
+        if self.pairwise:
+            return len(self.axes[0].values)
+        return math.prod(len(axis.values) for axis in self.axes)
+
+    def point(self, number: int) -> tuple[float | int, ...]:
+        """Values of the axes in a combination, counted from 0."""
+        if self.pairwise:
+            return tuple(axis.values[number] for axis in self.axes)
+        found = []
+        for axis in self.axes:
+            number, place = divmod(number, len(axis.values))
+            found.append(axis.values[place])
+        return tuple(found)
+
+    def chunks(self, size: int) -> Iterator[list[tuple[float | int, ...]]]:
+        """All combinations in order, so many at a time."""
+        for begin in range(0, self.count, size):
+            yield [self.point(number) for number in range(begin, min(begin + size, self.count))]
+
+
+def make_plan(model: InputFile, source: str, vary: Sequence[str], *, pairwise: bool) -> Plan:
+    """The plan of ``--vary`` texts.
+
+    Raises:
+        InputError: a text that is no range, a key that cannot be varied, too many points.
+    """
+    fields = {dotted(field.path): field for field in iter_fields(model)}
+    axes = tuple(_axis(text, fields) for text in vary)
+    plan = Plan(source, to_mapping(model), axes, pairwise)
+    if len({axis.key for axis in axes}) < len(axes):
+        raise _wrong(vary[-1], "ключ задан дважды", "оставьте один")
+    if pairwise and len({len(axis.values) for axis in axes}) > 1:
+        raise _wrong(vary[-1], "у ключей разное число значений, а задано --pairwise",
+                     "задайте одинаковое число точек N")  # fmt: skip
+    if plan.count > MOST_POINTS:
+        raise _wrong(vary[-1], f"сочетаний {plan.count}, это больше {MOST_POINTS}",
+                     "уменьшите число точек")  # fmt: skip
+    return plan
+
+
+def dotted(path: Path) -> str:
+    """A path as ``--vary`` and ``[variants]`` name it: ``crankshaft.webs.1.mass_kg``."""
+    return ".".join(str(part + 1) if isinstance(part, int) else part for part in path)
+
+
+def _axis(text: str, fields: dict[str, Field]) -> Axis:
+    key, equals, span = text.partition("=")
+    key = key.strip()
+    if not equals:
+        raise _wrong(text, "нужно КЛЮЧ=ОТ:ДО:ЧИСЛО", _EXAMPLE)
+    field = fields.get(key)
+    if field is None:
+        near = difflib.get_close_matches(key, list(fields), n=3, cutoff=0.5)
+        hint = f"похожи: {', '.join(near)}" if near else "ключи смотрите в файле"
+        raise _wrong(text, f"в файле нет ключа {one_line(key, 80)}", hint)
+    number = isinstance(field.value, int | float) and not isinstance(field.value, bool)
+    if not number or field.choices is not None:
+        raise _wrong(text, f"значение ключа {key} — не число", "выберите числовой ключ")
+    if field.structural:
+        raise _wrong(text, f"ключ {key} меняет строение расчёта", "сделайте отдельный файл")
+    values = _values(text, span, whole=isinstance(field.value, int))
+    return Axis(key, field.path, field.title, field.unit, values)
+
+
+def _values(text: str, span: str, *, whole: bool) -> tuple[float | int, ...]:
+    parts = span.split(":")
+    try:
+        start, stop, count = float(parts[0]), float(parts[1]), int(parts[2])
+        ok = len(parts) == 3 and math.isfinite(start) and math.isfinite(stop) and count >= 1
+    except (ValueError, IndexError):
+        ok = False
+    if not ok:
+        raise _wrong(text, "нужно ОТ:ДО:ЧИСЛО, числа с точкой", _EXAMPLE)
+    if count > MOST_POINTS:
+        raise _wrong(text, f"точек больше {MOST_POINTS}", "уменьшите их число")
+    step = (stop - start) / max(1, count - 1)
+    values = [start + step * i for i in range(count)]
+    if count > 1:
+        values[-1] = stop
+    # 84 + 0.1·3 reads 84.30000000000001: round off what the division left.
+    tidy = [float(f"{value:.12g}") for value in values]
+    if whole and all(value.is_integer() for value in tidy):
+        return tuple(int(value) for value in tidy)
+    return tuple(tidy)
+
+
+def span_text(axis: Axis) -> str:
+    """The values of an axis in words."""
+    first, last = (number_text(float(value)) for value in (axis.values[0], axis.values[-1]))
+    unit = f" {axis.unit}" if axis.unit else ""
+    return f"{axis.title}: {first}…{last}{unit}, точек {len(axis.values)}"
+
+
+def _wrong(text: str, what: str, hint: str) -> InputError:
+    return InputError(Problem(f"--vary {one_line(text, 80)}", what, hint))

@@ -1,0 +1,86 @@
+"""Combinations of a study checked, solved together and summed up, a chunk at a time."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kshm.chain.solve import solve_chunks
+from kshm.engine.engine import Engine
+from reports.inputs.fields import Path, set_value
+from reports.inputs.load import load_mapping
+from reports.inputs.to_si.engine import to_engine
+from reports.shared.errors import KshmError
+from reports.studies.plan import Plan
+from reports.studies.quantities import Wanted, of_batch
+
+Array = NDArray[np.float64]
+NOT_FINITE = "расчёт не дал конечного числа"
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """A chunk of combinations with all that solving them needs, here or on another machine."""
+
+    raw: dict[str, Any]
+    source: str
+    paths: tuple[Path, ...]
+    wanted: Wanted
+    rows: list[tuple[float | int, ...]]
+
+
+@dataclass(frozen=True, slots=True)
+class Chunk:
+    """Combinations and their results; ``errors`` says why a row has none."""
+
+    rows: list[tuple[float | int, ...]]
+    values: dict[str, Array]
+    errors: list[str] = field(default_factory=list)
+
+
+def tasks(plan: Plan, wanted: Wanted, size: int) -> Any:  # noqa: ANN401
+    """The tasks of a plan in order, made as they are needed."""
+    paths = tuple(axis.path for axis in plan.axes)
+    return (Task(plan.raw, plan.source, paths, wanted, rows) for rows in plan.chunks(size))
+
+
+def solved(task: Task) -> Chunk:
+    """Every combination is checked like an input file; those that fail keep their reason."""
+    errors = [""] * len(task.rows)
+    engines, places = _engines(task, errors)
+    values = {name: np.full(len(task.rows), np.nan) for name in task.wanted.names}
+    begin = 0
+    for raw in solve_chunks(engines):
+        here = places[begin : begin + len(raw.batch.engines)]
+        begin += len(here)
+        for name, numbers in of_batch(raw, task.wanted).items():
+            values[name][here] = numbers
+    for row in places:
+        if not all(np.isfinite(each[row]) for each in values.values()):
+            errors[row] = NOT_FINITE
+    return Chunk(task.rows, values, errors)
+
+
+def _engines(task: Task, errors: list[str]) -> tuple[list[Engine], list[int]]:
+    raw = copy.deepcopy(task.raw)
+    engines: list[Engine] = []
+    places: list[int] = []
+    for number, row in enumerate(task.rows):
+        _put(raw, task.paths, row)
+        try:
+            engines.append(to_engine(load_mapping(raw, source=task.source).model))
+        except KshmError as error:
+            errors[number] = error.lines()[0]
+        else:
+            places.append(number)
+    return engines, places
+
+
+def _put(raw: dict[str, Any], paths: Sequence[Path], row: Sequence[float | int]) -> None:
+    for path, value in zip(paths, row, strict=True):
+        set_value(raw, path, value)

@@ -1,0 +1,148 @@
+"""What a parameter study gives for each combination: scalars, extremes and means of columns."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kshm.chain.solve import BatchSolution
+from kshm.nomenclature.quantity import quantity
+from kshm.results.forces import force_tables
+from kshm.results.solution import Solution
+from kshm.results.summary import chain_scalars, first_extremes
+from reports.shared.errors import InputError, Problem, one_line
+
+Array = NDArray[np.float64]
+
+# What a column gives; an angle belongs to the extreme before it.
+PARTS = ("max", "max_deg", "min", "min_deg", "mean")
+_HIDDEN = ("throw", "hole", "r_crank", "L_rod", "lam", "omega")
+_DEFAULT_TABLES = ("P4_1", "P4_2", "P4_4", "P4_5")
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """Scalars and ``table.column`` pairs; ``slow`` ones need every table of every engine."""
+
+    scalars: tuple[str, ...]
+    columns: tuple[tuple[str, str], ...]
+    slow: bool
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the numbers of one combination, in order."""
+        pairs = [f"{table}.{key}.{part}" for table, key in self.columns for part in PARTS]
+        return [*self.scalars, *pairs]
+
+
+def choose(base: BatchSolution, asked: Sequence[str]) -> Wanted:
+    """What is asked for, or what the chain of forces gives for every engine at once.
+
+    Args:
+        base: the solved base, which tells what there is.
+        asked: keys of scalars, ``M_mean``, and of columns, ``P4_1.N_MPa``.
+
+    Raises:
+        InputError: there is no such quantity.
+    """
+    quick_scalars, quick_tables = list(chain_scalars(base)), force_tables(base)
+    if not asked:
+        scalars = tuple(key for key in quick_scalars if not key.startswith(_HIDDEN))
+        columns = tuple(
+            (table, key)
+            for table in _DEFAULT_TABLES
+            for key in quick_tables.get(table, ())
+            if _summed_up(key)
+        )
+        return Wanted(scalars, columns, slow=False)
+    solution = Solution(base.batch.engines[0], base)
+    pairs = {
+        f"{table}.{key}": (table, key)
+        for table, columns in solution.columns.items()
+        for key, values in columns.items()
+        if _summed_up(key) and "phi_deg" in columns and values.dtype.kind == "f"
+    }
+    keys: list[str] = []
+    chosen: list[tuple[str, str]] = []
+    slow = False
+    for name in dict.fromkeys(asked):
+        if name in pairs:
+            table, key = pairs[name]
+            chosen.append((table, key))
+            slow |= table not in quick_tables
+        elif name in solution.scalars:
+            keys.append(name)
+            slow |= name not in quick_scalars
+        else:
+            raise _unknown(name, [*solution.scalars, *pairs])
+    return Wanted(tuple(keys), tuple(chosen), slow)
+
+
+def _summed_up(key: str) -> bool:
+    return key not in ("phi_deg", "phase_deg")
+
+
+def _unknown(name: str, known: list[str]) -> InputError:
+    near = difflib.get_close_matches(name, known, n=3, cutoff=0.5)
+    hint = f"похожи: {', '.join(near)}" if near else "ключи показывает kshm solve --json"
+    where = f"--quantity {one_line(name, 80)}"
+    return InputError(Problem(where, "нет такой величины", hint))
+
+
+def of_batch(raw: BatchSolution, wanted: Wanted) -> dict[str, Array]:
+    """Values of all engines of a batch in the units of the tables, by name."""
+    if wanted.slow:
+        each = [_of_one(Solution(e, raw, i), wanted) for i, e in enumerate(raw.batch.engines)]
+        return {name: np.array([one[name] for one in each]) for name in wanted.names}
+    found = chain_scalars(raw)
+    values = {key: found[key] / quantity(key).si for key in wanted.scalars}
+    tables = force_tables(raw) if wanted.columns else {}
+    for table, key in wanted.columns:
+        values |= _summary(table, key, tables[table][key], tables[table]["phi_deg"])
+    return values
+
+
+def _of_one(solution: Solution, wanted: Wanted) -> dict[str, float]:
+    values = {key: solution.scalars[key] for key in wanted.scalars}
+    for table, key in wanted.columns:
+        columns = solution.columns[table]
+        found = _summary(table, key, columns[key][None], columns["phi_deg"])
+        values |= {name: float(numbers[0]) for name, numbers in found.items()}
+    return values
+
+
+def _summary(table: str, key: str, values: Array, degrees: Array) -> dict[str, Array]:
+    """Extremes with the first angles at which they stand, and the mean over the cycle."""
+    largest, at_largest = first_extremes(values, degrees)
+    smallest, at_smallest = first_extremes(values, degrees, largest=False)
+    # The last row of a table repeats the first angle.
+    mean = values[..., :-1].mean(axis=-1)
+    numbers = (largest, at_largest, smallest, at_smallest, mean)
+    return {f"{table}.{key}.{part}": each for part, each in zip(PARTS, numbers, strict=True)}
+
+
+def described(name: str) -> tuple[str, str]:
+    """Russian title and unit of a name."""
+    table, dot, rest = name.partition(".")
+    if not dot:
+        about = quantity(name)
+        return about.title, about.unit_label
+    key, _, part = rest.rpartition(".")
+    about = quantity(key)
+    kinds = {
+        "max": "наибольшее", "max_deg": "угол наибольшего", "min": "наименьшее",
+        "min_deg": "угол наименьшего", "mean": "среднее",
+    }  # fmt: skip
+    unit = "°" if part.endswith("deg") else about.unit_label
+    return f"{about.title} ({table}), {kinds[part]}", unit
+
+
+def format_of(name: str) -> str:
+    """Number format of a name; the grid's angles may be fractions of a degree."""
+    if name.endswith("_deg") and "." in name:
+        return "0.##"
+    return quantity(name.split(".")[1] if "." in name else name).fmt

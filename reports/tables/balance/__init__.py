@@ -1,0 +1,1 @@
+"""Tables of balance, reduced inertia, torque orders and firing orders."""

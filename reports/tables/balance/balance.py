@@ -1,0 +1,251 @@
+"""Balancing: free forces and moments by orders, rotating masses, shafts, firing orders."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from reports.spec.blocks import (
+    Block,
+    ChartSpec,
+    Column,
+    Grid,
+    GridRow,
+    Scalar,
+    ScalarTable,
+    Series,
+    TableSpec,
+)
+from reports.spec.shape import Shape
+from reports.tables.balance.balance_sums import (
+    NOTHING,
+    RESULTS,
+    devices_table,
+    place,
+    sides,
+    sums_table,
+    throws_grid,
+    vector_sum,
+    vectors_table,
+)
+from reports.tables.balance.firing import MAX_CYLINDERS, firing_loads, firing_table, has_loads
+
+SHEET, ORDERS_SHEET = "Уравновешивание", "Порядки сил"
+LAST_ORDER = 8
+
+
+def _amplitude() -> str:
+    """Amplitude a_k of the series of the acceleration, Neiman (36)."""
+    text = "0"
+    for n in (8, 6, 4, 2):
+        sign = "" if n % 4 == 2 else "-"
+        text = f"{sign}({n * n}*neiman_p{n}) if order == {n} else ({text})"
+    return f"1 if order == 1 else ({text})"
+
+
+def _orders(shape: Shape) -> TableSpec:
+    far = "max(" + ", ".join(f"abs({place(shape, i)})" for i in numbers(shape)) + ")"
+    columns = [Column("order", None), Column("order_amplitude", _amplitude(), "Нейман (36)")]
+    for across, letter, unit, scale in (("order", "F", "kN", "1"), ("arm", "M", "Nm", far)):
+        columns += _order_columns(shape, across, letter, unit, scale)
+    first, second = "balance_first_shafts_share", "balance_second_shafts_share"
+    rest = f"(1 - {first} if order == 1 else 1 - {second} if order == 2 else 1)"
+    columns += [
+        Column("F_left_kN", f"F_order_kN*{rest}", "балансирные валы"),
+        Column("M_left_Nm", f"M_order_Nm*{rest}", "балансирные валы"),
+    ]
+    directed = (
+        "Силы складываются по осям цилиндров, вверх — вдоль оси цилиндра 1; вектор порядка "
+        "описывает эллипс, даны его полуоси и направление большей от вертикали по вращению"
+        if shape.banks
+        else "Силы направлены вдоль осей цилиндров"
+    )
+    return TableSpec(
+        "balance_orders",
+        "У.п",
+        "Свободные силы и моменты инерции возвратно движущихся масс по порядкам",
+        ORDERS_SHEET,
+        tuple(columns),
+        tuple(float(n) for n in range(1, LAST_ORDER + 1)),
+        note=(
+            f"{directed}; плечи отсчитаны от середины вала; амплитуды ускорения — по полному ряду "
+            "Неймана (36). Нечётных порядков выше первого нет."
+        ),
+        step=1.0,
+    )
+
+
+def _order_columns(
+    shape: Shape, across: str, letter: str, unit: str, scale: str
+) -> Iterator[Column]:
+    """Vector sums of one order and the force or the moment that they make."""
+    end = "_mm" if across == "arm" else ""
+    title = "свободная сила" if letter == "F" else "свободный момент"
+    names = {}
+    for side in sides(shape):
+        for turn in ("cos", "sin"):
+            key = names[turn + side] = f"{across}{side}_{turn}{end}"
+            text = vector_sum(shape, "order", turn, across, side)
+            yield Column(key, text, "сложение векторов")
+    unit_force, least = "Pj_unit_kN*abs(order_amplitude)", f"{NOTHING}*{scale}"
+    cos, sin = names["cos"], names["sin"]
+    if not shape.banks:
+        size = f"sqrt({cos}**2 + {sin}**2)"
+        sine = f"(0 if abs({sin}) < {least} else {sin})"
+        phase = f"0 if {size} <= {least} else deg(atan2({sine}, {cos}))/order"
+        yield Column(f"{letter}_order_{unit}", f"{unit_force}*{size}", title)
+        yield Column(f"{letter}_order_deg", phase, "направление")
+        return
+    right_cos, right_sin = names["cos_right"], names["sin_right"]
+    along, against = f"{across}_along{end}", f"{across}_against{end}"
+    yield Column(
+        along,
+        f"sqrt(({cos} + {right_sin})**2 + ({sin} - {right_cos})**2)/2",
+        "вектор по вращению",
+        helper=True,
+    )
+    yield Column(
+        against,
+        f"sqrt(({cos} - {right_sin})**2 + ({sin} + {right_cos})**2)/2",
+        "вектор против вращения",
+        helper=True,
+    )
+    angle = (
+        f"(deg(atan2({right_cos} - {sin}, {cos} + {right_sin}))"
+        f" + deg(atan2({sin} + {right_cos}, {cos} - {right_sin})))/2"
+    )
+    yield Column(f"{letter}_order_{unit}", f"{unit_force}*({along} + {against})", title)
+    yield Column(f"{letter}_order_min_{unit}", f"{unit_force}*abs({along} - {against})", title)
+    yield Column(
+        f"{letter}_order_dir_deg",
+        f"0 if min({along}, {against}) <= {least}"
+        f" else 90 - mod(90 - {angle} + 0.000001, 180) + 0.000001",
+        "направление",
+    )
+
+
+def _turn(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
+    """Forces and moments over a turn, before and after balancing."""
+    columns = [Column("phi_deg", None)]
+    for key, unit, across in (("F", "kN", "order"), ("L", "Nm", "arm")):
+        columns += _turn_columns(shape, key, unit, across)
+    return TableSpec(
+        "balance",
+        "У",
+        "Свободные силы и моменты за оборот до и после уравновешивания",
+        SHEET,
+        tuple(columns),
+        rows,
+        note=(
+            "Вверх — к головке цилиндров, вправо — куда ведёт вращение, если смотреть с носка. "
+            "После уравновешивания: к валу добавлены противовесы для доли масс mj на каждом "
+            "колене, балансирные валы снимают выбранные доли сил 1-го и 2-го порядка."
+        ),
+    )
+
+
+def _turn_columns(shape: Shape, key: str, unit: str, across: str) -> Iterator[Column]:
+    """Columns of the force (F) or of the moment (L)."""
+    phi = "rad(phi_deg)"
+    amplitude = {1: "1", 2: "4*neiman_p2", 4: "-(16*neiman_p4)"}
+    for n, size in amplitude.items():
+        for side in sides(shape):
+            name = f"balance{side}_{{}}{n}_{across}"
+            wave = f"{name.format('cos')}*cos({n}*{phi}) + {name.format('sin')}*sin({n}*{phi})"
+            text = f"Pj_unit_kN*({size})*({wave})"
+            yield Column(f"{key}{n}{side}_{unit}", text, f"порядок {n}")
+    re, im = f"{key}rot_re", f"{key}rot_im"
+    yield Column(f"{key}rot_up_{unit}", f"{re}*cos({phi}) - {im}*sin({phi})", "поворот вала")
+    yield Column(f"{key}rot_right_{unit}", f"{re}*sin({phi}) + {im}*cos({phi})", "поворот вала")
+    weight = "balance_counterweight_share"
+    full_re, full_im = f"({re} + {weight}*{key}cw_re)", f"({im} + {weight}*{key}cw_im)"
+
+    def orders(side: str) -> str:
+        return " + ".join(f"{key}{n}{side}_{unit}" for n in amplitude)
+
+    def left(side: str) -> str:
+        return (
+            f"{key}1{side}_{unit}*(1 - balance_first_shafts_share)"
+            f" + {key}2{side}_{unit}*(1 - balance_second_shafts_share) + {key}4{side}_{unit}"
+        )
+
+    turned_up = f"{full_re}*cos({phi}) - {full_im}*sin({phi})"
+    turned_right = f"{full_re}*sin({phi}) + {full_im}*cos({phi})"
+    yield Column(f"{key}up_{unit}", f"{orders('')} + {key}rot_up_{unit}", "сумма")
+    if shape.banks:
+        yield Column(f"{key}right_{unit}", f"{orders('_right')} + {key}rot_right_{unit}", "сумма")
+        turned_right = f"{left('_right')} + {turned_right}"
+    yield Column(f"{key}up_after_{unit}", f"{left('')} + {turned_up}", "сумма")
+    yield Column(f"{key}right_after_{unit}", turned_right, "сумма")
+
+
+def numbers(shape: Shape) -> range:
+    """Numbers of the cylinders."""
+    return range(1, shape.cylinders + 1)
+
+
+def balance_blocks(shape: Shape, cycle: tuple[float, ...], *, forced: bool) -> tuple[Block, ...]:
+    """Sheets of the balance; for pistons that Neiman's series describes."""
+    turn = tuple(angle for angle in cycle if angle <= 360)
+    blocks: list[Block] = [
+        _turn(shape, turn), *_boxes(shape), devices_table(shape), vectors_table(shape),
+        sums_table(shape), throws_grid(shape), _orders(shape),
+    ]  # fmt: skip
+    if shape.strokes == 4 and shape.cylinders <= MAX_CYLINDERS:
+        loads = has_loads(shape, forced=forced)
+        blocks.append(firing_table(shape, loads=loads))
+        if loads and shape.throws > 1:
+            blocks.append(firing_loads(shape, cycle))
+    return tuple(blocks)
+
+
+def _boxes(shape: Shape) -> Iterator[Block]:
+    """Greatest components of the vectors: they keep the axes of the diagrams equal."""
+    for key, unit in (("F", "kN"), ("L", "Nm")):
+        right = "right" if shape.banks else "rot_right"
+        names = (f"{key}up_{unit}", f"{key}up_after_{unit}", f"{key}{right}_{unit}",
+                 f"{key}right_after_{unit}")  # fmt: skip
+        ends = ", ".join(f"col_max(balance.{name}), -(col_min(balance.{name}))" for name in names)
+        size = f"balance_{key}_size"
+        cells = (
+            Scalar(f"balance_{key}_box1", f"-{size}", "оси диаграммы", of="box"),
+            Scalar(f"balance_{key}_box2", size, "оси диаграммы", of="box"),
+        )
+        title = "Наибольшая составляющая"
+        found = Scalar(size, f"max({ends}, {NOTHING})", "оси диаграммы", of="box")
+        yield ScalarTable(f"balance_{key}_sizes", title, RESULTS, (found,))
+        yield Grid(
+            f"balance_{key}_box", "Оси диаграммы", RESULTS, ("−", "+"), (GridRow("box", cells),)
+        )
+
+
+def balance_charts(shape: Shape) -> tuple[ChartSpec, ...]:
+    """Forces and moments over a turn, vector diagrams."""
+    x = "balance.phi_deg"
+
+    def over(chart: str, title: str, y: str, *keys: str) -> ChartSpec:
+        series = tuple(Series(x, f"balance.{key}") for key in keys)
+        return ChartSpec(chart, SHEET, title, "line", series, "φ, ° ПКВ", y)
+
+    return (
+        over("balance_F", "Свободные силы по порядкам", "F, кН", "F1_kN", "F2_kN", "F4_kN"),
+        over("balance_L", "Свободные продольные моменты по порядкам", "M, Н·м",
+             "L1_Nm", "L2_Nm", "L4_Nm"),
+        over("balance_F_after", "Вертикальная сила до и после уравновешивания", "F, кН",
+             "Fup_kN", "Fup_after_kN"),
+        over("balance_L_after", "Продольный момент до и после уравновешивания", "M, Н·м",
+             "Lup_Nm", "Lup_after_Nm"),
+        _vector(shape, "F", "kN", "Вектор свободной силы: до и после уравновешивания",
+                "вправо, кН", "вверх, кН"),
+        _vector(shape, "L", "Nm", "Вектор продольного момента: до и после",
+                "в горизонтальной плоскости, Н·м", "в вертикальной плоскости, Н·м"),
+    )  # fmt: skip
+
+
+def _vector(shape: Shape, key: str, unit: str, title: str, x: str, y: str) -> ChartSpec:
+    right = "right" if shape.banks else "rot_right"
+    series = (
+        Series(f"balance.{key}{right}_{unit}", f"balance.{key}up_{unit}", "до"),
+        Series(f"balance.{key}right_after_{unit}", f"balance.{key}up_after_{unit}", "после"),
+        Series(f"balance_{key}_box.box", f"balance_{key}_box.box", "оси"),
+    )
+    return ChartSpec(f"balance_{key}_vector", SHEET, title, "polar", series, x, y)

@@ -1,0 +1,129 @@
+"""Firing orders that the crankshaft allows: evenness and low torque orders."""
+
+from __future__ import annotations
+
+from reports.spec.blocks import Column, TableSpec
+from reports.spec.shape import Shape
+
+FIRING_SHEET = "Порядки работы"
+MAX_CYLINDERS = 7
+
+
+def firing_loads(shape: Shape, cycle: tuple[float, ...]) -> TableSpec:
+    """Loads of the inner journals when the throw behind fires a turn later or sooner.
+
+    A journal feels only its two neighbours, and they fire either as they do or a turn apart
+    from that: two curves for each journal give the loads of all orders.
+    """
+    columns = [Column("phi_deg", None)]
+    turned = "mod(phi_deg + 360, 720)"
+    for k in range(2, shape.throws + 1):
+        t = f"P4_3_{k}"
+        later = {
+            axis: f"interpolate({turned}, firing_loads.phi_deg, firing_loads.after_{axis}{k}_MPa)"
+            for axis in "xy"
+        }
+        columns += [
+            Column(f"after_x{k}_MPa", f"{t}.bTcos_MPa - {t}.bKsin_MPa", "Гоц (56)", helper=True),
+            Column(f"after_y{k}_MPa", f"{t}.bTsin_MPa + {t}.bKcos_MPa", "Гоц (57)", helper=True),
+            Column(
+                f"Rturned{k}_MPa",
+                f"sqrt(({t}.Rx_MPa - after_x{k}_MPa + {later['x']})**2"
+                f" + ({t}.Ry_MPa - after_y{k}_MPa + {later['y']})**2)",
+                "Гоц (59)",
+                helper=True,
+            ),
+        ]
+    return TableSpec(
+        "firing_loads",
+        "У.н",
+        "Нагрузки коренных шеек при другом порядке работы",
+        FIRING_SHEET,
+        tuple(columns),
+        cycle,
+        note="Колено за шейкой работает на оборот позже или раньше, чем при заданном порядке.",
+        helper=True,
+    )
+
+
+def has_loads(shape: Shape, *, forced: bool) -> bool:
+    """Whether the loads of other orders can be told from those of neighbouring throws."""
+    return shape.single_rods and not forced
+
+
+def _load(shape: Shape) -> str:
+    """Greatest load of a main journal with the order of a row [kN]."""
+    found = ["Rmain1_max", f"Rmain{shape.throws + 1}_max"]
+    for k in range(2, shape.throws + 1):
+        (i,), (j,) = shape.groups[k - 2], shape.groups[k - 1]
+        apart = f"theta{j}_deg - theta{i}_deg - firing_offset_{j}_deg + firing_offset_{i}_deg"
+        same = f"abs(mod({apart} + 180, 720) - 180) < 1"
+        found.append(f"(Rmain{k}_max if {same} else col_max(firing_loads.Rturned{k}_MPa))")
+    return f"to_kN(of_MPa(max({', '.join(found)}))*F_piston)"
+
+
+def firing_table(shape: Shape, *, loads: bool) -> TableSpec:
+    """All firing orders of a four-stroke engine's shaft."""
+    cylinders = shape.cylinders
+    columns = [Column("variant", None)]
+    numbers = range(1, cylinders + 1)
+    for i in numbers:
+        base = f"mod(720 - {_before_tdc(shape, i)}, 360)"
+        turn = f" + 360*mod(floor((variant - 1)/{2 ** (i - 2)}), 2)" if i > 1 else ""
+        columns.append(Column(f"theta{i}_deg", base + turn, "колено в ВМТ"))
+    digits, gaps = [], []
+    for i in numbers:
+        before = [
+            f"(1 if theta{j}_deg < theta{i}_deg + {'0.0001' if j < i else '-0.0001'} else 0)"
+            for j in numbers
+            if j != i
+        ]
+        place = " - ".join([str(cylinders - 1), *before])
+        digits.append(f"{i}*10**({place})")
+        # Of two cylinders that fire together the later number follows the earlier one.
+        others = [
+            f"(mod(theta{j}_deg - theta{i}_deg {'-' if j < i else '+'} 0.0001, 720)"
+            f" {'+' if j < i else '-'} 0.0001)"
+            for j in numbers
+            if j != i
+        ]
+        gaps.append(f"min({', '.join(others)})" if others else "720")
+
+    def vector(order: str) -> str:
+        terms = {
+            turn: ", ".join(f"{turn}(rad({order}*theta{i}_deg))" for i in numbers)
+            for turn in ("cos", "sin")
+        }
+        return f"sqrt(total({terms['cos']})**2 + total({terms['sin']})**2)"
+
+    columns += [
+        Column("order_code", " + ".join(digits), "по возрастанию θ"),
+        Column("gap_max_deg", f"max({', '.join(gaps)})", "промежутки"),
+        Column("gap_min_deg", f"min({', '.join(gaps)})", "промежутки"),
+        Column("unevenness", f"(gap_max_deg - gap_min_deg)/(720/{cylinders})", "промежутки"),
+        Column("half_order_sum", vector("0.5"), "сложение векторов"),
+        Column("first_order_sum", vector("1"), "сложение векторов"),
+    ]
+    if loads:
+        columns.append(Column("Rorder_max_kN", _load(shape), "Гоц (59)"))
+    return TableSpec(
+        "firing_orders",
+        "У.р",
+        "Порядки работы, возможные при этом коленчатом вале",
+        FIRING_SHEET,
+        tuple(columns),
+        tuple(float(n) for n in range(1, 2 ** (cylinders - 1) + 1)),
+        note=(
+            "Силы инерции повторяются каждый оборот и у всех порядков одинаковы; различаются "
+            "чередование рабочих ходов, моменты низких порядков и нагрузки коренных шеек."
+        ),
+        step=1.0,
+    )
+
+
+def _before_tdc(shape: Shape, cylinder: int) -> str:
+    """Angle from the cylinder's axis to its crankpin at φ = 0 [deg]."""
+    angle = f"throw_angle_{shape.throw_of(cylinder)}_deg"
+    if shape.arrangement[cylinder - 1].pin_angle:
+        angle = f"({angle} + crankshaft_split_pin_deg)"
+    return angle if shape.axis(cylinder) == "0" else f"({angle} - {shape.axis(cylinder)})"

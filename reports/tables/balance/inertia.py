@@ -1,0 +1,302 @@
+"""Ilchenko: reduced inertia, rod and throw models, speed fluctuation, flywheel."""
+
+from __future__ import annotations
+
+from reports.inputs.sections.input_file import InputFile
+from reports.spec.blocks import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
+from reports.spec.shape import Shape
+from reports.tables.loads.cylinder import cylinder_table_id
+
+SHEET, RESULTS, MODEL_SHEET = "Момент инерции", "Маховик", "Модель шатуна"
+_STEEL = "7800"
+
+
+def _moving(phi: str) -> tuple[str, str]:
+    """Reduced inertia of rod and piston at an angle, Ilchenko (6)-(10), (13), (15)."""
+    beta = f"asin(lam*sin({phi}))"
+    cos_b = f"sqrt(1 - lam**2*sin({phi})**2)"
+    share = "((L_rod - rod_x)/L_rod)"
+    centre = (
+        f"({share}**2*cos({phi})**2/{cos_b}**2 + 1"
+        f" - 2*{share}*cos({phi} + {beta})*cos({phi})/{cos_b})"
+    )
+    rod = f"rod_mass*r_crank**2*{centre} + I_rod*(lam*cos({phi})/{cos_b})**2"
+    piston = f"piston_mass*r_crank**2*sin({phi})**2*(1 + lam*cos({phi})/{cos_b})**2"
+    return rod, piston
+
+
+def _table(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
+    phi, numbers = "rad(phi_deg)", range(1, shape.cylinders + 1)
+    rod, piston = _moving(phi)
+    share = "((L_rod - rod_x)*cos(rad(phi_deg))**2 - L_rod)"
+    near = (
+        f"I_crank + lam**2*(rod_mass*{share}**2 + I_rod*cos({phi})**2)"
+        f" + piston_mass*r_crank**2*sin({phi})**2*(1 + lam*cos({phi}))**2"
+    )
+    gas = []
+    for i in numbers:
+        table = cylinder_table_id(i)
+        angle = phi if i == 1 else f"rad({table}.phase_deg)"
+        gas.append(f"of_MPa({table}.Pg_MPa)*sin({angle} + {table}.beta_rad)/cos({table}.beta_rad)")
+    moving = [
+        Column(
+            f"moving{i}",
+            " + ".join(_moving(f"rad(phi_deg - firing_offset_{i}_deg)")),
+            "вспомогательный",
+            helper=True,
+        )
+        for i in numbers
+    ]
+    step = "rad(calculation_step_deg)"
+
+    def excess(name: str, torque: str) -> tuple[Column, Column]:
+        mean = f"({torque} + following({torque}))/2 - col_mean({torque})"
+        return (
+            Column(f"d{name}", f"({mean})*{step}", "формула трапеций", helper=True),
+            Column(f"{name}_J", f"running_sum(d{name}) - d{name}", "избыточная работа"),
+        )
+
+    d_work, work = excess("W", "Msum")
+    d_gas, gas_work = excess("Wgas", "Mgas_Nm")
+    return TableSpec(
+        "inertia",
+        "И",
+        "Приведённый момент инерции и ход двигателя за цикл",
+        SHEET,
+        (
+            Column("phi_deg", None),
+            Column("I_rod_kgm2", rod, "Ильченко (5)–(10)"),
+            Column("I_piston_kgm2", piston, "Ильченко (13), (15)"),
+            Column("I_exact_kgm2", "I_crank + I_rod_kgm2 + I_piston_kgm2", "Ильченко (18)"),
+            Column("I_approx_kgm2", near, "Ильченко (19), последняя масса — поршня"),
+            Column("I_error", "(I_approx_kgm2/I_exact_kgm2 - 1)*100", "погрешность (19)"),
+            Column(
+                "I_engine_kgm2",
+                f"{shape.throws}*I_crank + I_counterweights + "
+                + " + ".join(f"moving{i}" for i in numbers),
+                "сумма по цилиндрам",
+            ),
+            Column("Mgas_Nm", f"F_piston*r_crank*({' + '.join(gas)})", "Гоц (37) без сил инерции"),
+            work,
+            gas_work,
+            Column(
+                "omega_1_s",
+                "sqrt(2*((I_flywheel + I_engine_mean)*omega**2/2 + Wgas_J - col_mean(Wgas_J))"
+                "/(I_flywheel + I_engine_kgm2))",
+                "закон кинетической энергии",
+            ),
+            Column("Msum", "P4_2.Msum_Nm", "П4.2", helper=True, of="Msum_Nm"),
+            d_work,
+            d_gas,
+            *moving,
+        ),
+        rows,
+        note=(
+            "x_L отсчитан от поршневого пальца. Угловая скорость найдена по работе одних газовых "
+            "сил: силы инерции входят в переменный момент инерции."
+        ),
+    )
+
+
+def _parts(model: InputFile) -> ScalarTable:
+    masses = model.masses
+    share = "balance_rod_small_end_share"
+    if masses.reciprocating_kg is not None:
+        rod, centre = f"m_2/(1 - {share})", f"(1 - {share})*L_rod"
+        piston = f"m_j - {share}*rod_mass"
+    else:
+        rod, piston = "masses_rod_kg", "masses_piston_group_kg"
+        centre = (
+            "of_mm(masses_rod_centre_mm)"
+            if masses.rod_centre_mm is not None
+            else "(1 - masses_rod_small_end_share)*L_rod"
+        )
+    lengths = len(model.crankshaft.main_lengths_mm)
+    main = "total(" + ", ".join(f"main_length_{k + 1}_mm" for k in range(lengths)) + ")"
+    d_k, d_sh = "of_mm(crankshaft_main_diameter_mm)", "of_mm(crankshaft_pin_diameter_mm)"
+    bore, pin = "2*sqrt(F_piston/pi)", "of_mm(crankshaft_pin_length_mm)"
+    height = f"(r_crank + {d_sh}/2 + {d_k}/2 + 1/100)"
+    wide, thick = f"(balance_web_width_share*{bore})", f"(balance_web_thickness_share*{bore})"
+    web = f"{height}*{wide}*{thick}*{_STEEL}"
+    webs = " + ".join(f"web_{k}_counterweight_kg" for k in range(1, 2 * (lengths - 1) + 1))
+    return ScalarTable(
+        "inertia_parts",
+        "Звенья одного цилиндра",
+        RESULTS,
+        (
+            Scalar(
+                "I_main", f"pi*{d_k}**4/32*of_mm({main})/{lengths}*{_STEEL}", "Ильченко (32), d⁴"
+            ),
+            Scalar(
+                "I_pin",
+                f"pi*{d_sh}**4/32*{pin}*{_STEEL} + pi*{d_sh}**2/4*{pin}*{_STEEL}*r_crank**2",
+                "Ильченко (33), d⁴",
+            ),
+            Scalar(
+                "I_web",
+                f"{web}/12*({height}**2 + {wide}**2) + {web}*r_crank**2/4",
+                "Ильченко (34), толщина h",
+            ),
+            Scalar("I_crank", "I_main + I_pin + 2*I_web", "Ильченко (35)"),
+            Scalar("rod_mass", rod, "исходные данные или m₂ и доля"),
+            Scalar("rod_x", centre, "исходные данные или доля"),
+            _rod_inertia(model),
+            Scalar("piston_mass", piston, "исходные данные или m_j"),
+            Scalar(
+                "I_counterweights",
+                f"({webs} + crankshaft_nose_mass_kg + crankshaft_rear_mass_kg)*r_crank**2",
+                "массы на радиусе R",
+            ),
+        ),
+    )
+
+
+def _rod_inertia(model: InputFile) -> Scalar:
+    if model.masses.swing_edges_mm is not None or model.masses.rod_inertia_kg_m2 is not None:
+        return Scalar("I_rod", "I_sh", "Гоц (26) или задано")
+    text = "balance_rod_mass_factor*rod_mass*rod_x*(L_rod - rod_x)"
+    return Scalar("I_rod", text, "две замещающие массы")
+
+
+def _results() -> ScalarTable:
+    t = "inertia"
+
+    def extremes(name: str, column: str, delta: str, source: str) -> list[Scalar]:
+        return [
+            Scalar(f"{name}_max", f"col_max({t}.{column})", source),
+            Scalar(f"{name}_min", f"col_min({t}.{column})", source),
+            Scalar(f"{name}_mean", f"col_mean({t}.{column})", source),
+            Scalar(delta, f"({name}_max - {name}_min)/({name}_max + {name}_min)", source),
+        ]
+
+    inertia = "(I_engine_mean + I_flywheel)"
+    return ScalarTable(
+        "inertia_results",
+        "Колебание момента инерции, неравномерность хода и маховик",
+        RESULTS,
+        (
+            *extremes("I", "I_exact_kgm2", "delta_I", "один цилиндр"),
+            Scalar(
+                "I_error_max",
+                f"max(col_max({t}.I_error), -col_min({t}.I_error))",
+                "приближение (19)",
+            ),
+            *extremes("I_engine", "I_engine_kgm2", "delta_I_engine", "двигатель без маховика"),
+            Scalar("W_range", f"col_max({t}.W_J) - col_min({t}.W_J)", "избыточная работа"),
+            Scalar("Wgas_range", f"col_max({t}.Wgas_J) - col_min({t}.Wgas_J)", "избыточная работа"),
+            Scalar(
+                "I_flywheel",
+                "max(0, W_range/(balance_irregularity*omega**2) - I_engine_mean)",
+                "δ = ΔA/(Iω²)",
+            ),
+            Scalar("delta_work", f"W_range/({inertia}*omega**2)", "δ = ΔA/(Iω²)"),
+            Scalar("omega_max", f"col_max({t}.omega_1_s)", "закон кинетической энергии"),
+            Scalar("omega_min", f"col_min({t}.omega_1_s)", "закон кинетической энергии"),
+            Scalar(
+                "delta_speed",
+                f"(omega_max - omega_min)/col_mean({t}.omega_1_s)",
+                "закон кинетической энергии",
+            ),
+        ),
+    )
+
+
+def _rod_model() -> ScalarTable:
+    """Rod from the bore: (20)-(31) with the middle of table 1's ranges."""
+    area = "({h}*rm_width - (rm_width - rm_wall)*({h} - 2*rm_wall))"
+    r, big = "rod_model_small", "rod_model_big"
+    scalars = [
+        Scalar("rm_small_bore", "0.25*2*sqrt(F_piston/pi)", "табл. 1: (0,22…0,28)D"),
+        Scalar("rm_small_outer", "1.45*rm_small_bore", "табл. 1: (1,25…1,65)dн"),
+        Scalar("rm_small_length", "0.39*2*sqrt(F_piston/pi)", "табл. 1: (0,33…0,45)D"),
+        Scalar("rm_least", "0.525*rm_small_outer", "табл. 1: (0,5…0,55)dг"),
+        Scalar("rm_middle", "1.3*rm_least", "табл. 1: (1,2…1,4)hмин"),
+        Scalar("rm_width", "0.55*rm_small_length", "табл. 1: (0,5…0,6)lш"),
+        Scalar("rm_wall", "min(13/4000, 3*rm_width/10, 3*rm_least/10)", "табл. 1: 2,5…4 мм"),
+        Scalar("rm_cap", "0.55*of_mm(crankshaft_pin_diameter_mm)", "табл. 1: (0,5…0,6)dш"),
+        Scalar(r, f"sqrt({area.format(h='rm_least')}/pi)", "Ильченко (21): равная площадь"),
+        Scalar(big, f"sqrt({area.format(h='rm_middle')}/pi)", "Ильченко (21): равная площадь"),
+        Scalar("rm_span", "L_rod - rm_cap - rm_small_outer/2", "Ильченко, под (21)"),
+        Scalar(
+            "rm_m_small",
+            f"{_STEEL}*pi*rm_small_length*((rm_small_outer/2)**2 - (rm_small_bore/2)**2)",
+            "Ильченко (30), lш и dн",
+        ),
+        Scalar(
+            "rm_m_big",
+            f"{_STEEL}*pi*of_mm(crankshaft_pin_length_mm)"
+            "*(rm_cap**2 - (of_mm(crankshaft_pin_diameter_mm)/2)**2)",
+            "Ильченко (30)",
+        ),
+        Scalar(
+            "rm_m_shank", f"{_STEEL}*pi/3*rm_span*({big}**2 + {r}**2 + {big}*{r})", "Ильченко (30)"
+        ),
+        Scalar("rod_model_mass", "rm_m_small + rm_m_big + rm_m_shank", "Ильченко (30)"),
+        Scalar(
+            "rm_I_small",
+            f"{_STEEL}*pi/2*rm_small_length*((rm_small_outer/2)**4 - (rm_small_bore/2)**4)",
+            "Ильченко (20)",
+        ),
+        Scalar(
+            "rm_I_big",
+            f"{_STEEL}*pi/2*of_mm(crankshaft_pin_length_mm)"
+            "*(rm_cap**4 - (of_mm(crankshaft_pin_diameter_mm)/2)**4)",
+            "Ильченко (20)",
+        ),
+        Scalar(
+            "rm_I_shank",
+            f"{_STEEL}*pi/20*({big}**5 - {r}**5)*rm_span/({big} - {r})"
+            f" + {_STEEL}*pi*rm_span**3/30*({big}**2 + 6*{r}**2 + 3*{big}*{r})",
+            "Ильченко (28)",
+        ),
+        Scalar(
+            "rm_z",
+            f"rm_span*({big}**2 + 3*{r}**2 + 2*{big}*{r})/(4*({big}**2 + {r}**2 + {big}*{r}))",
+            "Ильченко (29)",
+        ),
+        Scalar(
+            "rod_model_centre",
+            "(rm_m_shank*(rm_cap + rm_z) + rm_m_small*L_rod)/rod_model_mass",
+            "Ильченко (30)",
+        ),
+        Scalar(
+            "rod_model_inertia",
+            "rm_I_big + rm_m_big*rod_model_centre**2"
+            " + rm_I_small + rm_m_small*(L_rod - rod_model_centre)**2"
+            " + rm_I_shank - rm_m_shank*rm_z**2"
+            " + rm_m_shank*(rm_z + rm_cap - rod_model_centre)**2",
+            "Ильченко (31), центральный момент стержня и zc + h₁",
+        ),
+    ]
+    return ScalarTable(
+        "rod_model",
+        "Шатун по основным размерам двигателя: середины диапазонов таблицы 1",
+        MODEL_SHEET,
+        tuple(scalars),
+        note=(
+            "Стержень — усечённый конус, круги которого равны по площади двутавровым сечениям: "
+            "так получены числа напечатанной формулы (21). Исправлены (22), (30), (31)."
+        ),
+    )
+
+
+def inertia_blocks(model: InputFile, rows: tuple[float, ...]) -> tuple[Block, ...]:
+    """Sheets of the reduced inertia."""
+    return _table(Shape.of(model), rows), _results(), _parts(model), _rod_model()
+
+
+def inertia_charts() -> tuple[ChartSpec, ...]:
+    """Reduced inertia exact and approximate, excess work, speed."""
+
+    def over(chart: str, title: str, y: str, *keys: str) -> ChartSpec:
+        series = tuple(Series("inertia.phi_deg", f"inertia.{key}") for key in keys)
+        return ChartSpec(f"inertia_{chart}", SHEET, title, "line", series, "φ, ° ПКВ", y)
+
+    return (
+        over("one", "Приведённый момент инерции одного цилиндра", "I, кг·м²",
+             "I_exact_kgm2", "I_approx_kgm2"),
+        over("engine", "Приведённый момент инерции двигателя без маховика", "I, кг·м²",
+             "I_engine_kgm2"),
+        over("work", "Избыточная работа крутящего момента", "A, Дж", "W_J", "Wgas_J"),
+        over("speed", "Угловая скорость за цикл", "ω, с⁻¹", "omega_1_s"),
+    )  # fmt: skip

@@ -1,0 +1,1 @@
+"""Tables of the gas pressure: indicator diagrams and the working cycle."""

@@ -1,0 +1,59 @@
+"""How the formulas name the inputs of the cycle that may be given or computed."""
+
+from __future__ import annotations
+
+from reports.inputs.sections.cycle import CycleSection
+from reports.inputs.sections.input_file import DesignGeometrySection, InputFile
+
+SHEET = "Цикл"
+SOURCE = "Гриневецкий и Мазинг"
+R = "8.315"  # kJ/(kmol·K), the method's constant; its 0 °C is 273 K
+
+# What the formulas of the indicator diagram call their parameters when the cycle gives them.
+GAS_NAMES = {
+    "gas_intake_pressure_mpa": "cyc_p_a",
+    "gas_residual_pressure_mpa": "cyc_p_r",
+    "gas_max_pressure_mpa": "cyc_p_z",
+    "gas_compression_exponent": "cyc_n1",
+    "gas_expansion_exponent": "cyc_n2",
+    "gas_preexpansion_ratio": "cyc_rho",
+}
+
+
+def section_of(model: InputFile) -> CycleSection | None:
+    """The [cycle] section when the gas comes from it."""
+    return model.cycle if model.gas.source == "cycle" else None
+
+
+def from_cycle(model: InputFile, text: str) -> str:
+    """A formula of the gas with the cycle's results in place of the inputs of [gas]."""
+    if section_of(model) is None:
+        return text
+    for name, result in GAS_NAMES.items():
+        text = text.replace(name, result)
+    return text
+
+
+def sizes_are_found(model: InputFile) -> bool:
+    """Whether bore and stroke follow from the wanted power."""
+    return isinstance(model.geometry, DesignGeometrySection)
+
+
+def given(section: CycleSection, key: str, default: str) -> str:
+    """Name of an optional input, or its default where the file leaves it out."""
+    return default if getattr(section, key) is None else f"cycle_{key}"
+
+
+def is_boosted(section: CycleSection) -> bool:
+    """Whether there is a turbocharger."""
+    return section.boost_ratio is not None
+
+
+def friction_by_speed(section: CycleSection) -> bool:
+    """Whether mechanical losses follow the piston speed, A + B c_m."""
+    return section.friction_a_mpa is not None
+
+
+def lam_name(model: InputFile) -> str:
+    """λ in formulas."""
+    return "lam"

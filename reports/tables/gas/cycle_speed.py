@@ -1,0 +1,261 @@
+"""Speed characteristic, indicator diagram and plausibility of the calculated cycle."""
+
+from __future__ import annotations
+
+from kshm.cycle.names import EXTRA, INPUTS, OUTPUTS
+from kshm.cycle.speed_characteristic import IDLE_SHARE, LEIDERMAN
+from kshm.cycle.usual_ranges import usual_ranges
+from kshm.results.cycle import DIAGRAM_STEP, SPEED_STEP, diagram_rows, speed_rows
+from reports.inputs.sections.cycle import CycleSection
+from reports.inputs.sections.input_file import InputFile
+from reports.spec.blocks import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
+from reports.tables.gas.cycle_names import SHEET, SOURCE, is_boosted, section_of
+
+SPEED_SHEET, DIAGRAM_SHEET, RANGE_SHEET = "ВСХ", "Диаграмма цикла", "Правдоподобие цикла"
+LEIDERMAN_SOURCE = "Лейдерман, по памяти"
+INSIDE, OUTSIDE = "в пределах", "вне пределов"
+EPS = "geometry_compression_ratio"
+
+# Where the results and inputs with a usual range stand among the scalars and inputs.
+_RANGE_NAMES = {
+    "inputs.excess_air": "cycle_excess_air",
+    "inputs.charge_heating": "cycle_charge_heating_k",
+    "inputs.t_residual": "cycle_residual_temperature_k",
+    "inputs.recharge": "cycle_recharge",
+    "inputs.scavenging": "cycle_scavenging",
+    "inputs.xi_z": "cycle_xi_z",
+    "inputs.xi_b": "cycle_xi_b",
+    "inputs.fullness": "cycle_fullness",
+    "charge.gamma": "cyc_gamma",
+    "charge.t_a": "cyc_T_a",
+    "charge.eta_v": "cyc_eta_v",
+    "compression.n_1": "cyc_n1",
+    "compression.p_c": "cyc_p_c",
+    "compression.t_c": "cyc_T_c",
+    "combustion.lambda_p": "cyc_lambda_p",
+    "combustion.t_z": "cyc_T_z",
+    "combustion.p_z": "cyc_p_z",
+    "expansion.n_2": "cyc_n2",
+    "expansion.p_b": "cyc_p_b",
+    "expansion.t_b": "cyc_T_b",
+    "effective.eta_m": "cyc_eta_m",
+    "indicated.p_i": "cyc_p_i",
+}
+
+
+def speed_blocks(model: InputFile) -> tuple[Block, ...]:
+    """Diagram, speed characteristic and plausibility; nothing without a cycle."""
+    section = section_of(model)
+    if section is None:
+        return ()
+    return (
+        _diagram_points(),
+        _law(section),
+        _diagram(),
+        _speed(section),
+        _ranges(section),
+    )
+
+
+def _diagram() -> TableSpec:
+    rise = "(1 - sqrt(1 - lam**2*sin(rad(phi_deg))**2))/lam"
+    z = "cyc_rho/cd_ratio"
+    pressure = f"(cyc_p_c/cd_ratio**cyc_n1) if phi_deg < 360 else (cyc_p_z*min(1, {z})**cyc_n2)"
+    temperature = (
+        "(cyc_T_c/cd_ratio**(cyc_n1 - 1)) if phi_deg < 360"
+        f" else (cyc_T_z*min(1, cd_ratio/cyc_rho)*min(1, {z})**(cyc_n2 - 1))"
+    )
+    return TableSpec(
+        "cycle_diagram",
+        "Ц",
+        "Индикаторная диаграмма цикла по точкам",
+        DIAGRAM_SHEET,
+        (
+            Column("phi_deg", None),
+            Column("cd_s_mm", f"to_mm(r_crank*((1 - cos(rad(phi_deg))) + {rise}))", "Гоц (1)"),
+            Column("cd_ratio", f"1 + ({EPS} - 1)*of_mm(cd_s_mm)/S_stroke", SOURCE),
+            Column("cd_V_dm3", "V_c*cd_ratio", SOURCE),
+            Column("cd_p_MPa", pressure, SOURCE),
+            Column("cd_T_K", temperature, SOURCE),
+        ),
+        tuple(float(x) for x in diagram_rows()),
+        note="Нескругленная диаграмма; при 360° стоит точка z′, конец сжатия c — на листе «Цикл».",
+        step=DIAGRAM_STEP,
+    )
+
+
+def _diagram_points() -> ScalarTable:
+    s = f"(2*(cyc_rho - 1)/({EPS} - 1))"
+    half = f"{s}*(2/lam - {s})/(4*(1 + 1/lam - {s}))"
+    return ScalarTable(
+        "cycle_points",
+        "Точка z",
+        SHEET,
+        (
+            Scalar(
+                "cyc_phi_z",
+                f"360 + 2*deg(asin(sqrt(max(0, min(1, {half})))))",
+                "Гоц (1), обращение",
+            ),
+        ),
+    )
+
+
+def _speed(section: CycleSection) -> TableSpec:
+    x = "speed_percent/100"
+    return TableSpec(
+        "speed",
+        "С",
+        "Внешняя скоростная характеристика",
+        SPEED_SHEET,
+        (
+            Column("speed_percent", None),
+            Column("speed_n", f"regime_speed_rpm*{x}", SOURCE),
+            Column("speed_Ne", "pi*speed_Me*speed_n/30000", "Гоц, 2.9"),
+            Column("speed_Me", f"cyc_M_e*(spd_a + spd_b*{x} - spd_c*({x})**2)", LEIDERMAN_SOURCE),
+            Column(
+                "speed_ge", f"cyc_g_e*(spd_fa + spd_fb*{x} + spd_fc*({x})**2)", LEIDERMAN_SOURCE
+            ),
+            Column("speed_Gf", "speed_ge*speed_Ne/1000", SOURCE),
+        ),
+        tuple(float(x) for x in speed_rows(section.kind)),
+        step=SPEED_STEP,
+    )
+
+
+def _law(section: CycleSection) -> ScalarTable:
+    base = LEIDERMAN[section.speed_law or section.kind]
+    if section.adaptability is not None:
+        ratio = "cycle_torque_speed_rpm/regime_speed_rpm"
+        source = "по заданным K и n_M"
+        c = f"(cycle_adaptability - 1)/(1 - {ratio})**2"
+        law = (f"cycle_adaptability - spd_c*({ratio})**2", f"2*spd_c*{ratio}", c)
+    else:
+        source = LEIDERMAN_SOURCE
+        law = (repr(base.a), repr(base.b), repr(base.c))
+    scalars = [
+        Scalar(key, expr, source)
+        for key, expr in zip(("spd_a", "spd_b", "spd_c"), law, strict=True)
+    ]
+    scalars += [
+        Scalar(key, repr(value), LEIDERMAN_SOURCE)
+        for key, value in zip(("spd_fa", "spd_fb", "spd_fc"), base.fuel, strict=True)
+    ]
+    scalars += [
+        Scalar("spd_Kc", "min(1, spd_b/(2*spd_c))", "Гоц, 2.9"),
+        Scalar("spd_K", "spd_a + spd_b*spd_Kc - spd_c*spd_Kc**2", "Гоц, 2.9"),
+        *_regimes(section),
+    ]
+    return ScalarTable(
+        "speed_law", "Внешняя скоростная характеристика и режимы", SHEET, tuple(scalars)
+    )
+
+
+def _regimes(section: CycleSection) -> list[Scalar]:
+    middle, idle = section.torque_speed_rpm is not None, section.idle_speed_rpm is not None
+    share = IDLE_SHARE[section.kind]
+    x = "(reg_n_M/regime_speed_rpm)"
+    return [
+        Scalar(
+            "reg_n_M",
+            "cycle_torque_speed_rpm" if middle else "spd_Kc*regime_speed_rpm",
+            "задано" if middle else "производный: вершина M(n)",
+        ),
+        Scalar("reg_Me_M", f"cyc_M_e*(spd_a + spd_b*{x} - spd_c*{x}**2)", LEIDERMAN_SOURCE),
+        Scalar("reg_Ne_M", "pi*reg_Me_M*reg_n_M/30000", "Гоц, 2.9"),
+        Scalar(
+            "reg_n_idle",
+            "cycle_idle_speed_rpm" if idle else f"{share}*regime_speed_rpm",
+            "задано" if idle else f"производный: {share:g}·n, по памяти".replace(".", ","),
+        ),
+    ]
+
+
+def _ranges(section: CycleSection) -> ScalarTable:
+    titles = {q.key: q for q in (*OUTPUTS, *EXTRA)}
+    titles |= {f"inputs.{q.key}": q for q in INPUTS}
+    scalars = []
+    for key, usual in usual_ranges(section.kind, boosted=is_boosted(section)).items():
+        about, name = titles[key], _RANGE_NAMES[key]
+        unit = f", {about.unit}" if about.unit else ""
+        low, high = (f"{limit:g}".replace(".", ",") for limit in (usual.low, usual.high))
+        note = f"{about.title} {about.symbol.replace('_', '')}{unit}: обычно {low}…{high}"
+        about_value = f"range_value_{name}"
+        # A limit is met, though the last digit of a computed value may miss it.
+        test = (
+            f"{about_value} >= {usual.low!r} - 0.000000001"
+            f" and {about_value} <= {usual.high!r} + 0.000000001"
+        )
+        scalars += [
+            Scalar(about_value, name, usual.reference, note=note, of="check_value"),
+            Scalar(
+                f"range_{name}", f'"{INSIDE}" if {test} else "{OUTSIDE}"', note=note, of="check"
+            ),
+        ]
+    return ScalarTable(
+        "cycle_ranges",
+        "Правдоподобие: результат и обычные пределы",
+        RANGE_SHEET,
+        tuple(scalars),
+        note="Пределы не взяты из учебника: у каждого указано, откуда он.",
+    )
+
+
+def cycle_checks() -> list[tuple[str, str, str, str]]:
+    """Checks of the cycle: key, title, value, test."""
+    return [
+        ("cycle_rho", "Давление p_z не выше предела сгорания при V = const: ρ",
+         "cyc_rho", "{value} >= 1"),
+        ("cycle_pz", "Давление p_z выше давления конца сжатия: λp", "cyc_lambda_p",
+         "{value} > 1"),
+        ("cycle_Tr", "Температура T_r сходится с проверкой: расхождение, %",
+         "(cyc_T_r_check/cycle_residual_temperature_k - 1)*100", "abs({value}) <= 5"),
+    ]  # fmt: skip
+
+
+def cycle_charts(model: InputFile) -> tuple[ChartSpec, ...]:
+    """Charts of the cycle's sheets."""
+    if section_of(model) is None:
+        return ()
+    charts = [
+        ChartSpec(
+            "cycle_pv",
+            DIAGRAM_SHEET,
+            "Диаграмма цикла p–V: расчетная и принятая в динамике",
+            "line",
+            (
+                Series("cycle_diagram.cd_V_dm3", "cycle_diagram.cd_p_MPa", "расчетный цикл"),
+                Series("gas.volume_dm3", "gas.p_MPa", "принято в динамике"),
+            ),
+            "V, дм³",
+            "p, МПа",
+        ),
+        ChartSpec(
+            "cycle_T",
+            DIAGRAM_SHEET,
+            "Температура газов в цилиндре",
+            "line",
+            (Series("cycle_diagram.phi_deg", "cycle_diagram.cd_T_K"),),
+            "угол, ° ПКВ",
+            "T, К",
+        ),
+    ]
+    names = (
+        ("Ne", "Эффективная мощность", "Nе, кВт"),
+        ("Me", "Эффективный крутящий момент", "Mе, Н·м"),
+        ("ge", "Удельный расход топлива", "gе, г/(кВт·ч)"),
+        ("Gf", "Часовой расход топлива", "Gт, кг/ч"),
+    )
+    charts += [
+        ChartSpec(
+            f"speed_{key}",
+            SPEED_SHEET,
+            f"{title} по внешней характеристике",
+            "line",
+            (Series("speed.speed_n", f"speed.speed_{key}"),),
+            "n, мин⁻¹",
+            label,
+        )
+        for key, title, label in names
+    ]
+    return tuple(charts)

@@ -1,0 +1,193 @@
+"""Further regimes: copies of the regime's tables under names of their own, and the comparison.
+
+The formulas are not written twice: the tables of a regime are those of a model with its
+speed and gas, in which every name that depends on them gets the regime's ending.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from kshm.results.regimes import main_only, regime_key
+from reports.formula.parse import names
+from reports.inputs.fields import Field, iter_fields
+from reports.inputs.sections.input_file import InputFile, Regime
+from reports.spec.blocks import Block, ChartSpec, Grid, Scalar, ScalarTable, TableSpec, scalars_of
+from reports.spec.rename import renamed, with_names
+
+_LEFT_OUT = frozenset({"checks"})
+_WHOLE = frozenset(
+    {"gas_points", "gas_points_art"}
+)  # a diagram's points stand together, even usual ones
+
+
+@dataclass(frozen=True)
+class RegimeModel:
+    """The regime's part of a model with the regime's speed and gas."""
+
+    number: int
+    inputs: tuple[Field, ...]
+    blocks: tuple[Block, ...]
+    charts: tuple[ChartSpec, ...]
+    main: Mapping[str, str]  # formulas of the main regime by name
+
+    @cached_property
+    def dependent(self) -> frozenset[str]:
+        """Names of scalars and ``table.column`` that follow from speed or gas.
+
+        So does what the main regime lacks or finds by another formula.
+        """
+        needs: dict[str, frozenset[str]] = {}
+        differing: set[str] = set()
+        for block in self.blocks:
+            local = {c.key for c in block.columns} if isinstance(block, TableSpec) else set()
+            for name, expr in _nodes(block):
+                if self.main.get(name) != expr or block.id in _WHOLE:
+                    differing.add(name)
+                needs[name] = frozenset(
+                    f"{block.id}.{used}" if used in local else used for used in names(expr)
+                )
+        found = (
+            {item.name for item in self.inputs if item.path[0] in ("regime", "gas")}
+            | {
+                "gas_points_deg",
+                "gas_points_mpa",
+            }
+            | differing
+        )
+        waiting = dict(needs)
+        while True:
+            reached = {name for name, used in waiting.items() if used & found}
+            if not reached:
+                return frozenset(found)
+            found |= reached
+            found |= self._runs(found)
+            for name in reached:
+                del waiting[name]
+
+    def _runs(self, found: set[str]) -> set[str]:
+        """Rows of grids, as formulas name them, with a cell among the names found."""
+        return {
+            f"{block.id}.{row.of}"
+            for block in self.blocks
+            if isinstance(block, Grid)
+            for row in block.rows
+            if any(cell is not None and cell.key in found for cell in row.cells)
+        }
+
+    @cached_property
+    def copied(self) -> tuple[Block, ...]:
+        """Blocks to copy: whole tables and grids, of lists only what depends on the regime."""
+        made: list[Block] = []
+        for block in self.blocks:
+            if block.id in _LEFT_OUT or main_only(block.id):
+                continue
+            if isinstance(block, ScalarTable):
+                kept = tuple(s for s in block.scalars if s.key in self.dependent)
+                if kept:
+                    made.append(replace(block, scalars=kept))
+            elif any(name in self.dependent for name, _ in _nodes(block)):
+                made.append(block)
+        return tuple(made)
+
+    @cached_property
+    def _own(self) -> frozenset[str]:
+        """Bare names and ids of tables and grids that get the regime's ending."""
+        keys = {scalar.key for block in self.copied for scalar in scalars_of(block)}
+        ids = {block.id for block in self.copied}
+        inputs = {item.name for item in self.inputs if item.path[0] in ("regime", "gas")}
+        return frozenset(keys | ids | inputs | {"gas_points_deg", "gas_points_mpa"})
+
+    def name(self, token: str) -> str:
+        """A name of the main regime as this one has it."""
+        head, dot, column = token.partition(".")
+        if head not in self._own:
+            return token
+        return f"{regime_key(head, self.number)}{dot}{column}"
+
+    def renamed_blocks(self) -> tuple[Block, ...]:
+        """The copies with names, ids and sheets of their own."""
+        return tuple(map(self._block, self.copied))
+
+    def _block(self, block: Block) -> Block:
+        local = {c.key for c in block.columns} if isinstance(block, TableSpec) else set()
+
+        def name(token: str) -> str:
+            return token if token in local else self.name(token)
+
+        made = with_names(block, lambda expr: renamed(expr, name))
+        title = f"{block.title} (режим {self.number})"
+        made = replace(made, id=self.name(block.id), title=title, sheet=self.sheet(block.sheet))
+        if isinstance(made, TableSpec):
+            return replace(made, number=f"{made.number}.р{self.number}")
+        if isinstance(made, ScalarTable):
+            return replace(made, scalars=tuple(map(self._scalar, made.scalars)))
+        rows = tuple(
+            replace(row, cells=tuple(c and self._scalar(c) for c in row.cells)) for row in made.rows
+        )
+        return replace(made, rows=rows)
+
+    def _scalar(self, scalar: Scalar) -> Scalar:
+        return replace(scalar, key=regime_key(scalar.key, self.number), of=scalar.of or scalar.key)
+
+    def sheet(self, title: str) -> str:
+        """Title of the regime's sheet."""
+        return f"{title} р{self.number}"
+
+    def renamed_charts(self) -> tuple[ChartSpec, ...]:
+        """Charts whose curves are all of copied tables."""
+        made = []
+        for chart in self.charts:
+            tables = {axis.split(".")[0] for s in chart.series for axis in (s.x, s.y)}
+            if not tables <= {block.id for block in self.copied}:
+                continue
+            series = tuple(replace(s, x=self.name(s.x), y=self.name(s.y)) for s in chart.series)
+            made.append(
+                replace(
+                    chart,
+                    id=regime_key(chart.id, self.number),
+                    sheet=self.sheet(chart.sheet),
+                    title=f"{chart.title}, режим {self.number}",
+                    series=series,
+                )
+            )
+        return tuple(made)
+
+
+def _nodes(block: Block) -> list[tuple[str, str]]:
+    """Name and formula of every node of a block."""
+    if isinstance(block, TableSpec):
+        return [(f"{block.id}.{c.key}", c.expr) for c in block.columns if c.expr is not None]
+    return [(scalar.key, scalar.expr) for scalar in scalars_of(block)]
+
+
+def regime_models(
+    model: InputFile,
+    chain: Callable[[InputFile], tuple[tuple[Block, ...], tuple[ChartSpec, ...]]],
+) -> tuple[RegimeModel, ...]:
+    """One for each further regime.
+
+    Args:
+        model: the input.
+        chain: blocks and charts of chapters 1 and 2 for an input without further regimes.
+    """
+    if not model.regimes:
+        return ()
+    made = []
+    main = dict(node for block in chain(model)[0] for node in _nodes(block))
+    for number, regime in enumerate(model.regimes, 2):
+        values = {key: value for key, value in regime if key not in ("gas", "name")}
+        alone = model.model_copy(
+            update={
+                "regime": Regime.model_construct(**values, name=None),
+                "gas": regime.gas,
+                "cycle": None,
+                "regimes": (),
+                "reference": None,
+            }
+        )
+        blocks, charts = chain(alone)
+        made.append(RegimeModel(number, tuple(iter_fields(alone)), blocks, charts, main))
+    return tuple(made)

@@ -1,0 +1,92 @@
+"""Total torque and running-on torques: П4.2, П4.4, П4.5, Gots 2.8."""
+
+from __future__ import annotations
+
+from reports.spec.blocks import Block, Column, TableSpec
+from reports.spec.extremes import extreme_columns
+from reports.spec.shape import Shape, rods_table
+from reports.tables.loads.cylinder import cylinder_table_id
+
+INDEX = Column("phi_deg", None)
+
+
+def torque_tables(shape: Shape, rows: tuple[float, ...]) -> tuple[Block, ...]:
+    """Tables П4.2, П4.4 and П4.5 with the torques of the pin sections by statics."""
+    numbers = range(1, shape.cylinders + 1)
+    each = [Column(f"M{i}_Nm", f"{cylinder_table_id(i)}.M_Nm", "Гоц, 2.5") for i in numbers]
+    total = " + ".join(f"M{i}_Nm" for i in numbers)
+    torque = TableSpec(
+        "P4_2",
+        "П4.2",
+        "Крутящий момент каждого цилиндра и суммарный момент двигателя",
+        "П4.2",
+        (INDEX, *each, Column("Msum_Nm", total, "Гоц, 2.8"), *extreme_columns("Msum_Nm", "M")),
+        rows,
+    )
+    return torque, _main(shape, rows), _pin(shape, rows), _statics(shape, rows)
+
+
+def _main(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
+    columns = [INDEX, Column("Mmain2_Nm", shape.throw_torque(1)[1], "Гоц, 2.8")]
+    for i in range(2, shape.throws + 1):
+        key, own = shape.throw_torque(i)
+        columns.append(Column(key, own, "П4.2"))
+        columns.append(Column(f"Mmain{i + 1}_Nm", f"Mmain{i}_Nm + {key}", "Гоц, 2.8"))
+    title = "Набегающие моменты на коренные шейки"
+    return TableSpec("P4_4", "П4.4", title, "П4.4", tuple(columns), rows)
+
+
+def _pin(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
+    columns = [INDEX, Column("Mpin1_Nm", f"0.5*{shape.throw_torque(1)[1]}", "Гоц, 2.8")]
+    for i in range(2, shape.throws + 1):
+        key, own = shape.throw_torque(i)
+        columns.append(Column(key, own, "П4.2"))
+        columns.append(Column(f"Mpin{i}_Nm", f"P4_4.Mmain{i}_Nm + 0.5*{key}", "Гоц, 2.8"))
+    title = "Набегающие моменты на шатунные шейки"
+    return TableSpec("P4_5", "П4.5", title, "П4.5", tuple(columns), rows)
+
+
+def _statics(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
+    columns = [INDEX]
+    for i in range(1, shape.throws + 1):
+        before = f"P4_4.Mmain{i}_Nm + " if i > 1 else ""
+        columns.append(
+            Column(
+                f"Mpins{i}_Nm",
+                f"{before}r_crank*({_on_left_support(shape, i)} + throw{i}_RTCL + throw{i}_side)",
+                "статика левой половины колена",
+            )
+        )
+    return TableSpec(
+        "P4_5s",
+        "П4.5с",
+        "Моменты в сечениях шатунных шеек по статике",
+        "П4.5",
+        tuple(columns),
+        rows,
+        note=(
+            "Правило «предыдущий момент плюс половина своего» точно для симметричного колена; "
+            "здесь момент найден из равновесия левой половины колена и верен при любых плечах."
+        ),
+    )
+
+
+def _on_left_support(shape: Shape, throw: int) -> str:
+    """Share of the rods' tangential forces on the left support of a throw [N]."""
+    group = shape.groups[throw - 1]
+    if len(group) == 1:
+        source = f"{cylinder_table_id(group[0])}.T_MPa"
+        return f"(1 - throw{throw}_share)*of_MPa({source})*F_piston"
+    table = rods_table(throw)
+    return " + ".join(
+        f"(1 - throw{throw}_{share})*of_MPa({table}.T{side}_MPa)*F_piston"
+        for side, share in zip(("left", "right"), rod_shares(shape), strict=True)
+    )
+
+
+def rod_shares(shape: Shape) -> tuple[str, str]:
+    """Rows of the grid of throws with the shares of the left and the right rod.
+
+    An articulated rod pushes where its master rod does.
+    """
+    return ("share", "share") if shape.articulated else ("share", "share2")

@@ -1,0 +1,107 @@
+"""Conditional wear diagrams: table 14 for the crankpin and every main journal, Gots 2.6."""
+
+from __future__ import annotations
+
+from kshm.nomenclature.quantity import ray_key, roman
+from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, TableSpec
+from reports.spec.extremes import NEVER, TIE
+
+HALF = f"(0.5 - {TIE})"  # cos 60°; the window includes its edges
+
+
+def wear_blocks(
+    journals: int, rays: int, rows: tuple[float, ...], pins: int = 1
+) -> tuple[Block, ...]:
+    """Tables of forces by rays and the sums that draw the diagrams."""
+    blocks: list[Block] = []
+    for n in range(1, pins + 1):
+        table, name = ("crankpin", "pin") if n == 1 else (f"crankpin_{n}", f"pin{n}")
+        blocks += _surface(
+            "table_14" if n == 1 else f"table_14_pin_{n}", name,
+            "14" if n == 1 else f"14.Ш{n}", "шатунную шейку" + (f" {n}" if pins > 1 else ""),
+            "Износ ш.ш" if n == 1 else f"Износ ш.ш ({n})", rows, rays,
+            size=f"{table}.Rpin_MPa", up=f"-{table}.Krod_MPa", against=f"-{table}.T_MPa",
+        )  # fmt: skip
+    for k in range(1, journals + 1):
+        table = f"P4_3_{k}"
+        blocks += _surface(
+            f"table_14_main_{k}", f"main{k}", f"14.{k}", f"коренную шейку {k}",
+            f"Износ к.ш ({k})", rows, rays,
+            size=f"{table}.R_MPa", up=f"{table}.Ry_MPa", against=f"{table}.Rx_MPa",
+        )  # fmt: skip
+    return tuple(blocks)
+
+
+def _surface(
+    table_id: str, name: str, number: str, journal: str, sheet: str,
+    rows: tuple[float, ...], rays: int, *, size: str, up: str, against: str,
+) -> tuple[TableSpec, Grid]:  # fmt: skip
+    columns = [Column("phi_deg", None)]
+    for i in range(rays):
+        turn = f"rad({360 * i // rays})"
+        inside = f"({up})*cos({turn}) + ({against})*sin({turn}) >= {size}*{HALF}"
+        columns.append(Column(ray_key(i + 1), f"{size} if {inside} else 0", "Гоц, табл. 14"))
+    table = TableSpec(
+        table_id,
+        number,
+        f"Силы, действующие на {journal}, по лучам",
+        sheet,
+        tuple(columns),
+        rows,
+        note=(
+            "Луч I направлен вдоль первого колена от оси вала, лучи пронумерованы против "
+            "вращения; сила учтена в лучах, отстоящих от её вектора не более чем на 60°. "
+            "Шейка изнашивается со стороны, с которой действует сила."
+        ),
+    )
+    return table, _sums(table_id, name, journal, sheet, rays)
+
+
+def _sums(table_id: str, name: str, journal: str, sheet: str, rays: int) -> Grid:
+    """Sums by rays, the least loaded ray and the points of the drawn diagram."""
+    numbers = range(1, rays + 1)
+    sums = [f"{name}_sum{i}" for i in numbers]
+    low, high = f"min({', '.join(sums)})", f"max({', '.join(sums)})"
+
+    def row(of: str, key: str, text: str) -> GridRow:
+        cells: list[Scalar] = []
+        for i in (*numbers, 1):  # the last instance closes the curve
+            closing = len(cells) == rays
+            expr = text.format(i=i, ray=ray_key(i), sum=f"{name}_sum{i}", deg=f"{name}_deg{i}")
+            cells.append(
+                Scalar(f"{name}_{key}{rays + 1 if closing else i}", expr, "Гоц, рис. 33", of=of)
+            )
+        return GridRow(of, tuple(cells))
+
+    # Drawn on the side of contact, half a turn from the ray; the deepest wear is half the radius.
+    radius = f"(1 - {{sum}}/(2*({high})))"
+    return Grid(
+        f"{table_id}_sums",
+        f"Суммы сил по лучам и условная диаграмма износа: {sheet.removeprefix('Износ ')}",
+        sheet,
+        (*(roman(i) for i in numbers), "I"),
+        (
+            row("ray_deg", "deg", f"({{i}} - 1)*360/{rays}"),
+            row("ray_sum", "sum", f"col_sum({table_id}.{{ray}})"),
+            row(
+                "ray_candidate",
+                "best",
+                f"{{i}} if {{sum}} <= ({low}) + {TIE}*max(1, {low}) else {NEVER}",
+            ),
+            # x grows to the left, as the axes of the journals do; the chart turns it round.
+            row("wear_x", "x", f"-({radius}*sin(rad({{deg}})))"),
+            row("wear_y", "y", f"-({radius}*cos(rad({{deg}})))"),
+            row("circle_x", "cx", "-sin(rad({deg}))"),
+            row("circle_y", "cy", "-cos(rad({deg}))"),
+        ),
+    )
+
+
+def hole_scalars(name: str, rays: int) -> tuple[Scalar, Scalar]:
+    """Least loaded ray and the place of the oil hole opposite to it."""
+    key = "hole_pin" if name == "pin" else f"hole_{name}"
+    candidates = ", ".join(f"{name}_best{i}" for i in range(1, rays + 1))
+    return (
+        Scalar(f"{key}_ray", f"min({candidates})", "Гоц, рис. 33"),
+        Scalar(f"{key}_deg", f"mod(({key}_ray - 1)*360/{rays} + 180, 360)", "Гоц, 2.6"),
+    )

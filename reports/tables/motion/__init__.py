@@ -1,0 +1,1 @@
+"""Tables of geometry, masses and motion: Gots chapters 1 and 2.2."""

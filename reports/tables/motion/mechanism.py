@@ -1,0 +1,221 @@
+"""Geometry, masses and the kinematic tables П3.1 and П3.2, Gots 1.2, 1.3, 2.2, 2.3."""
+
+from __future__ import annotations
+
+from reports.inputs.sections.input_file import DesignGeometrySection, GeometrySection, InputFile
+from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
+from reports.spec.shape import Shape
+
+EXACT_LABEL_FIELD = "calculation_method"
+
+TWO_TERM = "r_crank*omega**2*(cos(rad({phi})) + lam*cos(2*rad({phi})))"
+OFFSET_TWO_TERM = (
+    "r_crank*omega**2*(cos(rad({phi})) + lam*cos(2*rad({phi})) + lam*k_offset*sin(rad({phi})))"
+)
+EXACT = (
+    "r_crank*omega**2*(cos(rad({phi}) + {beta})/cos({beta})"
+    " + lam*cos(rad({phi}))**2/cos({beta})**3)"
+)
+
+
+def geometry(model: InputFile) -> ScalarTable:
+    """Derived geometry and kinematic scalars."""
+    given, shape = model.geometry, Shape.of(model)
+    bore = "of_mm(geometry_bore_mm)"
+    if isinstance(given, DesignGeometrySection):
+        return _geometry(shape, "of_mm(cyc_S)/2", "r_crank/geometry_lambda", "of_mm(cyc_D)")
+    if given.crank_radius_mm is not None:
+        radius = "of_mm(geometry_crank_radius_mm)"
+    elif given.stroke_mm is not None:
+        radius = "of_mm(geometry_stroke_mm)/2"
+    else:
+        radius = "of_mm(geometry_rod_length_mm)*geometry_lambda"
+    if given.rod_length_mm is not None:
+        length = "of_mm(geometry_rod_length_mm)"
+    else:
+        length = "r_crank/geometry_lambda"
+    return _geometry(shape, radius, length, bore, _offset_sum(given))
+
+
+def _offset_sum(given: GeometrySection) -> str:
+    keys = ("crank_offset_mm", "pin_offset_mm")
+    return " + ".join(f"of_mm(geometry_{key})" for key in keys if getattr(given, key) is not None)
+
+
+def _geometry(shape: Shape, radius: str, length: str, bore: str, offset: str = "") -> ScalarTable:
+    mean = "S_stroke*omega/pi" if shape.offset else "2*r_crank*omega/pi"
+    engine = "(V_h + V_h_art)*engine_cylinders/2" if shape.articulated else "V_h*engine_cylinders"
+    return ScalarTable(
+        "geometry",
+        "Размеры и кинематика механизма",
+        "Массы",
+        (
+            Scalar("r_crank", radius, "Гоц, 1.1"),
+            Scalar("L_rod", length, "Гоц, 1.1"),
+            Scalar("lam", "r_crank/L_rod", "Гоц, 1.1"),
+            *(_dead_centres(offset) if shape.offset else ()),
+            Scalar("S_stroke", *_stroke(offset=shape.offset)),
+            Scalar("F_piston", f"pi*({bore})**2/4", "Гоц, введение"),
+            Scalar("V_h", "to_dm3(F_piston*S_stroke)", "Гоц, введение"),
+            Scalar("V_c", "V_h/(geometry_compression_ratio - 1)", "Гоц, введение"),
+            Scalar("V_engine", engine, "Гоц, введение"),
+            Scalar("omega", "pi*regime_speed_rpm/30", "Гоц, 1.1"),
+            Scalar("c_m", mean, "Гоц, 1.2"),
+            *(_offset_extremes() if shape.offset else _central_extremes()),
+        ),
+        note=(
+            "Рабочий объем и объем камеры сгорания найдены по ходу дезаксиального механизма (11), "
+            "а не по 2r. Положительное смещение — в сторону, куда идет кривошип от ВМТ."
+            if shape.offset
+            else ""
+        ),
+    )
+
+
+def _stroke(*, offset: bool) -> tuple[str, str]:
+    if not offset:
+        return "2*r_crank", "Гоц, 1.1"
+    upper, lower = (f"sqrt((1/lam {sign} 1)**2 - k_offset**2)" for sign in "+-")
+    return f"r_crank*({upper} - {lower})", "Гоц (11)"
+
+
+def _dead_centres(offset: str) -> tuple[Scalar, ...]:
+    return (
+        Scalar("e_offset", offset, "Гоц, 1.4"),
+        Scalar("k_offset", "e_offset/r_crank", "Гоц, 1.4"),
+        Scalar("phi_tdc_deg", "deg(asin(lam*k_offset/(1 + lam)))", "Гоц (9)"),
+        Scalar("phi_bdc_deg", "180 + deg(asin(lam*k_offset/(1 - lam)))", "Гоц (10)"),
+        Scalar("phi_down_deg", "phi_bdc_deg - phi_tdc_deg", "Гоц, 1.4"),
+        Scalar("phi_up_deg", "360 - phi_down_deg", "Гоц, 1.4"),
+    )
+
+
+def _offset_extremes() -> tuple[Scalar, ...]:
+    def acceleration(phi: str) -> str:
+        return (
+            f"r_crank*omega**2*(cos(rad({phi})) + lam*cos(2*rad({phi}))"
+            f" + lam*k_offset*sin(rad({phi})))"
+        )
+
+    return (
+        Scalar("S_ratio", "S_stroke/r_crank", "Гоц, 1.4"),
+        Scalar("c_down", "S_stroke*omega/rad(phi_down_deg)", "Гоц, 1.4"),
+        Scalar("c_up", "S_stroke*omega/rad(phi_up_deg)", "Гоц, 1.4"),
+        Scalar("j_tdc", acceleration("phi_tdc_deg"), "Гоц (16) в ВМТ"),
+        Scalar("j_bdc", acceleration("phi_bdc_deg"), "Гоц (16) в НМТ"),
+        Scalar("beta_90_deg", "deg(asin(lam - k_offset*lam))", "Гоц (17), φ = 90°"),
+        Scalar("beta_270_deg", "deg(asin(-lam - k_offset*lam))", "Гоц (17), φ = 270°"),
+        Scalar("beta_max_deg", "max(abs(beta_90_deg), abs(beta_270_deg))", "Гоц (17)"),
+    )
+
+
+def _central_extremes() -> tuple[Scalar, ...]:
+    return (
+        Scalar(
+            "phi_vmax_deg",
+            "deg(acos(sqrt((1/(4*lam))**2 + 1/2) - 1/(4*lam)))",
+            "Гоц (5)",
+        ),
+        Scalar(
+            "v_max",
+            "r_crank*omega*(sin(rad(phi_vmax_deg)) + lam/2*sin(2*rad(phi_vmax_deg)))",
+            "Гоц (4), (5)",
+        ),
+        Scalar("v_ratio", "v_max/c_m", "Гоц, рис. 6"),
+        Scalar("j_tdc", "r_crank*omega**2*(1 + lam)", "Гоц (6), φ = 0"),
+        Scalar("j_bdc", "-(r_crank*omega**2*(1 - lam))", "Гоц (6), φ = 180°"),
+        Scalar("beta_max_deg", "deg(asin(lam))", "Гоц (7)"),
+    )
+
+
+def masses(model: InputFile) -> ScalarTable:
+    """Masses and constant inertia forces."""
+    given = model.masses
+    scalars: list[Scalar] = []
+    if given.reciprocating_kg is not None:
+        m_2, m_j = "masses_rod_big_end_kg", "masses_reciprocating_kg"
+    else:
+        if given.rod_centre_mm is not None:
+            m_1 = "masses_rod_kg*(L_rod - of_mm(masses_rod_centre_mm))/L_rod"
+        else:
+            m_1 = "masses_rod_kg*masses_rod_small_end_share"
+        scalars.append(Scalar("m_1", m_1, "Гоц (20)"))
+        m_2, m_j = "masses_rod_kg - m_1", "masses_piston_group_kg + m_1"
+    unit = "r_crank*omega**2"
+    scalars += [
+        Scalar("m_2", m_2, "Гоц (20), (22)"),
+        Scalar("m_j", m_j, "Гоц, 2.2"),
+        Scalar("m_k", "crankshaft_pin_mass_kg + web_1_mass_kg + web_2_mass_kg", "Гоц (28)"),
+        Scalar("m_r", _rotating(Shape.of(model)), "Гоц (29)"),
+        Scalar("P_unit", f"to_MPa(m_j*{unit}/F_piston)", "Гоц (31)"),
+        Scalar("K_r", f"to_kN(m_r*{unit})", "Гоц (32)"),
+        Scalar("K_r_spec", f"to_MPa(m_r*{unit}/F_piston)", "Гоц, 2.9"),
+        Scalar("K_r_rod", f"to_MPa(m_2*{unit}/F_piston)", "Гоц, 2.6"),
+        Scalar("K_r_throw", f"to_MPa(m_k*{unit}/F_piston)", "Гоц (42)"),
+    ]
+    return ScalarTable("masses", "Приведённые массы", "Массы", tuple(scalars))
+
+
+def _rotating(shape: Shape) -> str:
+    rods = sum(not shape.is_hung(cylinder) for cylinder in shape.groups[0])
+    return "m_k + m_2" if rods == 1 else f"m_k + {rods}*m_2"
+
+
+def kinematic_tables(rows: tuple[float, ...]) -> tuple[Block, ...]:
+    """Tables П3.1 and П3.2 over one turn."""
+    phi = "rad(phi_deg)"
+    index = Column("phi_deg", None)
+    piston = TableSpec(
+        "P3_1",
+        "П3.1",
+        "Перемещение, скорость и ускорение поршня",
+        "П3.1",
+        (
+            index,
+            Column("s1_mm", f"to_mm(r_crank*(1 - cos({phi})))", "Гоц (3)"),
+            Column("s2_mm", f"to_mm(r_crank*lam/4*(1 - cos(2*{phi})))", "Гоц (3)"),
+            Column("s_mm", "s1_mm + s2_mm", "Гоц (3)"),
+            Column("v1_m_s", f"r_crank*omega*sin({phi})", "Гоц (4)"),
+            Column("v2_m_s", f"r_crank*omega*lam/2*sin(2*{phi})", "Гоц (4)"),
+            Column("v_m_s", "v1_m_s + v2_m_s", "Гоц (4)"),
+            Column("j1_m_s2", f"r_crank*omega**2*cos({phi})", "Гоц (6)"),
+            Column("j2_m_s2", f"lam*r_crank*omega**2*cos(2*{phi})", "Гоц (6)"),
+            Column("j_m_s2", "j1_m_s2 + j2_m_s2", "Гоц (6)"),
+        ),
+        rows,
+    )
+    root = f"sqrt(1 - lam**2*sin({phi})**2)"
+    rod = TableSpec(
+        "P3_2",
+        "П3.2",
+        "Угловое перемещение, скорость и ускорение шатуна",
+        "П3.2",
+        (
+            index,
+            Column("beta_rad", f"asin(lam*sin({phi}))", "Гоц (7)"),
+            Column("omega_rod_exact_1_s", f"omega*lam*cos({phi})/{root}", "Гоц (8)"),
+            Column("omega_rod_approx_1_s", f"omega*lam*cos({phi})", "Гоц (8), приближённо"),
+            Column(
+                "eps_rod_exact_1_s2",
+                f"-(omega**2*lam*(1 - lam**2)*sin({phi})/{root}**3)",
+                "Гоц, 1.3",
+            ),
+            Column("eps_rod_approx_1_s2", f"-(omega**2*lam*sin({phi}))", "Гоц, 1.3, приближённо"),
+        ),
+        rows,
+        note=(
+            "В учебнике столбцы углового ускорения подписаны наоборот: первый столбец "
+            "напечатан по приближённой формуле, второй — по точной."
+        ),
+    )
+    return piston, rod
+
+
+def acceleration(model: InputFile, phi: str, beta: str) -> str:
+    """Piston acceleration by the chosen method; the choice stays live in the workbook."""
+    from reports.inputs.sections.input_file import METHODS
+
+    two_term, exact = TWO_TERM.format(phi=phi), EXACT.format(phi=phi, beta=beta)
+    if Shape.of(model).offset:
+        two_term = OFFSET_TWO_TERM.format(phi=phi)
+    return f'({exact}) if calculation_method == "{METHODS["exact"]}" else ({two_term})'

@@ -1,0 +1,176 @@
+"""Neiman: Fourier series of the piston motion, tables 1-4, the rod on its pin."""
+
+from __future__ import annotations
+
+from reports.spec.blocks import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
+from reports.tables.motion.segal import J, S, V, filled, rows
+
+SHEET, RESULTS, TABLES = "Нейман", "Нейман, ряд", "Нейман 1-4"
+SHOWN = (1, 2, 4, 6)
+ORDERS = (2, 4, 6, 8, 10, 12)
+_INDEX = Column("inv_lambda", None)
+_LAM = "(1/inv_lambda)"
+
+# Neiman (20) divided by λ, cut after sin⁸ as the text says under (23).
+_SERIES = {
+    "k": "{l}/4 + 3/64*{l}**3 + 5/256*{l}**5 + 175/16384*{l}**7",
+    "p2": "{l}/4 + {l}**3/16 + 15/512*{l}**5 + 35/2048*{l}**7",
+    "p4": "{l}**3/64 + 3/256*{l}**5 + 35/4096*{l}**7",
+    "p6": "{l}**5/512 + 5/2048*{l}**7",
+    "p8": "5/16384*{l}**7",
+}
+
+
+def _tables() -> tuple[Block, ...]:
+    printed = [Column(k, text.format(l=_LAM), "Нейман (21)") for k, text in _SERIES.items()]
+    velocity = [Column(f"{n}p{n}", f"{n}*neiman_t1.p{n}", "Нейман (28)") for n in (2, 4, 6, 8)]
+    acceleration = [
+        Column(f"{n * n}p{n}", f"{n * n}*neiman_t1.p{n}", "Нейман (36)") for n in (2, 4, 6, 8)
+    ]
+    angle = f"acos((sqrt(1 + 8*{_LAM}**2) - 1)/(4*{_LAM}))"
+    minutes = f"floor(deg({angle})*60 + 0.5)"
+    fastest = [
+        Column("alpha1", f"floor({minutes}/60)*100 + mod({minutes}, 60)", "Нейман (32)"),
+        Column("ratio", f"pi/2*(sin({angle}) + {_LAM}/2*sin(2*{angle}))", "Нейман (33)"),
+    ]
+    found = (
+        (1, "Коэффициенты ряда перемещения", printed),
+        (2, "Коэффициенты ряда скорости", velocity),
+        (3, "Наибольшая скорость поршня", fastest),
+        (4, "Коэффициенты ряда ускорения", acceleration),
+    )
+    return tuple(
+        TableSpec(
+            f"neiman_t{number}",
+            f"Н{number}",
+            title,
+            TABLES,
+            (_INDEX, *columns),
+            rows(3.4, 4.0, 0.1),
+            note=(
+                "Степени λ в напечатанной формуле (21) на единицу больше верных; здесь ряд (20) "
+                "разделён на λ и оборван на sin⁸α, как в тексте."
+            ),
+            step=0.1,
+        )
+        for number, title, columns in found
+    )
+
+
+def _sign(order: int) -> int:
+    """Sign of the harmonic in cos β/λ = 1/λ − k + p₂cos2α − p₄cos4α and so on."""
+    return 1 if order % 4 == 2 else -1
+
+
+def _harmonic(letter: str, order: int) -> str:
+    alpha = f"{order}*rad(alpha_deg)" if order > 1 else "rad(alpha_deg)"
+    size = {"s": 1, "v": order, "j": order**2}[letter]
+    turn = "sin" if letter == "v" else "cos"
+    minus = (letter == "s") != (order > 1 and _sign(order) < 0)
+    factor = "" if order == 1 else f"{size}*neiman_p{order}*" if size > 1 else f"neiman_p{order}*"
+    text = f"{factor}{turn}({alpha})"
+    return f"-({text})" if minus else text
+
+
+def _motion() -> TableSpec:
+    columns = [Column("alpha_deg", None)]
+    sources = {"s": "Нейман (15), (23)", "v": "Нейман (27), (28)", "j": "Нейман (35), (36)"}
+    for letter, exact in (("s", S), ("v", V), ("j", J)):
+        source = sources[letter]
+        columns.append(Column(f"{letter}_exact", filled(exact, "lam"), source))
+        columns += [Column(f"{letter}_order{n}", _harmonic(letter, n), source) for n in SHOWN]
+        terms = [f"{letter}_order{n}" for n in SHOWN] + [_harmonic(letter, 8)]
+        constant = ["1", "neiman_k"] if letter == "s" else []
+        text = " + ".join([*constant, *terms])
+        columns.append(Column(f"{letter}_series", text, source))
+    root = "sqrt(1 - lam**2*sin(rad(alpha_deg))**2)"
+    columns += [
+        Column("rod_speed_rel", f"lam*cos(rad(alpha_deg))/{root}", "Нейман (7)"),
+        Column(
+            "rod_acceleration_rel",
+            f"-(lam*(1 - lam**2)*sin(rad(alpha_deg))/{root}**3)",
+            "Нейман (9)",
+        ),
+        Column("rod_on_pin_rel", "1 + rod_speed_rel", "Нейман (12)"),
+        Column("root", f"{root}/lam", "Нейман (14)", helper=True),
+    ]
+    for letter in "svj":
+        columns.append(
+            Column(
+                f"{letter}_gap",
+                f"abs({letter}_series - {letter}_exact)",
+                "погрешность ряда",
+                helper=True,
+                of=f"{letter}_series_error",
+            )
+        )
+    return TableSpec(
+        "neiman_motion",
+        "Н.р",
+        "Гармоники движения поршня и точные кривые",
+        SHEET,
+        tuple(columns),
+        rows(0, 360, 5),
+        note=(
+            "Перемещение отнесено к R, скорость к ωR, ускорение к ω²R; λ — двигателя. "
+            "Знаки гармоник 4 и 8 в напечатанной формуле (28) пропущены."
+        ),
+        step=5.0,
+    )
+
+
+def _coefficients() -> ScalarTable:
+    table = "neiman_motion"
+    scalars = [Scalar("neiman_k", f"1/lam - col_mean({table}.root)", "Нейман (22)")]
+    for order in ORDERS:
+        text = f"fourier_cos({table}.root, {table}.alpha_deg, {order})"
+        text = text if _sign(order) > 0 else f"-{text}"
+        scalars.append(Scalar(f"neiman_p{order}", text, "Нейман (22), без обрыва ряда"))
+    scalars += [
+        Scalar(f"{letter}_series_error", f"col_max({table}.{letter}_gap)", "Нейман (23)–(36)")
+        for letter in "svj"
+    ]
+    return ScalarTable("neiman_list", "Коэффициенты ряда при λ двигателя", RESULTS, tuple(scalars))
+
+
+def neiman_blocks() -> tuple[Block, ...]:
+    """Harmonics of the engine's motion and tables 1-4."""
+    return _motion(), _coefficients(), *_tables()
+
+
+def neiman_charts() -> tuple[ChartSpec, ...]:
+    """Figures 2-4, 6, 9 for the engine's λ."""
+    x = "neiman_motion.alpha_deg"
+    made = []
+    names = {"s": ("Перемещение", "4"), "v": ("Скорость", "6"), "j": ("Ускорение", "9")}
+    for letter, (title, _) in names.items():
+        keys = [f"{letter}_exact", *(f"{letter}_order{n}" for n in (1, 2, 4))]
+        series = tuple(Series(x, f"neiman_motion.{key}") for key in keys)
+        made.append(
+            ChartSpec(
+                f"neiman_{letter}",
+                SHEET,
+                f"{title} поршня и его гармоники",
+                "line",
+                series,
+                "α, °",
+                letter,
+            )
+        )
+    one = (
+        ("rod", "Угловая скорость шатуна на шатунной шейке", "rod_on_pin_rel", "(dΦ/dt)/ω"),
+        ("rod_acceleration", "Угловое ускорение шатуна", "rod_acceleration_rel", "Θ/ω²"),
+    )
+    made += [
+        ChartSpec(
+            f"neiman_{key}",
+            SHEET,
+            title,
+            "line",
+            (Series(x, f"neiman_motion.{column}"),),
+            "α, °",
+            y,
+        )
+        for key, title, column, y in one
+    ]
+    return tuple(made)

@@ -1,0 +1,307 @@
+"""Tables 1-3 and 5-8 for any λ, figures 3-10 and 20 of the textbook."""
+
+from __future__ import annotations
+
+from kshm.results.reference import FIGURE_6
+from reports.inputs.sections.input_file import InputFile
+from reports.spec.blocks import (
+    Block,
+    ChartSpec,
+    Column,
+    Grid,
+    GridRow,
+    Scalar,
+    ScalarTable,
+    Series,
+    TableSpec,
+)
+
+MOTION, SPEED, VECTORS, SKETCH = "Рис. 3–10", "Рис. 6", "Рис. 20", "Рис. 5"
+KINEMATIC, FORCES = "Табл. 1–3", "Табл. 5–8"
+INDEX = Column("phi_deg", None)
+_PHI = "rad(phi_deg)"
+_BETA = f"asin({{lam}}*sin({_PHI}))"
+
+# number → title, sheet, formula, source
+TABLES: dict[str, tuple[str, str, str, str]] = {
+    "1": ("(1 − cos φ) + λ/4·(1 − cos 2φ)", KINEMATIC,
+          f"(1 - cos({_PHI})) + {{lam}}/4*(1 - cos(2*{_PHI}))", "Гоц (3), табл. 1"),
+    "2": ("sin φ + λ/2·sin 2φ", KINEMATIC,
+          f"sin({_PHI}) + {{lam}}/2*sin(2*{_PHI})", "Гоц (4), табл. 2"),
+    "3": ("cos φ + λ·cos 2φ", KINEMATIC,
+          f"cos({_PHI}) + {{lam}}*cos(2*{_PHI})", "Гоц (6), табл. 3"),
+    "5": ("tg β", FORCES, f"tan({_BETA})", "Гоц (34), табл. 5"),
+    "6": ("1/cos β", FORCES, f"1/cos({_BETA})", "Гоц (35), табл. 6"),
+    "7": ("sin(φ + β)/cos β", FORCES, f"sin({_PHI} + {_BETA})/cos({_BETA})", "Гоц (37), табл. 7"),
+    "8": ("cos(φ + β)/cos β", FORCES, f"cos({_PHI} + {_BETA})/cos({_BETA})", "Гоц (36), табл. 8"),
+}  # fmt: skip
+
+
+def reference_blocks(model: InputFile, turn: tuple[float, ...]) -> tuple[Block, ...]:
+    """Figure 20 always, the other tables where the input has a section [reference]."""
+    blocks: list[Block] = [_vectors(turn), *_vector_boxes()]
+    if model.reference is None:
+        return tuple(blocks)
+    count = len(model.reference.lambdas)
+    half = tuple(float(angle) for angle in range(0, 190, 10))
+    whole = tuple(float(angle) for angle in range(0, 370, 10))
+    for number in TABLES:
+        blocks.append(_table(number, count, half))
+    blocks += [_lambdas(sheet, count) for sheet in (KINEMATIC, FORCES)]
+    return (*blocks, _motion(whole), _figure_6(), _sketch(), *_drawing())
+
+
+def _table(number: str, count: int, rows: tuple[float, ...]) -> TableSpec:
+    title, sheet, text, source = TABLES[number]
+    columns = [
+        Column(f"ref_lambda{i}", text.format(lam=f"reference_lambda_{i}_value"), source)
+        for i in range(1, count + 1)
+    ]
+    return TableSpec(
+        f"ref_{number}",
+        number,
+        f"Значение выражения {title}",
+        sheet,
+        (INDEX, *columns),
+        rows,
+        note="Для углов от 180 до 360°: таблицы 1, 3, 6, 8 чётны, таблицы 2, 5, 7 нечётны по φ.",
+        step=10.0,
+    )
+
+
+def _lambdas(sheet: str, count: int) -> Grid:
+    key = "kin" if sheet == KINEMATIC else "dyn"
+    cells = tuple(
+        Scalar(f"ref_{key}{i}", f"reference_lambda_{i}_value", "исходные данные", of="lambda_value")
+        for i in range(1, count + 1)
+    )
+    labels = tuple(f"λ{i}" for i in range(1, count + 1))
+    return Grid(f"ref_{key}_list", "Значения λ", sheet, labels, (GridRow("lambda_value", cells),))
+
+
+def _motion(rows: tuple[float, ...]) -> TableSpec:
+    root = f"sqrt(1 - lam**2*sin({_PHI})**2)"
+    return TableSpec(
+        "ref_motion",
+        "3–10",
+        "Движение поршня и шатуна по гармоникам при λ двигателя",
+        MOTION,
+        (
+            INDEX,
+            Column("s1_rel", f"1 - cos({_PHI})", "Гоц (3), рис. 3"),
+            Column("s2_rel", f"lam/4*(1 - cos(2*{_PHI}))", "Гоц (3), рис. 3"),
+            Column("s_rel", "s1_rel + s2_rel", "Гоц (3), рис. 3"),
+            Column("v1_rel", f"sin({_PHI})", "Гоц (4), рис. 4"),
+            Column("v2_rel", f"lam/2*sin(2*{_PHI})", "Гоц (4), рис. 4"),
+            Column("v_rel", "v1_rel + v2_rel", "Гоц (4), рис. 4"),
+            Column("j1_rel", f"cos({_PHI})", "Гоц (6), рис. 7"),
+            Column("j2_rel", f"lam*cos(2*{_PHI})", "Гоц (6), рис. 7"),
+            Column("j_rel", "j1_rel + j2_rel", "Гоц (6), рис. 7"),
+            Column("omega_rod_rel", f"lam*cos({_PHI})/{root}", "Гоц (8), рис. 10"),
+            Column("omega_rod_near_rel", f"lam*cos({_PHI})", "Гоц (8), рис. 10"),
+            Column("eps_rod_rel", f"-(lam*(1 - lam**2)*sin({_PHI})/{root}**3)", "Гоц, рис. 10"),
+            Column("eps_rod_near_rel", f"-(lam*sin({_PHI}))", "Гоц, рис. 10"),
+        ),
+        rows,
+        note="Перемещение отнесено к r, скорость к rω, ускорение к rω²; у шатуна — к ω и ω².",
+        step=10.0,
+    )  # fmt: skip
+
+
+def _figure_6() -> TableSpec:
+    first, last, step = FIGURE_6
+    quarter = "1/(4*lambda_value)"
+    return TableSpec(
+        "ref_fig6",
+        "6",
+        "Угол наибольшей скорости и отношение скоростей в зависимости от λ",
+        SPEED,
+        (
+            Column("lambda_value", None),
+            Column("phi_vmax_deg", f"deg(acos(sqrt(({quarter})**2 + 1/2) - {quarter}))", "Гоц (5)"),
+            Column(
+                "vmax_rel",
+                "sin(rad(phi_vmax_deg)) + lambda_value/2*sin(2*rad(phi_vmax_deg))",
+                "Гоц (4), 1.2",
+            ),
+            Column("v_ratio", "pi/2*vmax_rel", "Гоц, рис. 6"),
+            Column("v1_ratio", "pi/2*(lambda_value/lambda_value)", "Гоц, 1.2: 1,57"),
+        ),
+        tuple(round(first + step * i, 6) for i in range(round((last - first) / step) + 1)),
+        step=step,
+    )
+
+
+def _vectors(rows: tuple[float, ...]) -> TableSpec:
+    size = "-(m_j*r_crank*omega**2)"
+    return TableSpec(
+        "vectors",
+        "20",
+        "Векторы сил инерции первого и второго порядков",
+        VECTORS,
+        (
+            INDEX,
+            Column("Pj1_kN", f"to_kN({size}*cos({_PHI}))", "Гоц (31)"),
+            Column("Pj2_kN", f"to_kN(lam*({size})*cos(2*{_PHI}))", "Гоц (31)"),
+            Column("C1_x_kN", f"to_kN({size}*sin({_PHI}))", "Гоц, рис. 20, а"),
+            Column("C1_y_kN", f"to_kN({size}*cos({_PHI}))", "Гоц, рис. 20, а"),
+            Column("C2_x_kN", f"to_kN(lam*({size})*sin(2*{_PHI}))", "Гоц, рис. 20, б"),
+            Column("C2_y_kN", f"to_kN(lam*({size})*cos(2*{_PHI}))", "Гоц, рис. 20, б"),
+            Column("rose1_x_kN", f"Pj1_kN*sin({_PHI})", "Гоц, рис. 20, в"),
+            Column("rose1_y_kN", f"Pj1_kN*cos({_PHI})", "Гоц, рис. 20, в"),
+            Column("rose2_x_kN", f"Pj2_kN*sin({_PHI})", "Гоц, рис. 20, г"),
+            Column("rose2_y_kN", f"Pj2_kN*cos({_PHI})", "Гоц, рис. 20, г"),
+        ),
+        rows,
+        note=(
+            "C = −mj·r·ω²: вектор первого порядка вращается с угловой скоростью ω, второго — с 2ω; "
+            "силы равны их проекциям на ось цилиндра. В полярных координатах длина луча под углом "
+            "φ равна силе при этом угле, отрицательная сила отложена в обратную сторону."
+        ),
+    )
+
+
+def _vector_boxes() -> tuple[Block, ...]:
+    """Sizes of the vectors, which also keep the axes of the diagrams equal."""
+    sizes = ScalarTable(
+        "vector_sizes",
+        "Длины векторов",
+        VECTORS,
+        (
+            Scalar("C_vector", "to_kN(m_j*r_crank*omega**2)", "Гоц (31)"),
+            Scalar("C2_vector", "lam*C_vector", "Гоц (31)"),
+        ),
+    )
+    boxes = []
+    for name, scalar in (("vector1", "C_vector"), ("vector2", "C2_vector")):
+        cells = (
+            Scalar(f"{name}_box1", f"-{scalar}", "оси диаграммы", of="box_kN"),
+            Scalar(f"{name}_box2", scalar, "оси диаграммы", of="box_kN"),
+        )
+        row = GridRow("box_kN", cells)
+        boxes.append(Grid(f"{name}_box", "Оси диаграммы", VECTORS, ("−", "+"), (row,)))
+    return (sizes, *boxes)
+
+
+def _sketch() -> ScalarTable:
+    phi = "rad(reference_angle_deg)"
+    return ScalarTable(
+        "sketch",
+        "Графическое определение скорости поршня",
+        SKETCH,
+        (
+            Scalar("draw_B_x", f"sin({phi})", "Гоц, рис. 5"),
+            Scalar("draw_B_y", f"cos({phi})", "Гоц, рис. 5"),
+            Scalar("draw_beta_deg", f"deg(asin(lam*sin({phi})))", "Гоц (7)"),
+            Scalar("draw_A_y", "draw_B_y + cos(rad(draw_beta_deg))/lam", "Гоц (1)"),
+            Scalar(
+                "draw_H_x",
+                f"sin({phi} + rad(draw_beta_deg))/cos(rad(draw_beta_deg))",
+                "Гоц, 1.2: vп = rω·OH/OB",
+            ),
+        ),
+        note=(
+            "Ось шатуна отсекает на диаметре, перпендикулярном оси цилиндра, отрезок OH; "
+            "в масштабе, в котором OB = rω, он равен скорости поршня. Длины — в долях r."
+        ),
+    )
+
+
+def _drawing() -> tuple[Grid, ...]:
+    """Polylines of the mechanism: O-B-A, A-H, H-O and the box that keeps the axes equal."""
+    lines = {
+        "links": (("0", "0"), ("draw_B_x", "draw_B_y"), ("0", "draw_A_y")),
+        "cut": (("0", "draw_A_y"), ("draw_H_x", "0"), ("0", "0")),
+    }
+    grids = []
+    for name, points in lines.items():
+        rows = []
+        for axis, index in (("x", 0), ("y", 1)):
+            cells = tuple(
+                Scalar(f"{name}_{axis}{n}", point[index], "Гоц, рис. 5", of=f"draw_{axis}")
+                for n, point in enumerate(points, 1)
+            )
+            rows.append(GridRow(f"draw_{axis}", cells))
+        labels = tuple(str(n) for n in range(1, len(points) + 1))
+        grids.append(Grid(f"draw_{name}", "Точки схемы", SKETCH, labels, tuple(rows)))
+    steps = range(0, 375, 15)
+    circle = [
+        GridRow(
+            f"draw_{axis}",
+            tuple(
+                Scalar(f"circle5_{axis}{n}", f"{turn}(rad({degrees}))", "окружность кривошипа",
+                       of=f"draw_{axis}")
+                for n, degrees in enumerate(steps, 1)
+            ),
+        )
+        for axis, turn in (("x", "sin"), ("y", "cos"))
+    ]  # fmt: skip
+    labels = tuple(f"{degrees}°" for degrees in steps)
+    grids.append(Grid("draw_circle", "Окружность кривошипа", SKETCH, labels, tuple(circle)))
+    box = (
+        Scalar("draw_box1", "-(1 + 1/lam)", "оси", of="draw_x"),
+        Scalar("draw_box2", "1 + 1/lam", "оси", of="draw_x"),
+    )
+    corners = Grid("draw_box", "Оси схемы", SKETCH, ("−", "+"), (GridRow("draw_x", box),))
+    return (*grids, corners)
+
+
+def reference_charts(model: InputFile) -> tuple[ChartSpec, ...]:
+    """Figure 20 always, figures 3-10 and 5 with the section [reference]."""
+    made = [
+        _vector_chart("fig20a", "20, а, в", "Сила инерции первого порядка", "1", "C"),
+        _vector_chart("fig20b", "20, б, г", "Сила инерции второго порядка", "2", "λC"),
+        _over("fig20p", "20", VECTORS, "Силы инерции первого и второго порядков", "Pj, кН",
+              "vectors.Pj1_kN", "vectors.Pj2_kN"),
+    ]  # fmt: skip
+    if model.reference is None:
+        return tuple(made)
+    count = len(model.reference.lambdas)
+    values = [f"{value:.4g}".replace(".", ",") for value in model.reference.lambdas]
+
+    def motion(figure: str, title: str, y: str, *keys: str) -> ChartSpec:
+        names = [f"ref_motion.{key}" for key in keys]
+        return _over(f"ref_fig{figure}", figure, MOTION, title, y, *names)
+
+    j_curves = tuple(
+        Series("ref_3.phi_deg", f"ref_3.ref_lambda{i}", f"λ{i} = {values[i - 1]}")
+        for i in range(1, min(count, 6) + 1)
+    )
+    x = "ref_fig6.lambda_value"
+    return (
+        *made,
+        motion("3", "Перемещение поршня", "s/r", "s_rel", "s1_rel", "s2_rel"),
+        motion("4", "Скорость поршня", "v/(rω)", "v_rel", "v1_rel", "v2_rel"),
+        motion("7", "Ускорение поршня", "j/(rω²)", "j_rel", "j1_rel", "j2_rel"),
+        motion("10", "Угловые скорость и ускорение шатуна", "ω/ω, ε/ω²", "omega_rod_rel",
+               "eps_rod_rel"),
+        ChartSpec("ref_fig8", MOTION, "Ускорение поршня при разных λ", "line", j_curves,
+                  "φ, ° ПКВ", "j/(rω²)", "8"),
+        ChartSpec("ref_fig6a", SPEED, "Угол наибольшей скорости поршня", "line",
+                  (Series(x, "ref_fig6.phi_vmax_deg"),), "λ", "φ, °", "6"),
+        ChartSpec("ref_fig6b", SPEED, "Отношение наибольшей скорости к средней", "line",
+                  (Series(x, "ref_fig6.v_ratio"), Series(x, "ref_fig6.v1_ratio")), "λ", "v/cm",
+                  "6"),
+        ChartSpec("ref_fig5", SKETCH, "Графическое определение скорости поршня", "polar",
+                  (Series("draw_circle.draw_x", "draw_circle.draw_y", "кривошип"),
+                   Series("draw_links.draw_x", "draw_links.draw_y", "звенья"),
+                   Series("draw_cut.draw_x", "draw_cut.draw_y", "отрезок OH"),
+                   Series("draw_box.draw_x", "draw_box.draw_x", "оси")), "x/r", "y/r", "5, 9"),
+    )  # fmt: skip
+
+
+def _over(
+    chart: str, figure: str, sheet: str, title: str, y: str, *columns: str
+) -> ChartSpec:  # fmt: skip
+    x = columns[0].split(".")[0] + ".phi_deg"
+    series = tuple(Series(x, column) for column in columns)
+    return ChartSpec(chart, sheet, title, "line", series, "φ, ° ПКВ", y, figure)
+
+
+def _vector_chart(chart: str, figure: str, title: str, order: str, vector: str) -> ChartSpec:
+    series = (
+        Series(f"vectors.C{order}_x_kN", f"vectors.C{order}_y_kN", f"конец вектора {vector}"),
+        Series(f"vectors.rose{order}_x_kN", f"vectors.rose{order}_y_kN", f"Pj{order}"),
+        Series(f"vector{order}_box.box_kN", f"vector{order}_box.box_kN", "оси"),
+    )
+    return ChartSpec(chart, VECTORS, title, "polar", series, "кН", "кН", figure)

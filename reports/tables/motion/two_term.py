@@ -1,0 +1,123 @@
+"""Sheet on the error of the two-term formulas: by the angle and at its greatest."""
+
+from __future__ import annotations
+
+from reports.inputs.sections.input_file import GeometrySection, InputFile
+from reports.spec.blocks import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
+from reports.spec.extremes import NEVER, TIE
+
+SHEET = "Погрешность"
+_PHI = "rad(phi_deg)"
+_ERRORS = (
+    ("s", "mm", "перемещение"), ("v", "m_s", "скорость"), ("j", "m_s2", "ускорение"),
+    ("Pj", "MPa", ""), ("N", "MPa", ""), ("T", "MPa", ""), ("M", "Nm", ""),
+)  # fmt: skip
+
+
+def two_term_blocks(model: InputFile, rows: tuple[float, ...]) -> tuple[Block, ...]:
+    """Table over a turn and the list of the greatest errors."""
+    return _table(rows), _list(model)
+
+
+def _offset(model: InputFile) -> str:
+    """Relative offset k = e/r; zero for a central mechanism."""
+    given = model.geometry
+    if not isinstance(given, GeometrySection):
+        return "0"
+    names = [
+        f"of_mm(geometry_{key})"
+        for key in ("crank_offset_mm", "pin_offset_mm")
+        if getattr(given, key) is not None
+    ]
+    return f"({' + '.join(names)})/r_crank" if names else "0"
+
+
+def _table(rows: tuple[float, ...]) -> TableSpec:
+    k, beta = "k_two_term", "beta_two"
+    unit = "r_crank*omega**2"
+    top = f"sqrt((1 + 1/lam)**2 - {k}**2)"
+    s_two = (
+        f"(1 - cos({_PHI})) + lam/4*(1 - cos(2*{_PHI})) - lam*{k}*sin({_PHI})"
+        f" + {top} - (1 + 1/lam) + lam*{k}**2/2"
+    )
+    specs = [
+        ("es_exact_mm", f"to_mm(r_crank*({top} - cos({_PHI}) - cos({beta})/lam))", "Гоц (1), (12)"),
+        ("es_two_mm", f"to_mm(r_crank*({s_two}))", "Гоц (3), (14)"),
+        ("es_mm", "es_two_mm - es_exact_mm", "погрешность"),
+        ("ev_exact_m_s", f"r_crank*omega*sin({_PHI} + {beta})/cos({beta})", "Гоц, 1.2"),
+        ("ev_two_m_s",
+         f"r_crank*omega*(sin({_PHI}) + lam/2*sin(2*{_PHI}) - lam*{k}*cos({_PHI}))",
+         "Гоц (4), (15)"),
+        ("ev_m_s", "ev_two_m_s - ev_exact_m_s", "погрешность"),
+        ("ej_exact_m_s2",
+         f"{unit}*(cos({_PHI} + {beta})/cos({beta}) + lam*cos({_PHI})**2/cos({beta})**3)",
+         "вторая производная (1)"),
+        ("ej_two_m_s2", f"{unit}*(cos({_PHI}) + lam*cos(2*{_PHI}) + lam*{k}*sin({_PHI}))",
+         "Гоц (6), (16)"),
+        ("ej_m_s2", "ej_two_m_s2 - ej_exact_m_s2", "погрешность"),
+        ("ePj_exact_MPa", "to_MPa(-(m_j*ej_exact_m_s2)/F_piston)", "Гоц (30)"),
+        ("ePj_two_MPa", "to_MPa(-(m_j*ej_two_m_s2)/F_piston)", "Гоц (30)"),
+        ("ePj_MPa", "ePj_two_MPa - ePj_exact_MPa", "погрешность"),
+        ("eN_MPa", f"ePj_MPa*tan({beta})", "Гоц (34)"),
+        ("eT_MPa", f"ePj_MPa*sin({_PHI} + {beta})/cos({beta})", "Гоц (37)"),
+        ("eM_Nm", "of_MPa(eT_MPa)*F_piston*r_crank", "Гоц, 2.5"),
+    ]  # fmt: skip
+    columns = [Column("phi_deg", None), *(Column(*spec) for spec in specs)]
+    columns.append(
+        Column(beta, f"asin(lam*(sin({_PHI}) - {k}))", "Гоц (7), (17)", helper=True, of="beta_rad")
+    )
+    for name, suffix, _ in _ERRORS:
+        value, most = f"abs(e{name}_{suffix})", f"e{name}_max"
+        test = f"{value} >= {most} - {TIE}*max(1, {most})"
+        columns.append(
+            Column(f"at_e{name}", f"phi_deg if {test} else {NEVER}", "вспомогательный",
+                   helper=True, of="at_max_deg")
+        )  # fmt: skip
+    return TableSpec(
+        "two_term",
+        "Пд",
+        "Погрешность двучленных формул",
+        SHEET,
+        tuple(columns),
+        rows,
+        note=(
+            "Погрешность — приближённое значение минус точное. Силы инерции взяты по одному и "
+            "другому ускорению; угол шатуна в силах N и T точный при обоих методах. Метод расчета "
+            "выбирает ячейка исходных данных: по учебнику или точное ускорение."
+        ),
+    )
+
+
+def _list(model: InputFile) -> ScalarTable:
+    scalars = [Scalar("k_two_term", _offset(model), "Гоц, 1.4")]
+    for name, suffix, whole in _ERRORS:
+        column = f"two_term.e{name}_{suffix}"
+        top = f"max(col_max({column}), -col_min({column}))"
+        scalars += [
+            Scalar(f"e{name}_max", top, "погрешность"),
+            Scalar(f"phi_e{name}_deg", f"col_min(two_term.at_e{name})", "погрешность"),
+        ]
+        if whole or name == "Pj":
+            exact = f"two_term.e{name}_exact_{suffix}"
+            scalars.append(
+                Scalar(f"e{name}_rel", f"e{name}_max/max(col_max({exact}), -col_min({exact}))*100",
+                       "доля наибольшего точного значения")
+            )  # fmt: skip
+    title = "Наибольшие погрешности двучленных формул"
+    return ScalarTable("two_term_list", title, f"{SHEET}, итоги", tuple(scalars))
+
+
+def two_term_charts() -> tuple[ChartSpec, ...]:
+    """Errors of motion and of the forces over the angle."""
+    x = "two_term.phi_deg"
+
+    def over(chart: str, title: str, y: str, *keys: str) -> ChartSpec:
+        series = tuple(Series(x, f"two_term.{key}") for key in keys)
+        return ChartSpec(chart, SHEET, title, "line", series, "φ, ° ПКВ", y)
+
+    return (
+        over("two_term_s", "Погрешность перемещения поршня", "Δs, мм", "es_mm"),
+        over("two_term_v", "Погрешность скорости поршня", "Δv, м/с", "ev_m_s"),
+        over("two_term_j", "Погрешность ускорения поршня", "Δj, м/с²", "ej_m_s2"),
+        over("two_term_P", "Погрешность удельных сил", "МПа", "ePj_MPa", "eN_MPa", "eT_MPa"),
+    )

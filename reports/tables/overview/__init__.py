@@ -1,0 +1,1 @@
+"""Summary, checks, scheme of the engine."""

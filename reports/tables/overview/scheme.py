@@ -1,0 +1,107 @@
+"""Scheme of the engine in the workbook: throws, rows of cylinders, order of the strokes."""
+
+from __future__ import annotations
+
+from reports.spec.blocks import Block, ChartSpec, Grid, GridRow, Scalar, Series
+from reports.spec.shape import Shape
+
+SHEET = "Схема"
+_REACH = "0.95"  # rows of cylinders reach nearly to the edge of the drawing
+_CRANK = "0.5"
+_SOURCE = "исходные данные"
+
+
+def scheme_blocks(shape: Shape) -> tuple[Block, ...]:
+    """Cylinders with their places and firing order, throws with the points of the drawing."""
+    return _cylinders(shape), _throws(shape)
+
+
+def _lean(shape: Shape) -> str:
+    """Half of the angle between the rows: the drawing stands upright."""
+    return "crankshaft_bank_angle_deg/2" if shape.banks else "0"
+
+
+def _cylinders(shape: Shape) -> Grid:
+    numbers = range(1, shape.cylinders + 1)
+
+    def rank(i: int) -> str:
+        before = [
+            f"(1 if firing_offset_{j}_deg < firing_offset_{i}_deg else 0)"
+            for j in numbers
+            if j != i
+        ]
+        return " + ".join(["1", *before])
+
+    def row(of: str, texts: list[str]) -> GridRow:
+        cells = (Scalar(f"{of}{i}", text, _SOURCE, of=of) for i, text in enumerate(texts, 1))
+        return GridRow(of, tuple(cells))
+
+    def axis(i: int) -> str:
+        return f"rad({shape.axis(i)} - {_lean(shape)})"
+
+    return Grid(
+        "scheme",
+        "Цилиндры: колено, ось ряда, начало рабочего хода, место в порядке работы",
+        SHEET,
+        tuple(f"цилиндр {i}" for i in numbers),
+        (
+            row("cyl_throw", [str(shape.throw_of(i)) for i in numbers]),
+            row("cyl_axis", [shape.axis(i) for i in numbers]),
+            row("cyl_theta", [f"firing_offset_{i}_deg" for i in numbers]),
+            row("cyl_rank", [rank(i) for i in numbers]),
+            row("cyl_x", [f"{_REACH}*sin({axis(i)})" for i in numbers]),
+            row("cyl_y", [f"{_REACH}*cos({axis(i)})" for i in numbers]),
+        ),
+        note=(
+            "Вид с носка вала, кривошип первого колена стоит вдоль оси первого цилиндра. "
+            "Нумерация: левый ряд от носка, затем правый."
+        ),
+    )
+
+
+def _throws(shape: Shape) -> Grid:
+    """Broken lines through the shaft: rows of cylinders and throws, one point a column."""
+    throws = range(1, shape.throws + 1)
+    angles = [f"rad(throw_angle_{t}_deg - {_lean(shape)})" for t in throws]
+    rows = []
+    for of, turn in (("throw_line_x", "sin"), ("throw_line_y", "cos")):
+        texts = [text for a in angles for text in ("0", f"{_CRANK}*{turn}({a})")]
+        rows.append((of, [*texts, "0"]))
+    ends = ["1", str(shape.cylinders)] if shape.banks else ["1"]
+    for of, key in (("bank_line_x", "cyl_x"), ("bank_line_y", "cyl_y")):
+        rows.append((of, [text for n in ends for text in ("0", f"{key}{n}")]))
+    width = 2 * shape.throws + 1
+
+    def cells(of: str, texts: list[str]) -> tuple[Scalar | None, ...]:
+        made = [Scalar(f"{of}{n}", text, _SOURCE, of=of) for n, text in enumerate(texts, 1)]
+        return (*made, *(None for _ in range(max(0, width - len(made)))))
+
+    labels = [label for t in throws for label in ("вал", f"колено {t}")]
+    width = max(width, *(len(texts) for _, texts in rows))
+    labels += ["вал"] * (width - len(labels))
+    return Grid(
+        "scheme_lines",
+        "Точки схемы: колена и оси рядов",
+        SHEET,
+        tuple(labels),
+        tuple(GridRow(of, cells(of, texts)) for of, texts in rows),
+    )
+
+
+def scheme_charts() -> tuple[ChartSpec, ...]:
+    """The drawing of the engine from the nose."""
+    at = "scheme_lines."
+    return (
+        ChartSpec(
+            "scheme",
+            SHEET,
+            "Схема двигателя с носка вала: колена и оси рядов цилиндров",
+            "scheme",
+            (
+                Series(f"{at}bank_line_x", f"{at}bank_line_y", "оси рядов"),
+                Series(f"{at}throw_line_x", f"{at}throw_line_y", "колена"),
+            ),
+            "",
+            "",
+        ),
+    )

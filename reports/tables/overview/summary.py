@@ -1,0 +1,197 @@
+"""Summary of results and checks."""
+
+from __future__ import annotations
+
+from reports.inputs.sections.input_file import InputFile
+from reports.spec.blocks import Block, Scalar, ScalarTable
+from reports.spec.extremes import extreme_scalars, first_number
+from reports.spec.shape import Shape, pin_name
+from reports.tables.gas.cycle_names import section_of
+from reports.tables.gas.cycle_speed import cycle_checks
+from reports.tables.loads.wear import hole_scalars
+
+SHEET = "Итоги"
+YES, NO = "да", "НЕТ"
+
+
+def summary_blocks(model: InputFile, shape: Shape) -> tuple[Block, ...]:
+    """Torque, crankpin, journals, running-on torques, checks."""
+    throws, pins = shape.throws, len(shape.pins)
+    journals = throws + 1
+    rays = model.calculation.wear_rays
+    return (
+        _torque(model, shape),
+        *(_pin(number, pins, rays) for number in range(1, pins + 1)),
+        *(_journal(k, rays) for k in range(1, journals + 1)),
+        _running(throws),
+        _loads(journals, pins),
+        checks(model, shape),
+    )
+
+
+def _torque(model: InputFile, shape: Shape) -> ScalarTable:
+    efficiency, power, fullness = (
+        "regime_mechanical_efficiency",
+        "regime_indicated_power_kw",
+        "regime_fullness",
+    )
+    if section_of(model) is not None:
+        efficiency, power, fullness = "cyc_eta_m", "cyc_N_gas", "1"
+    scalars = [
+        Scalar("M_mean", "col_mean(P4_2.Msum_Nm)", "Гоц, 2.8"),
+        *extreme_scalars("P4_2", "Msum_Nm", "M", "Гоц, 2.9"),
+        Scalar("M_e", f"M_mean*{efficiency}", "Гоц (59), 2.8"),
+        Scalar("N_i_calc", "to_kW(M_mean*omega)", "Гоц, 2.8"),
+        Scalar("p_i_calc", f"to_MPa(M_mean*{shape.turn}/of_dm3(V_engine))", "Гоц, 2.8"),
+        Scalar("T_mean", "to_MPa(M_mean/(F_piston*r_crank))", "Гоц, 2.8"),
+        Scalar("W_cycle", "col_sum(gas.work_J)", "∫p dV"),
+        *(_hung_work(shape) if shape.articulated else ()),
+        Scalar(
+            "W_torque",
+            f"{shape.turn}*M_mean/engine_cylinders",
+            "Гоц, 2.8",
+            of="" if shape.strokes == 4 else "W_torque_two",
+        ),
+    ]
+    if _power_is_known(model):
+        reference = f"30/pi*of_kW({power})/(regime_speed_rpm*r_crank*F_piston*{fullness})"
+        scalars += [
+            Scalar("T_ref", f"to_MPa({reference})", "Гоц, 2.8"),
+            Scalar("T_error", "(T_mean/T_ref - 1)*100", "Гоц, 2.8"),
+        ]
+    return ScalarTable("summary_torque", "Крутящий момент двигателя", SHEET, tuple(scalars))
+
+
+def _power_is_known(model: InputFile) -> bool:
+    return model.regime.indicated_power_kw is not None or section_of(model) is not None
+
+
+def _hung_work(shape: Shape) -> tuple[Scalar, ...]:
+    table = f"cylinder_{shape.cylinders}"
+    return (Scalar("W_hung", f"col_sum({table}.work_J)", "∫p dV"),)
+
+
+def _pin(number: int, pins: int, rays: int) -> ScalarTable:
+    projected = "(of_mm(crankshaft_pin_diameter_mm)*of_mm(crankshaft_pin_length_mm))"
+    n = pin_name(number)
+    name, table = f"Rpin{n}", "crankpin" if number == 1 else f"crankpin_{number}"
+    return ScalarTable(
+        f"summary_pin{n}",
+        f"Шатунная шейка {number if pins > 1 else ''}".strip(),
+        SHEET,
+        (
+            Scalar(f"{name}_mean", f"col_mean({table}.Rpin_MPa)", "Гоц, 2.6"),
+            *extreme_scalars(table, "Rpin_MPa", name, "Гоц, 2.6"),
+            Scalar(f"{name}_max_kN", f"to_kN(of_MPa({name}_max)*F_piston)", "Гоц, 2.9"),
+            Scalar(f"{name}_min_kN", f"to_kN(of_MPa({name}_min)*F_piston)", "Гоц, 2.9"),
+            Scalar(f"q_pin{n}_mean", f"{name}_mean*F_piston/{projected}", "Гоц, 2.6"),
+            Scalar(f"q_pin{n}_max", f"{name}_max*F_piston/{projected}", "Гоц, 2.6"),
+            *hole_scalars(f"pin{n}", rays),
+        ),
+    )
+
+
+def _journal(k: int, rays: int) -> ScalarTable:
+    name, table = f"Rmain{k}", f"P4_3_{k}"
+    projected = f"(of_mm(crankshaft_main_diameter_mm)*of_mm(main_length_{k}_mm))"
+    return ScalarTable(
+        f"summary_main_{k}",
+        f"Коренная шейка {k}",
+        SHEET,
+        (
+            Scalar(f"{name}_mean", f"col_mean({table}.R_MPa)", "Гоц, 2.9"),
+            *extreme_scalars(table, "R_MPa", name, "Гоц, 2.9"),
+            Scalar(f"{name}_max_kN", f"to_kN(of_MPa({name}_max)*F_piston)", "Гоц, 2.9"),
+            Scalar(f"q_main{k}_mean", f"{name}_mean*F_piston/{projected}", "Гоц, 2.6"),
+            Scalar(f"q_main{k}_max", f"{name}_max*F_piston/{projected}", "Гоц, 2.6"),
+            *hole_scalars(f"main{k}", rays),
+        ),
+    )
+
+
+def _running(throws: int) -> ScalarTable:
+    scalars = []
+    for k in range(2, throws + 2):
+        column = f"P4_4.Mmain{k}_Nm"
+        scalars.append(Scalar(f"dM_main{k}", f"col_max({column}) - col_min({column})", "Гоц, 2.8"))
+    for i in range(1, throws + 1):
+        column = f"P4_5.Mpin{i}_Nm"
+        scalars.append(Scalar(f"dM_pin{i}", f"col_max({column}) - col_min({column})", "Гоц, 2.8"))
+    main = [(k, f"dM_main{k}") for k in range(2, throws + 2)]
+    pin = [(i, f"dM_pin{i}") for i in range(1, throws + 1)]
+    scalars += [
+        Scalar("worst_main_torque", _worst(main), "Гоц, 2.8"),
+        Scalar("worst_pin_torque", _worst(pin), "Гоц, 2.8"),
+    ]
+    return ScalarTable("summary_running", "Размах набегающих моментов", SHEET, tuple(scalars))
+
+
+def _loads(journals: int, pins: int) -> ScalarTable:
+    keys = [(k, f"Rmain{k}_max") for k in range(1, journals + 1)]
+    scalars = [Scalar("worst_main_load", _worst(keys), "Гоц, 2.9")]
+    if pins > 1:
+        others = [(n, f"Rpin{pin_name(n)}_max") for n in range(1, pins + 1)]
+        scalars.append(Scalar("worst_pin_load", _worst(others), "Гоц, 2.9"))
+    title = "Наиболее нагруженная коренная шейка" if pins == 1 else "Наиболее нагруженные шейки"
+    return ScalarTable("summary_loads", title, SHEET, tuple(scalars))
+
+
+def _worst(keys: list[tuple[int, str]]) -> str:
+    return first_number(keys, f"max({', '.join(key for _, key in keys)})")
+
+
+def checks(model: InputFile, shape: Shape) -> ScalarTable:
+    """Checks with their value and verdict; a failed check shows НЕТ."""
+    cylinders, throws = shape.cylinders, shape.throws
+    work = "W_cycle" if not shape.articulated else "((W_cycle + W_hung)/2)"
+    tests: list[tuple[str, str, str, str]] = [
+        ("closure", "Последний набегающий момент равен суммарному: наибольшее расхождение, Н·м",
+         f"abs(col_max(P4_4.Mmain{throws + 1}_Nm) - M_max)"
+         f" + abs(col_min(P4_4.Mmain{throws + 1}_Nm) - M_min)", "{value} <= 0.000001"),
+        ("work", "Работа момента равна работе газов ∫p dV: расхождение, %",
+         f"(W_torque/{work} - 1)*100", "abs({value}) <= 5"),
+        ("grid", "Сетка углов замыкает цикл: последний угол, °",
+         "col_last(P4_2.phi_deg)", f"abs({{value}} - {shape.period}) <= 0.000001"),
+        ("lam", "λ в обычных пределах 0,24…0,31 (расширенно 0,15…0,45)",
+         "lam", "{value} >= 0.15 and {value} <= 0.45"),
+        ("phases", "Углы колен согласованы с началом рабочих ходов: наибольшее расхождение, °",
+         f"max({', '.join(_phase(shape, i) for i in range(1, cylinders + 1))})", "{value} <= 0.01"),
+        ("symmetry", "Колена симметричны: наибольшее |aп/l − 0,5|",
+         f"max({', '.join(_asymmetry(shape, i) for i in range(1, throws + 1))})",
+         "{value} <= 0.000001"),
+    ]  # fmt: skip
+    if section_of(model) is not None:
+        tests += cycle_checks()
+    if _power_is_known(model):
+        tests.append(
+            ("power", "Средняя тангенциальная сила сходится с мощностью цикла: расхождение, %",
+             "T_error", "abs({value}) <= 2")
+        )  # fmt: skip
+    if model.masses.reciprocating_kg is None:
+        tests.append(
+            ("share", "Доля массы шатуна на поршневом пальце 0,2…0,3",
+             "m_1/masses_rod_kg", "{value} >= 0.2 and {value} <= 0.3")
+        )  # fmt: skip
+    scalars = []
+    for key, title, value, test in tests:
+        scalars.append(Scalar(f"value_{key}", value, "проверка", note=title, of="check_value"))
+        verdict = test.format(value=f"value_{key}")
+        scalars.append(
+            Scalar(f"check_{key}", f'"{YES}" if {verdict} else "{NO}"', note=title, of="check")
+        )
+    return ScalarTable("checks", "Проверки", "Проверки", tuple(scalars))
+
+
+def _phase(shape: Shape, i: int) -> str:
+    """How far the throw under a cylinder is from where its firing offset wants it [deg]."""
+    angle = f"throw_angle_{shape.throw_of(i)}_deg + firing_offset_{i}_deg"
+    if shape.is_right(i):
+        angle += f" - {shape.axis(i)}" + (" + crankshaft_split_pin_deg" if shape.split else "")
+    return f"abs(mod({angle} + 180, 360) - 180)"
+
+
+def _asymmetry(shape: Shape, throw: int) -> str:
+    """How far the rods of a throw stand from its middle, over its length."""
+    if shape.single_rods or shape.articulated:
+        return f"abs(throw{throw}_share - 0.5)"
+    return f"abs((throw{throw}_share + throw{throw}_share2)/2 - 0.5)"

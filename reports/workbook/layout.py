@@ -1,0 +1,341 @@
+"""Where everything stands in the workbook: the only room that spells cell addresses.
+
+Angle tables begin in the same row of every sheet, so that a row-wise formula
+refers to one row number whatever table it reads.  Scalars and inputs are
+defined names; cells of grids are absolute addresses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from openpyxl.utils import get_column_letter
+
+from reports.formula.excel import number
+from reports.inputs.fields import Field
+from reports.spec.blocks import Block, Grid, Model, ScalarTable, TableSpec, scalars_of
+
+INPUT_SHEET = "Исходные данные"
+CONTENTS_SHEET = "Содержание"
+
+TITLE_ROW = 1
+NOTE_ROW = 2
+HEADER_ROW = 4
+NUMBER_ROW = 5
+FIRST_ROW = 6
+
+# Columns of a scalar list and of the input list.
+TITLE_COLUMN, SYMBOL_COLUMN, VALUE_COLUMN, UNIT_COLUMN, SOURCE_COLUMN = 1, 2, 3, 4, 5
+KEY_COLUMN = 6
+
+_ROW = "\x01"  # stands for the row number in a formula compiled once for a whole column
+_NEXT = "\x02"
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """A cell by sheet title, row and column, both from 1."""
+
+    sheet: str
+    row: int
+    column: int
+
+    @property
+    def coordinate(self) -> str:
+        """Relative address within the sheet."""
+        return f"{get_column_letter(self.column)}{self.row}"
+
+    @property
+    def absolute(self) -> str:
+        """Absolute address with the sheet."""
+        letter = get_column_letter(self.column)
+        return f"{quoted(self.sheet)}!${letter}${self.row}"
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Upper left corner of a block and the extent that it takes."""
+
+    sheet: str
+    row: int
+    column: int
+    rows: int
+    columns: int
+
+
+def quoted(sheet: str) -> str:
+    """Sheet title as a formula writes it."""
+    return "'" + sheet.replace("'", "''") + "'"
+
+
+def column_range(sheet: str, column: int, first: int, last: int) -> str:
+    """Absolute range of rows of one column, as charts and formulas of other sheets write it."""
+    letter = get_column_letter(column)
+    return f"{quoted(sheet)}!${letter}${first}:${letter}${last}"
+
+
+@dataclass
+class Layout:
+    """Addresses of a model's inputs, scalars and columns."""
+
+    model: Model
+    cells: dict[str, Cell] = field(default_factory=dict)  # scalars and inputs
+    named: set[str] = field(default_factory=set)
+    places: dict[str, Place] = field(default_factory=dict)  # blocks by id
+    columns: dict[str, tuple[TableSpec, int]] = field(default_factory=dict)  # table.column
+    next_row: dict[str, int] = field(default_factory=dict)
+    next_column: dict[str, int] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, model: Model) -> Layout:
+        """Lay a model out."""
+        layout = cls(model)
+        layout._inputs()
+        angle_sheets = {block.sheet for block in model.blocks if isinstance(block, TableSpec)}
+        for block in model.blocks:
+            if isinstance(block, TableSpec):
+                layout._table(block)
+        for block in model.blocks:
+            if not isinstance(block, TableSpec):
+                layout._scalars(block, beside_table=block.sheet in angle_sheets)
+        return layout
+
+    # --- assignment -------------------------------------------------------------------
+
+    def _inputs(self) -> None:
+        row, section, entry = FIRST_ROW, "", None
+        for item in self.model.inputs:
+            listed = item.listed
+            if item.section != section:
+                row += 2 if section else 0
+                section, entry = item.section, None
+                self.places[f"input:{section}"] = Place(INPUT_SHEET, row, 1, 1, 1)
+                row += 2 if listed else 1
+            if listed:
+                # Lists of records stand as small tables: a row an entry, a column a key.
+                if entry is not None and item.path[-2] != entry:
+                    row += 1
+                column = self._entry_column(item)
+                entry = item.path[-2]
+                self.cells[item.name] = Cell(INPUT_SHEET, row, column)
+            else:
+                self.cells[item.name] = Cell(INPUT_SHEET, row, VALUE_COLUMN)
+                row += 1
+            self.named.add(item.name)
+        self.next_row[INPUT_SHEET] = row + 2
+
+    def _entry_column(self, item: Field) -> int:
+        same = [f for f in self.model.inputs if f.path[:-1] == item.path[:-1]]
+        return 2 + [f.name for f in same].index(item.name)
+
+    def _table(self, table: TableSpec) -> None:
+        column = self.next_column.get(table.sheet, 1)
+        count = len(table.columns)
+        self.places[table.id] = Place(table.sheet, HEADER_ROW, column, len(table.rows) + 2, count)
+        for offset, item in enumerate(table.columns):
+            self.columns[f"{table.id}.{item.key}"] = (table, column + offset)
+        self.next_column[table.sheet] = column + count + 1
+        bottom = FIRST_ROW + len(table.rows) + 1
+        self.next_row[table.sheet] = max(self.next_row.get(table.sheet, 0), bottom)
+
+    def _scalars(self, block: Block, *, beside_table: bool) -> None:
+        if isinstance(block, ScalarTable):
+            self._list(block, beside_table=beside_table)
+        elif isinstance(block, Grid):
+            self._grid(block, below_table=beside_table)
+
+    def _list(self, block: ScalarTable, *, beside_table: bool) -> None:
+        row = HEADER_ROW if beside_table else self.next_row.get(block.sheet, HEADER_ROW)
+        column = self.next_column.get(block.sheet, 1) if beside_table else 1
+        self.places[block.id] = Place(block.sheet, row, column, len(block.scalars) + 1, 5)
+        offset = 1
+        if block.id in ("checks", "cycle_ranges"):
+            self._checks(block, row)
+            return
+        for scalar in block.scalars:
+            self.cells[scalar.key] = Cell(block.sheet, row + offset, column + VALUE_COLUMN - 1)
+            self.named.add(scalar.key)
+            offset += 1
+        if beside_table:
+            self.next_column[block.sheet] = column + 6
+        else:
+            self.next_row[block.sheet] = row + offset + 1
+
+    def _checks(self, block: ScalarTable, row: int) -> None:
+        """Value and verdict of a check stand in one row."""
+        for index, scalar in enumerate(block.scalars):
+            column = VALUE_COLUMN if scalar.of == "check_value" else UNIT_COLUMN
+            self.cells[scalar.key] = Cell(block.sheet, row + 1 + index // 2, column)
+            self.named.add(scalar.key)
+        self.next_row[block.sheet] = row + len(block.scalars) // 2 + 2
+
+    def _grid(self, grid: Grid, *, below_table: bool) -> None:
+        row = self.next_row.get(grid.sheet, HEADER_ROW)
+        if any(cell.row == row - 2 for cell in self.cells.values() if cell.sheet == grid.sheet):
+            row += 1  # the title stands above the header: keep it off the list before
+        first = 2 if below_table else 3  # aligned with the columns of the table above
+        self.places[grid.id] = Place(
+            grid.sheet, row, 1, len(grid.rows) + 1, len(grid.labels) + first - 1
+        )
+        for r, grid_row in enumerate(grid.rows):
+            for c, scalar in enumerate(grid_row.cells):
+                if scalar is not None:
+                    self.cells[scalar.key] = Cell(grid.sheet, row + 1 + r, first + c)
+        self.next_row[grid.sheet] = row + len(grid.rows) + 3
+
+    # --- addresses --------------------------------------------------------------------
+
+    def rows_of(self, table: TableSpec) -> range:
+        """Sheet rows of a table's data."""
+        return range(FIRST_ROW, FIRST_ROW + len(table.rows))
+
+    def column_of(self, key: str) -> int:
+        """Sheet column of ``table.column``."""
+        return self.columns[key][1]
+
+    def name_of(self, key: str) -> str:
+        """Defined name of a scalar or input, or the absolute address of a grid's cell."""
+        return key if key in self.named else self.cells[key].absolute
+
+    def range_of(self, key: str, *, rows: int | None = None) -> str:
+        """Absolute range of a column, of a grid's row (``grid.quantity``) or of input points."""
+        if key in self.columns:
+            table, column = self.columns[key]
+            last = FIRST_ROW + (rows or len(table.rows)) - 1
+            return column_range(table.sheet, column, FIRST_ROW, last)
+        cells = self._run_of(key)
+        first, last_cell = cells[0], cells[(rows or len(cells)) - 1]
+        ends = f"${get_column_letter(last_cell.column)}${last_cell.row}"
+        return f"{first.absolute}:{ends}"
+
+    def _run_of(self, key: str) -> list[Cell]:
+        if key.startswith("gas_points_"):
+            return [self.cells[name] for name in self.model.input_runs[key]]
+        grid_id, quantity = key.split(".")
+        for block in self.model.blocks:
+            if isinstance(block, Grid) and block.id == grid_id:
+                row = next(row for row in block.rows if row.of == quantity)
+                return [self.cells[cell.key] for cell in row.cells if cell is not None]
+        raise KeyError(key)
+
+    def keys_of_run(self, key: str) -> list[str]:
+        """Scalar keys of a grid's row ``grid.quantity``, for the caches of charts."""
+        grid_id, quantity = key.split(".")
+        for block in self.model.blocks:
+            if isinstance(block, Grid) and block.id == grid_id:
+                row = next(row for row in block.rows if row.of == quantity)
+                return [cell.key for cell in row.cells if cell is not None]
+        raise KeyError(key)
+
+    def input_at(self, sheet: str, coordinate: str) -> str | None:
+        """Name of the input whose cell this is."""
+        for item in self.model.inputs:
+            cell = self.cells[item.name]
+            if cell.sheet == sheet and cell.coordinate == coordinate:
+                return item.name
+        return None
+
+    def step_formula(self, table: TableSpec, row: int, column: int) -> str:
+        """First column of a row from the row above and the step of the table's grid."""
+        # A fraction, because 0.1 in a formula would look like an input typed into it.
+        own = f"1/{round(1 / table.step)}" if table.step and table.step < 1 else None
+        step = "calculation_step_deg" if table.step is None else own or number(table.step)
+        return f"={Cell('', row - 1, column).coordinate}+{step}"
+
+    def area(self, first: Cell, last: Cell) -> str:
+        """Range between two cells of a sheet, without the sheet."""
+        return f"{first.coordinate}:{last.coordinate}"
+
+    def defined_names(self) -> Mapping[str, str]:
+        """Defined name → absolute address."""
+        return {name: self.cells[name].absolute for name in sorted(self.named)}
+
+    def end_of(self, sheet: str) -> tuple[int, int]:
+        """First free row and column of a sheet, for charts and print areas."""
+        row = self.next_row.get(sheet, HEADER_ROW)
+        return row, self.next_column.get(sheet, 7)
+
+
+class RowReferences:
+    """References of a formula compiled once for a whole column, see ``at_row``."""
+
+    def __init__(self, layout: Layout, table: TableSpec | None) -> None:
+        self._layout = layout
+        self._table = table
+
+    def name(self, key: str) -> str:
+        """Scalar, or this row's cell of a column."""
+        found = self._column(key)
+        return self._layout.name_of(key) if found is None else self._cell(found, _ROW)
+
+    def column(self, key: str, *, repeat_last: bool) -> str:
+        """Whole column."""
+        full = self._qualified(key)
+        if repeat_last:
+            return self._layout.range_of(full)
+        if full in self._layout.columns:
+            count = len(self._layout.columns[full][0].rows)
+        else:
+            count = len(self._layout._run_of(full))
+        return self._layout.range_of(full, rows=count - 1)
+
+    def last(self, key: str) -> str:
+        """Last cell of a column."""
+        table, column = self._layout.columns[self._qualified(key)]
+        return Cell(table.sheet, FIRST_ROW + len(table.rows) - 1, column).absolute
+
+    def following(self, key: str) -> str:
+        """Next row's cell."""
+        found = self._column(key)
+        if found is None:
+            raise KeyError(key)
+        return self._cell(found, _NEXT)
+
+    def down_to_here(self, key: str) -> str:
+        """Column from its first row down to this row."""
+        found = self._column(key)
+        if found is None:
+            raise KeyError(key)
+        here = self._cell(found, _ROW)
+        letter = get_column_letter(found[1])
+        prefix, separator, last = here.rpartition("!")
+        return f"{prefix}{separator}${letter}${FIRST_ROW}:{last}"
+
+    def _qualified(self, key: str) -> str:
+        local = f"{self._table.id}.{key}" if self._table is not None else key
+        return local if local in self._layout.columns else key
+
+    def _column(self, key: str) -> tuple[TableSpec, int] | None:
+        return self._layout.columns.get(self._qualified(key))
+
+    def _cell(self, found: tuple[TableSpec, int], row: str) -> str:
+        table, column = found
+        letter = get_column_letter(column)
+        if self._table is not None and table.sheet == self._table.sheet:
+            return f"{letter}{row}"
+        return f"{quoted(table.sheet)}!{letter}{row}"
+
+
+def at_row(formula: str, row: int, *, last: bool = False) -> str:
+    """A column's formula in one row; in the last row the following row is the row itself."""
+    return formula.replace(_ROW, str(row)).replace(_NEXT, str(row if last else row + 1))
+
+
+def check_names(layout: Layout) -> None:
+    """Refuse names that Excel would not tell apart.
+
+    Raises:
+        ValueError: two names differ only in case.
+    """
+    seen: dict[str, str] = {}
+    for name in layout.named:
+        other = seen.setdefault(name.casefold(), name)
+        if other != name:
+            msg = f"names {other} and {name} differ only in case"
+            raise ValueError(msg)
+
+
+def scalar_keys(block: Block) -> list[str]:
+    """Keys of a block's scalars, in order."""
+    return [scalar.key for scalar in scalars_of(block)]

@@ -1,0 +1,91 @@
+"""The pictures of ``docs/``: sheets as LibreOffice prints them, pages of the report."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from reports.shared.errors import SystemPartMissing
+from reports.shared.resources import samples_dir
+
+SAMPLE = "gots-diesel"
+_COLOURS = 64
+_MARGIN = 12  # white pixels kept around what is printed
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A page of a document, found by the first line that stands on it."""
+
+    name: str
+    document: str
+    text: str
+    dots_per_inch: int = 80
+    share: float = 1.0  # of its height, from the top
+
+
+PICTURES = (
+    Picture("inputs", "xlsx", "Исходные данные", dots_per_inch=150, share=0.5),
+    Picture("forces", "xlsx", "Удельные силы и крутящий момент"),
+    Picture("forces-chart", "xlsx", "Удельные силы p′г"),
+    Picture("report-title", "pdf", "курсовому проекту"),
+    Picture("report-torque", "pdf", "4 Крутящий момент двигателя"),
+)
+
+
+def write_pictures(folder: Path) -> list[Path]:
+    """Build the sample's workbook and report and write its pictures as PNG files.
+
+    Raises:
+        SystemPartMissing: LibreOffice or poppler is not installed.
+    """
+    from reports.exports.build import build, load_input
+
+    if shutil.which("pdftoppm") is None:
+        msg = "для рисунков нужен pdftoppm; выполните: sudo apt-get install -y poppler-utils"
+        raise SystemPartMissing(msg)
+    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as name:
+        temporary = Path(name)
+        source = samples_dir() / f"{SAMPLE}.toml"
+        build(source, load_input(source), temporary, ("xlsx", "pdf"))
+        documents = {"pdf": temporary / f"{SAMPLE}.pdf", "xlsx": temporary / "book.pdf"}
+        documents["xlsx"].write_bytes(_printed(temporary / f"{SAMPLE}.xlsx"))
+        return [_write(picture, documents, folder) for picture in PICTURES]
+
+
+def _printed(workbook: Path) -> bytes:
+    from reports.recalculation.by_libreoffice import LibreOffice
+
+    return LibreOffice().converted([workbook.read_bytes()], "pdf")[0]
+
+
+def _write(picture: Picture, documents: dict[str, Path], folder: Path) -> Path:
+    from PIL import Image, ImageChops
+
+    document = documents[picture.document]
+    page = next(
+        n for n, text in _pages(document) if picture.text in text.lstrip().partition("\n")[0]
+    )
+    stem = document.with_suffix("")
+    command = ["pdftoppm", "-r", str(picture.dots_per_inch), "-png", "-singlefile"]
+    subprocess.run([*command, "-f", str(page), "-l", str(page), document, stem], check=True)
+    image = Image.open(stem.with_suffix(".png")).convert("RGB")
+    box = ImageChops.difference(image, Image.new("RGB", image.size, "white")).getbbox()
+    left, top, right, bottom = box or (0, 0, *image.size)
+    bottom = top + round((bottom - top) * picture.share)
+    cut = image.crop((left - _MARGIN, top - _MARGIN, right + _MARGIN, bottom + _MARGIN))
+    path = folder / f"{picture.name}.png"
+    cut.quantize(_COLOURS).save(path, optimize=True)
+    return path
+
+
+def _pages(document: Path) -> Iterator[tuple[int, str]]:
+    run = subprocess.run(
+        ["pdftotext", "-layout", str(document), "-"], check=True, capture_output=True
+    )
+    yield from enumerate(run.stdout.decode("utf-8").split("\f"), 1)

@@ -1,0 +1,78 @@
+"""The pages of ``docs/`` as HTML files that are read without a network."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Mapping
+from pathlib import Path
+from urllib.parse import unquote
+
+from markdown_it import MarkdownIt
+from markdown_it.token import Token
+
+from reports.shared.files import write_text
+from tools.manual.links import slug
+
+README = "README.ru.md"
+
+
+def write_site(docs: Path, target: Path) -> list[Path]:
+    """Write an HTML file for each page and copy the pictures; return the files.
+
+    Args:
+        docs: Folder of the Markdown pages; the Russian README beside it is a page too.
+        target: Folder of the HTML, made when it is not there.
+    """
+    target.mkdir(parents=True, exist_ok=True)
+    pages = {page.resolve(): f"{page.stem}.html" for page in sorted(docs.glob("*.md"))}
+    pages[(docs.parent / README).resolve()] = "readme.html"
+    contents = [(name, _title(page)) for page, name in pages.items() if page.stem != "index"]
+    for page, name in pages.items():
+        write_text(target / name, _html(page, pages, contents))
+    for picture in sorted((docs / "images").glob("*.png")):
+        (target / "images").mkdir(exist_ok=True)
+        shutil.copyfile(picture, target / "images" / picture.name)
+    return [target / name for name in pages.values()]
+
+
+def _title(page: Path) -> str:
+    first = page.read_text(encoding="utf-8").split("\n", 1)[0]
+    return first.removeprefix("# ")
+
+
+def _html(page: Path, pages: Mapping[Path, str], contents: list[tuple[str, str]]) -> str:
+    from jinja2 import Environment, FileSystemLoader
+    from markupsafe import Markup
+
+    from reports.shared.resources import templates_dir
+
+    markdown = MarkdownIt("commonmark", {"html": False}).enable(["table"])
+    tokens = markdown.parse(page.read_text(encoding="utf-8"))
+    _mend(tokens, page, pages)
+    body = markdown.renderer.render(tokens, markdown.options, {})
+    env = Environment(loader=FileSystemLoader(templates_dir() / "manual"), autoescape=True)
+    return env.get_template("page.html.j2").render(
+        title=_title(page), body=Markup(body), contents=contents, current=pages[page]
+    )
+
+
+def _mend(tokens: list[Token], page: Path, pages: Mapping[Path, str]) -> None:
+    """Give headings their anchors and lead links to the HTML pages."""
+    for index, token in enumerate(tokens):
+        if token.type == "heading_open":
+            inner = tokens[index + 1].children or ()
+            text = "".join(c.content for c in inner if c.type in ("text", "code_inline"))
+            token.attrSet("id", slug(text))
+        for child in token.children or ():
+            target = child.attrGet("href")
+            if target is not None:
+                child.attrs = {"href": found} if (found := _href(str(target), page, pages)) else {}
+
+
+def _href(link: str, page: Path, pages: Mapping[Path, str]) -> str:
+    """Where a link leads on the site, empty if to a file that is not on it."""
+    if "://" in link or link.startswith("#"):
+        return link
+    name, mark, anchor = link.partition("#")
+    found = pages.get((page.parent / unquote(name)).resolve())
+    return "" if found is None else found + mark + anchor

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from kshm.cycle.dizdn_listing import DEGREE, isobar_end
 from kshm.cycle.errors import CycleError
 from kshm.cycle.result import Cycle
-from kshm.engine.engine import PolytropicGas, TabulatedGas
+from kshm.engine.gas import PolytropicGas, TabulatedGas
 from kshm.mechanics.kinematics import displacement_exact
 
 Array = NDArray[np.float64]

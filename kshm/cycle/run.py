@@ -9,7 +9,7 @@ from kshm.cycle.design import Design, Rounding, design
 from kshm.cycle.heat_balance import HeatBalance, heat_balance
 from kshm.cycle.inputs import CycleInputs
 from kshm.cycle.result import Cycle
-from kshm.cycle.speed_characteristic import Leiderman, Regime, regimes
+from kshm.cycle.speed_characteristic import Leiderman, SpeedPoint, regimes
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +30,7 @@ class CycleRun:
     design: Design | None
     balance: HeatBalance
     law: Leiderman
-    regimes: tuple[Regime, Regime, Regime]
+    regimes: tuple[SpeedPoint, SpeedPoint, SpeedPoint]
 
     @property
     def gas_power(self) -> float:

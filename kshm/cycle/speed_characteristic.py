@@ -97,7 +97,7 @@ class SpeedCharacteristic:
 
 
 @dataclass(frozen=True, slots=True)
-class Regime:
+class SpeedPoint:
     """A regime: speed [rad/s], torque [N·m], power [W]; ``derived`` if not given.
 
     ``source`` says what a derived regime was derived from.
@@ -156,7 +156,7 @@ def regimes(
     kind: str,
     omega_torque: float | None = None,
     omega_idle: float | None = None,
-) -> tuple[Regime, Regime, Regime]:
+) -> tuple[SpeedPoint, SpeedPoint, SpeedPoint]:
     """Rated power, maximum torque and idle; what is not given is derived and marked.
 
     Args:
@@ -183,8 +183,8 @@ def regimes(
     torque = power / omega * (law.a + law.b * x - law.c * x * x)
     given = "задано"
     return (
-        Regime("power", "наибольшая мощность", omega, power / omega, power, False, given),
-        Regime(
+        SpeedPoint("power", "наибольшая мощность", omega, power / omega, power, False, given),
+        SpeedPoint(
             "torque",
             "наибольший крутящий момент",
             middle,
@@ -193,7 +193,7 @@ def regimes(
             omega_torque is None,
             "вершина кривой момента K_c = b/(2c)" if omega_torque is None else given,
         ),
-        Regime(
+        SpeedPoint(
             "idle",
             "холостой ход",
             idle,

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
 from kshm.engine.checks import NOT_NEGATIVE, POSITIVE, check_numbers
 
@@ -61,6 +62,7 @@ class ArticulatedRod:
 Arrangement = tuple[Cylinder, ...]
 
 
+@cache
 def in_row(count: int) -> Arrangement:
     """Cylinders in a row, each on its own throw."""
     return tuple(Cylinder(throw) for throw in range(count))

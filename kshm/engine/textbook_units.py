@@ -296,7 +296,10 @@ def assemble(
             with it, a number that no engine has.
     """
     cylinders = len(firing_offsets_deg)
-    refuse((cylinders < 1, "an engine has a cylinder"))
+    refuse(
+        (cylinders < 1, "an engine has a cylinder"),
+        (mechanical_efficiency == 0, "the mechanical efficiency must be above 0"),
+    )
     if places is None:
         places = in_row(cylinders)
     refuse(

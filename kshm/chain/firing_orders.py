@@ -75,7 +75,10 @@ def order_sum(offsets: Array, order: float) -> Array:
 
 
 def sequence(offsets: Array) -> tuple[int, ...]:
-    """Cylinder numbers in the order in which they fire."""
+    """Cylinder numbers in the order in which they fire, of offsets [rad] of shape (cylinders,).
+
+    Gots 2.8.
+    """
     rounded = np.round(offsets, 9)
     return tuple(int(i) + 1 for i in np.lexsort((np.arange(len(offsets)), rounded)))
 

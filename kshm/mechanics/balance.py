@@ -100,9 +100,9 @@ def inertia_unit(engine: Engine) -> float:
 
 
 def reciprocating(engine: Engine, cylinders: Cylinders, order: int) -> tuple[Phasors, Phasors]:
-    """Free force [N] and moment [N·m] of one order of all reciprocating masses, Neiman (36).
+    """Free force [N] and moment [N·m] of one order, each of shape (2,), Neiman (36).
 
-    Directed away from the crankshaft where the pistons are thrown upwards.
+    Of all reciprocating masses, directed away from the crankshaft where the pistons are thrown upwards.
     """
     amplitude = inertia_unit(engine) * acceleration_amplitude(engine.geometry.lam, order)
     force = order_phasors(cylinders, order)
@@ -111,19 +111,25 @@ def reciprocating(engine: Engine, cylinders: Cylinders, order: int) -> tuple[Pha
 
 
 def turning(vector: complex) -> Phasors:
-    """A vector that turns with the shaft, in its unit; ``vector`` = up + i·right at φ = 0."""
+    """A vector [N or N·m] that turns with the shaft, shape (2,), Gots 2.2.
+
+    ``vector`` = up + i·right at φ = 0.
+    """
     return np.array([vector, -1j * vector])
 
 
 def turning_parts(vector: Phasors) -> tuple[complex, complex]:
-    """Two vectors of constant length that turn with and against rotation and make the vector."""
+    """Two vectors [N or N·m] that turn with and against rotation and make one of shape (2,).
+
+    Lanchester's shafts answer them.
+    """
     up, right = vector
     along, against = up + 1j * right, np.conj(up) + 1j * np.conj(right)
     return complex(along / 2), complex(against / 2)
 
 
 def ellipse(vector: Phasors, noise: float = 0.0) -> Ellipse:
-    """Greatest and smallest length of a vector of one order and the direction.
+    """Lengths of a vector of one order and its direction [rad], shape (2,), Neiman (36).
 
     Args:
         vector: the vector.

@@ -36,7 +36,10 @@ class Nodes:
     slope: Array
 
     def at(self, x: Array) -> Array:
-        """Value of the cubic through the two neighbouring points, by Hermite's polynomials."""
+        """Value [Pa] of the cubic at ``x`` [rad], elementwise, by Hermite's polynomials.
+
+        Slopes are those of Fritsch and Butland.
+        """
         row = np.clip(np.searchsorted(self.x, x, side="right") - 1, 0, len(self.x) - 2)
         width = self.x[row + 1] - self.x[row]
         t = (x - self.x[row]) / width

@@ -42,7 +42,10 @@ class Rods:
     mass: Array  # m_2 that turns with the pin [kg]
 
     def summed(self, values: Array, throws: int) -> Array:
-        """Sum over the rods of every throw: (engines, cylinders, …) to (engines, throws, …)."""
+        """Sum over the rods of every throw, in the unit of ``values`` [any], Gots 2.7.2.
+
+        Shape (engines, cylinders, …) becomes (engines, throws, …).
+        """
         if self.throw == tuple(range(throws)):  # a rod on each throw
             return values
         total = np.zeros((values.shape[0], throws, *values.shape[2:]))
@@ -51,9 +54,9 @@ class Rods:
         return total
 
     def shares(self, places: Places[Array]) -> Array:
-        """Share of each rod's load that its throw's right support carries, (engines, cylinders).
+        """Share [-] of each rod's load on its throw's right support, by statics, Gots (50)-(53).
 
-        It may lie outside 0…1.
+        Shape (engines, cylinders); it may lie outside 0…1.
         """
         on_throws = [
             (places.rod_at(place) / places.length)[:, throw]

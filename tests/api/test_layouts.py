@@ -171,8 +171,12 @@ def test_random_layouts_balance_and_are_finite(engine: kshm.Engine) -> None:
 def test_every_journal_has_its_own_size() -> None:
     places, offsets = banks(2, [0, 90]), fired([0, 180], [0, 90], [0, 1, 1, 0])
     same = solve(made(places, offsets)).scalars
-    sizes: dict[str, Any] = {"pin_diameter_mm": [45, 90], "pin_length_mm": [40, 20],
-                             "main_diameter_mm": [50, 25, 50], "main_lengths_mm": [28, 28, 14]}  # fmt: skip
+    sizes: dict[str, Any] = {
+        "pin_diameter_mm": [45, 90],
+        "pin_length_mm": [40, 20],
+        "main_diameter_mm": [50, 25, 50],
+        "main_lengths_mm": [28, 28, 14],
+    }
     other = solve(made(places, offsets, **sizes)).scalars
     for key, factor in (("q_pin_max", 1), ("q_pin2_max", 1), ("q_main1_max", 1),
                         ("q_main2_max", 2), ("q_main3_mean", 2)):  # fmt: skip

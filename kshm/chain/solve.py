@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from itertools import islice
 
 import numpy as np
 
-from kshm.arrays import Array
+from kshm.arrays import Array, Columns
 from kshm.chain.pins import crankpin_forces, throw_forces
 from kshm.chain.result import ChainArrays
 from kshm.chain.stack import Batch, stack
@@ -65,38 +65,51 @@ def _pressure(batch: Batch, phi: Array, ratio: Array, volume: kinematics.Stroke)
     )
 
 
-@dataclass(frozen=True, slots=True)
-class CylinderForces:
-    """Displacement [m], pressure and specific forces [Pa], (engines, cylinders, angles)."""
+def _in_cylinders(batch: Batch, phi: Array) -> tuple[Columns, Hung | None]:
+    """Displacement, pressure and specific forces of each cylinder at its own angle ``phi``.
 
-    displacement: Array
-    volume_ratio: Array
-    p: Array
-    p_gas: Array
-    p_inertia: Array
-    p_sum: Array
-    N: Array
-    S: Array
-    K: Array
-    T: Array
-
-
-def _cylinder_forces(batch: Batch, phi: Array) -> tuple[CylinderForces, Hung | None]:
-    """Gas pressure and specific forces of each cylinder at its own angle ``phi``."""
+    By the names of ``ChainArrays``.
+    """
     r, lam, k = batch.r, batch.lam, batch.k
     at = kinematics.Position.at(phi, lam, k)
     displacement = kinematics.displacement_at(at, r, lam, k)
     ratio = kinematics.volume_ratio(displacement, batch.piston_stroke, batch.eps)
     volume = kinematics.stroke_of(r, lam, k, batch.piston_stroke, batch.eps)
-    pressure = _pressure(batch, phi, ratio, volume)
-    inertia = (-batch.m_j / batch.area) * _acceleration(batch, at)
-    p_gas = pressure - batch.p_ambient
-    p_sum = p_gas + inertia
+    p = _pressure(batch, phi, ratio, volume)
+    p_inertia = (-batch.m_j / batch.area) * _acceleration(batch, at)
+    p_gas = p - batch.p_ambient
+    p_sum = p_gas + p_inertia
     rod = forces.decompose(p_sum, at)
-    own = CylinderForces(
-        displacement, ratio, pressure, p_gas, inertia, p_sum, rod.N, rod.S, rod.K, rod.T
-    )
-    return (own, None) if batch.articulated is None else _with_articulated(batch, phi, own)
+    own = {
+        "displacement": displacement, "volume_ratio": ratio,
+        "p": p, "p_gas": p_gas, "p_inertia": p_inertia, "p_sum": p_sum,
+        "N": rod.N, "S": rod.S, "K": rod.K, "T": rod.T,
+    }  # fmt: skip
+    hung = _hung(batch, phi)
+    if hung is not None and batch.articulated is not None:
+        # The cylinders of articulated rods in place of those computed as if on the pin.
+        p_gas = hung.p - batch.p_ambient
+        theirs = {
+            "displacement": hung.displacement, "volume_ratio": hung.volume_ratio,
+            "p": hung.p, "p_gas": p_gas, "p_inertia": hung.p_inertia,
+            "p_sum": p_gas + hung.p_inertia,
+            "N": hung.N, "S": hung.S, "K": hung.on_pin.K, "T": hung.on_pin.T,
+        }  # fmt: skip
+        for name, values in theirs.items():
+            own[name] = np.array(own[name])
+            own[name][:, batch.articulated.cylinders] = values
+    return own, hung
+
+
+def _hung(batch: Batch, phi: Array) -> Hung | None:
+    rods = batch.articulated
+    if rods is None:
+        return None
+    own = phi[:, rods.cylinders]
+    return hang(
+        rods, own, batch.eps, lambda ratio, volume: _pressure(batch, own, ratio, volume),
+        batch.p_ambient, batch.omega, batch.area,
+    )  # fmt: skip
 
 
 def _acceleration(batch: Batch, at: kinematics.Position) -> Array:
@@ -110,38 +123,12 @@ def _acceleration(batch: Batch, at: kinematics.Position) -> Array:
     return np.where(batch.exact, kinematics.acceleration_exact_at(at, *values), two_term)
 
 
-def _with_articulated(
-    batch: Batch, phi: Array, own: CylinderForces
-) -> tuple[CylinderForces, Hung | None]:
-    """The cylinders of articulated rods in place of those computed as if on the pin."""
-    rods = batch.articulated
-    if rods is None:
-        return own, None
-    at = list(rods.cylinders)
-    hung = hang(
-        rods, phi[:, at], batch.eps,
-        lambda ratio, volume: _pressure(batch, phi[:, at], ratio, volume),
-        batch.p_ambient, batch.omega, batch.area,
-    )  # fmt: skip
-    p_gas = hung.p - batch.p_ambient
-    theirs = CylinderForces(
-        hung.displacement, hung.volume_ratio, hung.p, p_gas, hung.p_inertia,
-        p_gas + hung.p_inertia, hung.N, hung.S, hung.on_pin.K, hung.on_pin.T,
-    )  # fmt: skip
-
-    def put(name: str) -> Array:
-        values = np.array(getattr(own, name))
-        values[:, at] = getattr(theirs, name)
-        return values
-
-    return CylinderForces(*(put(field.name) for field in fields(CylinderForces))), hung
-
-
 def solve_stacked(batch: Batch) -> ChainArrays:
     """The whole chain for engines that are stacked already, Gots (1)-(60)."""
-    local = np.mod(batch.phi - batch.theta, batch.engines[0].period)
-    in_cylinders, hung = _cylinder_forces(batch, local)
-    K, T = in_cylinders.K, in_cylinders.T
+    period = batch.engines[0].period
+    local = np.mod(batch.phi - batch.theta, period)
+    in_cylinders, hung = _in_cylinders(batch, local)
+    K, T = in_cylinders["K"], in_cylinders["T"]
     M = T * (batch.area * batch.r)
     rods, throws = batch.rods, batch.throws
     count = throws.angle.shape[1]
@@ -154,8 +141,11 @@ def solve_stacked(batch: Batch) -> ChainArrays:
     on_throws = throw_forces(batch, own_K, own_T, unit)
 
     constants = journals.centrifugal_reactions(throws, unit[:, :, 0], rods)
-    forced = _journal_forces(batch, in_cylinders)
-    on_journals = journals.in_throw_frame(forced.K, forced.T, batch.pin_angle)
+    forced = in_cylinders
+    if not np.array_equal(batch.theta, batch.force_theta):
+        # Other phases for the main journals only, where the input asks for them.
+        forced, _ = _in_cylinders(batch, np.mod(batch.phi - batch.force_theta, period))
+    on_journals = journals.in_throw_frame(forced["K"], forced["T"], batch.pin_angle)
     steady = (constants[0] / batch.area, constants[1] / batch.area)
     journal, before, after = journals.main_reactions(*on_journals, throws, rods, steady)
     left_share = 1 - rods.shares(throws.places)
@@ -169,7 +159,7 @@ def solve_stacked(batch: Batch) -> ChainArrays:
         batch=batch,
         phi=batch.phi[0, 0],
         local_phi=np.broadcast_to(local, M.shape),
-        **{field.name: getattr(in_cylinders, field.name) for field in fields(CylinderForces)},
+        **in_cylinders,
         torque=M,
         torque_sum=M.sum(axis=1),
         running_main=running_main,
@@ -204,12 +194,3 @@ def _length(x: Array, y: Array) -> Array:
     """Length of vectors of moderate size: faster than hypot, which guards against overflow."""
     length: Array = np.sqrt(x**2 + y**2)
     return length
-
-
-def _journal_forces(batch: Batch, own: CylinderForces) -> CylinderForces:
-    """Rod forces for the main journals; with other phases only where the input asks for them."""
-    if np.array_equal(batch.theta, batch.force_theta):
-        return own
-    return _cylinder_forces(batch, np.mod(batch.phi - batch.force_theta, batch.engines[0].period))[
-        0
-    ]

@@ -102,7 +102,8 @@ def inertia_unit(engine: Engine) -> float:
 def reciprocating(engine: Engine, cylinders: Cylinders, order: int) -> tuple[Phasors, Phasors]:
     """Free force [N] and moment [N·m] of one order, each of shape (2,), Neiman (36).
 
-    Of all reciprocating masses, directed away from the crankshaft where the pistons are thrown upwards.
+    Of all reciprocating masses, directed away from the crankshaft where the pistons are
+    thrown upwards.
     """
     amplitude = inertia_unit(engine) * acceleration_amplitude(engine.geometry.lam, order)
     force = order_phasors(cylinders, order)

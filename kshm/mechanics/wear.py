@@ -18,7 +18,7 @@ def ray_angles(rays: int) -> Array:
 
 
 def ray_loads(up: Array, against: Array, rays: int) -> Array:
-    """Force counted at each ray within ±60°, zero elsewhere, Gots table 14.
+    """Force [N or Pa] counted at each ray within ±60°, zero elsewhere, Gots table 14.
 
     Args:
         up: force component along ray I, shape (..., angles).
@@ -36,7 +36,7 @@ def ray_loads(up: Array, against: Array, rays: int) -> Array:
 
 
 def ray_sums(up: Array, against: Array, size: Array, rays: int) -> Array:
-    """Sum of ``ray_loads`` over one cycle without the repeated last angle, Gots table 14.
+    """Sum of ``ray_loads`` [N or Pa] over one cycle, the last angle left out, Gots table 14.
 
     Which rays count a force depends only on the sector that it points into, so the forces
     are summed by sectors first.  The edges of all windows are directions of rays, because

@@ -17,7 +17,7 @@ from kshm.mechanics import cubic_diagrams, forces, journals, kinematics, polytro
 from kshm.mechanics.articulated import Hung, hang
 
 _CHUNK_VALUES = 2**17  # cylinders × angles of the engines in a chunk
-_KEPT_BYTES = 24 * 2**20  # above 32 MB the C library does not learn
+KEPT_BYTES = 24 * 2**20  # above 32 MB the C library does not learn
 
 
 def solve_batch(engines: Sequence[Engine]) -> ChainArrays:
@@ -39,7 +39,7 @@ def solve_chunks(engines: Iterable[Engine], size: int | None = None) -> Iterator
     """
     # The C library gives freed arrays back to the system and takes them again page by page,
     # which costs more than the arithmetic; once a great block was freed, it keeps them.
-    np.empty(_KEPT_BYTES, np.uint8)
+    np.empty(KEPT_BYTES, np.uint8)
     rest = iter(engines)
     while first := list(islice(rest, 1)):
         count = size or chunk_size(first[0])

@@ -22,8 +22,11 @@ def comma(text: str) -> str:
 
 
 def short(value: float, digits: int = 6) -> str:
-    """A number without needless zeros: ``0,5``, ``−12``; ``digits`` significant ones."""
-    return comma(f"{value:.{digits}g}")
+    """A number of so many significant digits without needless zeros, never as 2e+04."""
+    text = f"{value:.{digits}g}"
+    if "e" in text:
+        text = f"{float(text):.12f}".rstrip("0").rstrip(".")
+    return comma(text)
 
 
 def fixed(value: float, digits: int = 2, *, group: bool = True) -> str:

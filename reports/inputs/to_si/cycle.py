@@ -12,7 +12,8 @@ from kshm.cycle.speed_characteristic import LEIDERMAN, Leiderman, from_adaptabil
 from reports.inputs.cycle_texts import path_of, text_of
 from reports.inputs.findings import Finding
 from reports.inputs.sections.cycle import CycleSection
-from reports.inputs.sections.input_file import CycleGasSection, GeometrySection, InputFile
+from reports.inputs.sections.gas import CycleGasSection
+from reports.inputs.sections.input_file import GeometrySection, InputFile
 from reports.inputs.units import KELVIN, KJ_KG_K, KW, MJ_KG, MM, MPA, RPM
 
 

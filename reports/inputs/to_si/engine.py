@@ -22,16 +22,14 @@ from reports.inputs.firing import arrangement
 from reports.inputs.sections.articulated import ArticulatedSection
 from reports.inputs.sections.balance import BalanceSection
 from reports.inputs.sections.crankshaft import ArmsSection, CrankshaftSection, WebSection
-from reports.inputs.sections.gas import RoundedGasSection
-from reports.inputs.sections.input_file import (
+from reports.inputs.sections.gas import (
     CycleGasSection,
     GasSection,
-    GeometrySection,
-    InputFile,
     PolytropicGasSection,
-    RegimeSection,
+    RoundedGasSection,
     TableGasSection,
 )
+from reports.inputs.sections.input_file import GeometrySection, InputFile, RegimeSection
 from reports.inputs.to_si.cycle import cycle_run
 from reports.inputs.to_si.gas import rounded_gas
 from reports.inputs.to_si.masses import to_masses, with_masses

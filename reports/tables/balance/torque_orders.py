@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from reports.inputs.sections.input_file import InputFile, TableGasSection
+from reports.inputs.sections.gas import TableGasSection
+from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
 from reports.spec.shape import Shape
 from reports.tables.gas.cycle_names import from_cycle, section_of

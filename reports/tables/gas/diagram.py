@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from reports.inputs.sections.gas import RoundedGasSection
-from reports.inputs.sections.input_file import InputFile, TableGasSection
+from reports.inputs.sections.gas import RoundedGasSection, TableGasSection
+from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.gas import places
 from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
 

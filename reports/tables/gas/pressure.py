@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from reports.inputs.sections.gas import RoundedGasSection
-from reports.inputs.sections.input_file import InputFile, TableGasSection
+from reports.inputs.sections.gas import RoundedGasSection, TableGasSection
+from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Scalar, ScalarTable
 from reports.spec.shape import Shape
 from reports.tables.gas.cycle_names import from_cycle

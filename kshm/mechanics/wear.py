@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from kshm.arrays import Array
 
 HALF_WINDOW = np.pi / 3
 # The window includes its edges: forces at dead centres lie exactly on them.
@@ -13,7 +13,7 @@ EDGE = 1e-9
 
 
 def ray_angles(rays: int) -> Array:
-    """Angles of the rays against rotation from ray I [rad], shape (rays,)."""
+    """Angles of the rays against rotation from ray I [rad], shape (rays,), Gots 2.6."""
     return 2 * np.pi / rays * np.arange(rays, dtype=np.float64)
 
 
@@ -36,7 +36,7 @@ def ray_loads(up: Array, against: Array, rays: int) -> Array:
 
 
 def ray_sums(up: Array, against: Array, size: Array, rays: int) -> Array:
-    """Sum of ``ray_loads`` over one cycle; the repeated last angle is left out.
+    """Sum of ``ray_loads`` over one cycle without the repeated last angle, Gots table 14.
 
     Which rays count a force depends only on the sector that it points into, so the forces
     are summed by sectors first.  The edges of all windows are directions of rays, because

@@ -4,7 +4,7 @@ A crank mechanism needs sin φ, cos φ, sin β and cos β of every cylinder at e
 the measure is numpy's sin and cos of two arrays (engines × cylinders × angles), φ and β,
 taken in the same chunks of engines: 4 × 3 × 73 values an engine for the textbook's diesel
 with a table every 10°.  Nothing else is counted on that side, while the solver's side
-gives all arrays of ``BatchSolution``: pressures, forces, torques, reactions of all
+gives all arrays of ``ChainArrays``: pressures, forces, torques, reactions of all
 journals, crankpin loads and the sums of all wear diagrams.  The ten thousand engines differ in
 speed, bore, length of the rod and reciprocating mass.
 """

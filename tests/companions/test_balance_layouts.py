@@ -69,7 +69,7 @@ def test_a_v_of_90_degrees_is_balanced_in_the_first_order_by_counterweights() ->
     scale = abs(balance.turning_parts(force)[0]) + 1.0
     assert abs(against) < 1e-9 * scale
     weights, _ = balance.ideal_counterweights(engine)
-    rest = balance.added(force, balance.turning(0.5 * weights))
+    rest = force + balance.turning(0.5 * weights)
     assert balance.ellipse(rest).largest < 1e-9 * scale + 1e-6
 
 

@@ -4,7 +4,9 @@ import math
 
 import pytest
 
-from kshm.engine.engine import DirectMasses, PolytropicGas, RodMasses, TabulatedGas, Web
+from kshm.engine.crankshaft import Web
+from kshm.engine.gas import PolytropicGas, TabulatedGas
+from kshm.engine.masses import DirectMasses, RodMasses
 from reports.inputs import units
 from reports.inputs.load import load_mapping, load_toml
 from reports.inputs.to_si.engine import to_engine

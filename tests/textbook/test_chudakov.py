@@ -180,7 +180,7 @@ def test_shift_of_the_shafts_needs_half_the_force_on_each() -> None:
     assert psi * moment / (1000 * scalars["P_shafts"]) == pytest.approx(psi * scalars["L_rod"])
     # Two shafts hold the pistons' second-order force, exact up to λ²/4.
     lam = scalars["lam"]
-    assert abs(force.up) == pytest.approx(2 * 1000 * scalars["P_shafts"], rel=lam**2 / 3)
+    assert abs(force[0]) == pytest.approx(2 * 1000 * scalars["P_shafts"], rel=lam**2 / 3)
 
 
 def test_unknowable_orders_are_refused() -> None:

@@ -14,6 +14,7 @@ from reports.inputs.findings import Finding
 from reports.inputs.sections.cycle import CycleSection
 from reports.inputs.sections.gas import CycleGasSection
 from reports.inputs.sections.input_file import GeometrySection, InputFile
+from reports.inputs.to_si.geometry import crank_radius_mm, rod_length_mm
 from reports.inputs.units import KELVIN, KJ_KG_K, KW, MJ_KG, MM, MPA, RPM
 
 
@@ -51,8 +52,6 @@ def size_step_mm(section: CycleSection) -> float:
 
 def cycle_inputs(model: InputFile, section: CycleSection, gas: CycleGasSection) -> CycleInputs:
     """The solver's inputs in SI; bore and stroke stay open when a power is wanted."""
-    from reports.inputs.to_si.engine import crank_radius_mm, rod_length_mm
-
     geometry = model.geometry
     bore = stroke = None
     if isinstance(geometry, GeometrySection):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from kshm.engine.arrangement import throws as throws_of
-from kshm.results.pin_bearing import PLANES
+from kshm.mechanics.pin_bearing import PLANES
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import arrangement_of
 from reports.spec.blocks import (

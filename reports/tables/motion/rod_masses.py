@@ -6,7 +6,7 @@ it replaces in the other sheets.
 
 from __future__ import annotations
 
-from kshm.engine.masses import BORES, PISTON, ROD, STROKE_BORE, THROW
+from kshm.mechanics.rod_masses import BORES, PISTON, ROD, STROKE_BORE, THROW
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, to_estimate
 from reports.spec.blocks import Block, Scalar, ScalarTable

@@ -6,11 +6,12 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal
+from typing import Any
 
 from kshm.nomenclature.quantity import Quantity, quantity
 from reports.inputs.fields import Field
 from reports.inputs.sections.input_file import InputFile
+from reports.spec.charts import ChartSpec
 
 _POINT = re.compile(r"gas_point_\d+_(?P<unit>deg|mpa)(?P<regime>_R\d+)?")
 
@@ -109,29 +110,6 @@ class Grid:
 Block = TableSpec | ScalarTable | Grid
 
 
-@dataclass(frozen=True, slots=True)
-class Series:
-    """A curve: columns or grid rows as ``table.key``; ``name`` overrides the symbol."""
-
-    x: str
-    y: str
-    name: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class ChartSpec:
-    """A chart beside its table; ``figure`` is the number in the textbook."""
-
-    id: str
-    sheet: str
-    title: str
-    kind: Literal["line", "polar", "path", "scheme"]
-    series: tuple[Series, ...]
-    x_title: str
-    y_title: str
-    figure: str = ""
-
-
 @dataclass(frozen=True)
 class Model:
     """All specifications for one input file: what a workbook or a report consists of."""
@@ -166,6 +144,11 @@ class Model:
                 key = f"gas_points_{match['unit']}{match['regime'] or ''}"
                 runs.setdefault(key, []).append(item.name)
         return {key: tuple(names) for key, names in runs.items()}
+
+    @cached_property
+    def charts_by_id(self) -> Mapping[str, ChartSpec]:
+        """Charts of workbook and report by id."""
+        return {chart.id: chart for chart in self.charts}
 
     @cached_property
     def sheets(self) -> tuple[str, ...]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from reports.inputs.fields import iter_fields
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Block, ChartSpec, Model
+from reports.spec.blocks import Block, Model
+from reports.spec.charts import ChartSpec
 from reports.spec.rename import substituted
 from reports.spec.shape import Shape
 from reports.tables.gas.cycle import process_blocks

@@ -4,17 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from reports.spec.blocks import (
-    Block,
-    ChartSpec,
-    Column,
-    Grid,
-    GridRow,
-    Scalar,
-    ScalarTable,
-    Series,
-    TableSpec,
-)
+from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, Series, columns_of, over_phi, polar
 from reports.spec.shape import Shape
 from reports.tables.balance.balance_sums import (
     NOTHING,
@@ -220,32 +211,35 @@ def _boxes(shape: Shape) -> Iterator[Block]:
 
 def balance_charts(shape: Shape) -> tuple[ChartSpec, ...]:
     """Forces and moments over a turn, vector diagrams."""
-    x = "balance.phi_deg"
+    forces, moments = "F, кН", "M, Н·м"
 
-    def over(chart: str, title: str, y: str, *keys: str) -> ChartSpec:
-        series = tuple(Series(x, f"balance.{key}") for key in keys)
-        return ChartSpec(chart, SHEET, title, "line", series, "φ, ° ПКВ", y)
+    def over(chart: str, title: str, y: str, keys: str, caption: str = "") -> ChartSpec:
+        columns = columns_of("balance", *keys.split())
+        return over_phi(f"balance_{chart}", SHEET, title, y, *columns, caption=caption)
 
     return (
-        over("balance_F", "Свободные силы по порядкам", "F, кН", "F1_kN", "F2_kN", "F4_kN"),
-        over("balance_L", "Свободные продольные моменты по порядкам", "M, Н·м",
-             "L1_Nm", "L2_Nm", "L4_Nm"),
-        over("balance_F_after", "Вертикальная сила до и после уравновешивания", "F, кН",
-             "Fup_kN", "Fup_after_kN"),
-        over("balance_L_after", "Продольный момент до и после уравновешивания", "M, Н·м",
-             "Lup_Nm", "Lup_after_Nm"),
+        over("F", "Свободные силы по порядкам", forces, "F1_kN F2_kN F4_kN"),
+        over("L", "Свободные продольные моменты по порядкам", moments, "L1_Nm L2_Nm L4_Nm"),
+        over("F_after", "Вертикальная сила до и после уравновешивания", forces,
+             "Fup_kN Fup_after_kN", "Вертикальная свободная сила до и после уравновешивания"),
+        over("L_after", "Продольный момент до и после уравновешивания", moments,
+             "Lup_Nm Lup_after_Nm", "Продольный свободный момент до и после уравновешивания"),
         _vector(shape, "F", "kN", "Вектор свободной силы: до и после уравновешивания",
-                "вправо, кН", "вверх, кН"),
+                ("вправо, кН", "вверх, кН"), "свободной силы"),
         _vector(shape, "L", "Nm", "Вектор продольного момента: до и после",
-                "в горизонтальной плоскости, Н·м", "в вертикальной плоскости, Н·м"),
+                ("в горизонтальной плоскости, Н·м", "в вертикальной плоскости, Н·м"),
+                "продольного момента"),
     )  # fmt: skip
 
 
-def _vector(shape: Shape, key: str, unit: str, title: str, x: str, y: str) -> ChartSpec:
+def _vector(
+    shape: Shape, key: str, unit: str, title: str, axes: tuple[str, str], of: str
+) -> ChartSpec:
     right = "right" if shape.banks else "rot_right"
-    series = (
-        Series(f"balance.{key}{right}_{unit}", f"balance.{key}up_{unit}", "до"),
-        Series(f"balance.{key}right_after_{unit}", f"balance.{key}up_after_{unit}", "после"),
-        Series(f"balance_{key}_box.box", f"balance_{key}_box.box", "оси"),
-    )
-    return ChartSpec(f"balance_{key}_vector", SHEET, title, "polar", series, x, y)
+    at = f"balance.{key}"
+    return polar(
+        f"balance_{key}_vector", SHEET, title, axes, f"balance_{key}_box.box",
+        Series(f"{at}{right}_{unit}", f"{at}up_{unit}", "до"),
+        Series(f"{at}right_after_{unit}", f"{at}up_after_{unit}", "после", only="workbook"),
+        caption=f"Конец вектора {of} за оборот до уравновешивания",
+    )  # fmt: skip

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
+from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, columns_of, over_phi
 from reports.spec.shape import Shape
 from reports.tables.loads.cylinder import cylinder_table_id
 
@@ -287,16 +288,15 @@ def inertia_blocks(model: InputFile, rows: tuple[float, ...]) -> tuple[Block, ..
 
 def inertia_charts() -> tuple[ChartSpec, ...]:
     """Reduced inertia exact and approximate, excess work, speed."""
-
-    def over(chart: str, title: str, y: str, *keys: str) -> ChartSpec:
-        series = tuple(Series("inertia.phi_deg", f"inertia.{key}") for key in keys)
-        return ChartSpec(f"inertia_{chart}", SHEET, title, "line", series, "φ, ° ПКВ", y)
-
+    t, one = "inertia", "Приведённый момент инерции одного цилиндра"
     return (
-        over("one", "Приведённый момент инерции одного цилиндра", "I, кг·м²",
-             "I_exact_kgm2", "I_approx_kgm2"),
-        over("engine", "Приведённый момент инерции двигателя без маховика", "I, кг·м²",
-             "I_engine_kgm2"),
-        over("work", "Избыточная работа крутящего момента", "A, Дж", "W_J", "Wgas_J"),
-        over("speed", "Угловая скорость за цикл", "ω, с⁻¹", "omega_1_s"),
+        over_phi("inertia_one", SHEET, one, "I, кг·м²",
+                 *columns_of(t, "I_exact_kgm2", "I_approx_kgm2"),
+                 caption=f"{one}, точно и приближённо"),
+        over_phi("inertia_engine", SHEET, "Приведённый момент инерции двигателя без маховика",
+                 "I, кг·м²", f"{t}.I_engine_kgm2"),
+        over_phi("inertia_work", SHEET, "Избыточная работа крутящего момента", "A, Дж",
+                 *columns_of(t, "W_J", "Wgas_J"), caption="Избыточная работа"),
+        over_phi("inertia_speed", SHEET, "Угловая скорость за цикл", "ω, с⁻¹", f"{t}.omega_1_s",
+                 caption="Угловая скорость вала за цикл", from_zero=False, levels=("omega",)),
     )  # fmt: skip

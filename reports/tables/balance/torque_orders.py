@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import InputFile, TableGasSection
-from reports.spec.blocks import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
+from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi
 from reports.spec.shape import Shape
 from reports.tables.gas.cycle_names import from_cycle, section_of
 from reports.tables.gas.diagram import is_smooth, smooth_pressure
@@ -245,32 +246,32 @@ def torque_order_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Blo
 
 def torque_order_charts(strokes: int) -> tuple[ChartSpec, ...]:
     """Tangential forces, amplitudes by order, suppression over speed, the Д-50."""
-    t = "tangential"
     curves = ("gas", "inertia", "motored") if strokes == 4 else ("gas", "inertia")
+    o, k = "torque_orders", "порядок k"
     general = (
-        ChartSpec("torque_tangential", SHEET, "Удельные тангенциальные силы", "line",
-                  tuple(Series(f"{t}.phi_deg", f"{t}.t_{k}_MPa") for k in curves),
-                  "φ, ° ПКВ", "t, МПа"),
-        ChartSpec("torque_amplitudes", SHEET, "Амплитуды гармоник цилиндра по порядкам", "line",
-                  tuple(Series("torque_orders.order", f"torque_orders.{k}_amplitude_MPa")
-                        for k in ("gas", "inertia", "total")), "порядок k", "t, МПа"),
-        ChartSpec("torque_engine", SHEET, "Амплитуды гармоник момента двигателя", "line",
-                  (Series("torque_orders.order", "torque_orders.M_engine_order_Nm"),),
-                  "порядок k", "M, Н·м"),
+        over_phi("torque_tangential", SHEET, "Удельные тангенциальные силы", "t, МПа",
+                 *columns_of("tangential", *(f"t_{curve}_MPa" for curve in curves))),
+        line("torque_amplitudes", SHEET, "Амплитуды гармоник цилиндра по порядкам", (k, "t, МПа"),
+             Series(f"{o}.order", f"{o}.gas_amplitude_MPa"),
+             Series(f"{o}.order", f"{o}.inertia_amplitude_MPa"),
+             Series(f"{o}.order", f"{o}.total_amplitude_MPa", only="workbook"),
+             caption="Амплитуды гармоник удельной тангенциальной силы по порядкам",
+             y_tex="$t_k^a$, МПа"),
+        line("torque_engine", SHEET, "Амплитуды гармоник момента двигателя", (k, "M, Н·м"),
+             Series(f"{o}.order", f"{o}.M_engine_order_Nm")),
     )  # fmt: skip
     return (*general, *_shaft_charts()) if strokes == 4 else general
 
 
 def _shaft_charts() -> tuple[ChartSpec, ...]:
-    s = "suppression"
+    s, n = "suppression", "n, мин⁻¹"
     return (
-        ChartSpec("suppression", SHAFTS, "Остаток момента 2-го порядка", "line",
-                  tuple(Series(f"{s}.n_rpm", f"{s}.{k}_MPa")
-                        for k in ("t_j2", "residual_bare", "residual_psi")), "n, мин⁻¹", "t, МПа"),
-        ChartSpec("suppression_best", SHAFTS, "Оптимальная степень гашения", "line",
-                  tuple(Series(f"{s}.n_rpm", f"{s}.{k}") for k in ("psi_best", "psi_best_idle")),
-                  "n, мин⁻¹", "ψ"),
-        ChartSpec("d50", SHAFTS, "Двигатель Д-50: tj2 при разных ψ", "line",
-                  tuple(Series("d50.n_rpm", f"d50.t_psi{k}") for k in SUPPRESSIONS),
-                  "n, мин⁻¹", "t, кгс/см²"),
+        line("suppression", SHAFTS, "Остаток момента 2-го порядка", (n, "t, МПа"),
+             *(Series(f"{s}.n_rpm", f"{s}.{k}_MPa")
+               for k in ("t_j2", "residual_bare", "residual_psi")),
+             caption="Инерционный коэффициент второго порядка и остаток момента"),
+        line("suppression_best", SHAFTS, "Оптимальная степень гашения", (n, "ψ"),
+             *(Series(f"{s}.n_rpm", f"{s}.{k}") for k in ("psi_best", "psi_best_idle"))),
+        line("d50", SHAFTS, "Двигатель Д-50: tj2 при разных ψ", (n, "t, кгс/см²"),
+             *(Series("d50.n_rpm", f"d50.t_psi{k}") for k in SUPPRESSIONS)),
     )  # fmt: skip

@@ -8,7 +8,8 @@ from kshm.cycle.usual_ranges import usual_ranges
 from kshm.results.cycle import DIAGRAM_STEP, SPEED_STEP, diagram_rows, speed_rows
 from reports.inputs.sections.cycle import CycleSection
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
+from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, Series, line, over_phi
 from reports.tables.gas.cycle_names import SHEET, SOURCE, is_boosted, section_of
 
 SPEED_SHEET, DIAGRAM_SHEET, RANGE_SHEET = "ВСХ", "Диаграмма цикла", "Правдоподобие цикла"
@@ -217,45 +218,25 @@ def cycle_charts(model: InputFile) -> tuple[ChartSpec, ...]:
     """Charts of the cycle's sheets."""
     if section_of(model) is None:
         return ()
-    charts = [
-        ChartSpec(
-            "cycle_pv",
-            DIAGRAM_SHEET,
-            "Диаграмма цикла p–V: расчетная и принятая в динамике",
-            "line",
-            (
-                Series("cycle_diagram.cd_V_dm3", "cycle_diagram.cd_p_MPa", "расчетный цикл"),
-                Series("gas.volume_dm3", "gas.p_MPa", "принято в динамике"),
-            ),
-            "V, дм³",
-            "p, МПа",
-        ),
-        ChartSpec(
-            "cycle_T",
-            DIAGRAM_SHEET,
-            "Температура газов в цилиндре",
-            "line",
-            (Series("cycle_diagram.phi_deg", "cycle_diagram.cd_T_K"),),
-            "угол, ° ПКВ",
-            "T, К",
-        ),
-    ]
     names = (
         ("Ne", "Эффективная мощность", "Nе, кВт"),
         ("Me", "Эффективный крутящий момент", "Mе, Н·м"),
         ("ge", "Удельный расход топлива", "gе, г/(кВт·ч)"),
         ("Gf", "Часовой расход топлива", "Gт, кг/ч"),
     )
-    charts += [
-        ChartSpec(
-            f"speed_{key}",
-            SPEED_SHEET,
-            f"{title} по внешней характеристике",
-            "line",
-            (Series("speed.speed_n", f"speed.speed_{key}"),),
-            "n, мин⁻¹",
-            label,
-        )
-        for key, title, label in names
-    ]
-    return tuple(charts)
+    return (
+        line("cycle_pv", DIAGRAM_SHEET, "Диаграмма цикла p–V: расчетная и принятая в динамике",
+             ("V, дм³", "p, МПа"),
+             Series("cycle_diagram.cd_V_dm3", "cycle_diagram.cd_p_MPa", "расчетный цикл"),
+             Series("gas.volume_dm3", "gas.p_MPa", "принято в динамике", only="workbook"),
+             caption="Нескруглённая индикаторная диаграмма рассчитанного цикла",
+             levels=("gas_ambient_pressure_mpa",)),
+        over_phi("cycle_T", DIAGRAM_SHEET, "Температура газов в цилиндре", "T, К",
+                 "cycle_diagram.cd_T_K", x=("phi_deg", "угол, ° ПКВ"), from_zero=False,
+                 caption="Температура газов в цилиндре при сжатии, сгорании и расширении"),
+        *(
+            line(f"speed_{key}", SPEED_SHEET, f"{title} по внешней характеристике",
+                 ("n, мин⁻¹", label), Series("speed.speed_n", f"speed.speed_{key}"))
+            for key, title, label in names
+        ),
+    )  # fmt: skip

@@ -6,17 +6,8 @@ from kshm.engine.arrangement import throws as throws_of
 from kshm.results.pin_bearing import PLANES
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import arrangement_of
-from reports.spec.blocks import (
-    Block,
-    ChartSpec,
-    Column,
-    Grid,
-    GridRow,
-    Scalar,
-    ScalarTable,
-    Series,
-    TableSpec,
-)
+from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, Series, over_phi, polar
 from reports.spec.extremes import NEVER, TIE, extreme_columns, extreme_scalars
 from reports.spec.shape import Shape, rods_table
 from reports.tables.loads.cylinder import cylinder_table_id
@@ -385,35 +376,36 @@ def _compared(model: InputFile) -> Grid:
 def bearing_charts(model: InputFile) -> tuple[ChartSpec, ...]:
     """Diagrams of the bearings, bending in the hole's plane, both schemes over the angle."""
     arrangement = arrangement_of(model)
+    journals = range(1, len(model.crankshaft.throw_angles_deg) + 2)
+    of = "нагрузки на {} подшипник"
     made: list[ChartSpec] = []
     if all(c.master is None for c in arrangement):
         made.append(
-            ChartSpec("rod_bearing", BEARING, "Нагрузка на шатунный подшипник", "polar",
-                      (Series("rod_bearing.Bx_MPa", "rod_bearing.By_MPa", "B"),
-                       Series("rod_bearing_box.box", "rod_bearing_box.box", "оси")),
-                      "поперёк шатуна, МПа", "вдоль шатуна к поршню, МПа")
+            polar("rod_bearing", BEARING, "Нагрузка на шатунный подшипник",
+                  ("поперёк шатуна, МПа", "вдоль шатуна к поршню, МПа"), "rod_bearing_box.box",
+                  Series("rod_bearing.Bx_MPa", "rod_bearing.By_MPa", "B"),
+                  caption=f"Полярная диаграмма {of.format('шатунный')}")
         )  # fmt: skip
     if all(c.pin_angle == 0 for c in arrangement):
-        x = "pin_bending.phi_deg"
         made.append(
-            ChartSpec("pin_bending", BENDING, "Момент, изгибающий шейку в плоскости отверстия",
-                      "line", (Series(x, "pin_bending.Malpha_Nm"),), "φ, ° ПКВ", "M, Н·м", "31")
+            over_phi("pin_bending", BENDING, "Момент, изгибающий шейку в плоскости отверстия",
+                     "M, Н·м", "pin_bending.Malpha_Nm", figure="31",
+                     caption="Момент, изгибающий шатунную шейку в плоскости масляного отверстия")
         )  # fmt: skip
-    journals = range(1, len(model.crankshaft.throw_angles_deg) + 2)
-    for k in journals:
-        table = f"P4_3_{k}"
-        made.append(
-            ChartSpec(f"main_bearing_{k}", f"П4.3 ({k})", f"Нагрузка на коренной подшипник {k}",
-                      "polar", (Series(f"{table}.block_x_MPa", f"{table}.block_y_MPa", "Q"),
-                                Series(f"{table}_box.box", f"{table}_box.box", "оси")),
-                      "Qx, МПа (влево)", "Qy, МПа")
-        )  # fmt: skip
+    made += [
+        polar(f"main_bearing_{k}", f"П4.3 ({k})", f"Нагрузка на коренной подшипник {k}",
+              ("Qx, МПа (влево)", "Qy, МПа"), f"P4_3_{k}_box.box",
+              Series(f"P4_3_{k}.block_x_MPa", f"P4_3_{k}.block_y_MPa", "Q"), x_reversed=True,
+              caption=f"Полярная диаграмма {of.format('коренной')} {k}")
+        for k in journals
+    ]  # fmt: skip
     if has_continuous(model):
         x = "continuous.phi_deg"
         made += [
-            ChartSpec(f"continuous_{k}", SHAFT, f"Опора {k}: разрезная и неразрезная схемы", "line",
-                      (Series(x, f"P4_3_{k}.R_MPa", "разрезная"),
-                       Series(x, f"continuous.Rc{k}_MPa", "неразрезная")), "φ, ° ПКВ", "R, МПа")
+            over_phi(f"continuous_{k}", SHAFT, f"Опора {k}: разрезная и неразрезная схемы",
+                     "R, МПа", Series(x, f"P4_3_{k}.R_MPa", "разрезная"),
+                     Series(x, f"continuous.Rc{k}_MPa", "неразрезная"),
+                     caption=f"Реакция опоры {k} по двум схемам")
             for k in journals
         ]  # fmt: skip
     return tuple(made)

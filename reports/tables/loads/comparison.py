@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from kshm.results.regimes import regime_key
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Block, ChartSpec, Grid, GridRow, Scalar, ScalarTable, Series
+from reports.spec.blocks import Block, Grid, GridRow, Scalar, ScalarTable
+from reports.spec.charts import ChartSpec, Series, over_phi
 from reports.spec.extremes import TIE
 from reports.tables.loads.regimes import RegimeModel
 
@@ -108,20 +109,10 @@ def comparison_charts(model: InputFile) -> tuple[ChartSpec, ...]:
     """The forces of all regimes over the crank angle, figures 23-25 laid over each other."""
     if not model.regimes:
         return ()
-    titles = regime_titles(model)
+    tables = [(_key("P4_1", n), name) for n, name in enumerate(regime_titles(model), 1)]
     return tuple(
-        ChartSpec(
-            f"fig{chart}",
-            SHEET,
-            title,
-            "line",
-            tuple(
-                Series(f"{_key('P4_1', n)}.phi_deg", f"{_key('P4_1', n)}.{column}", name)
-                for n, name in enumerate(titles, 1)
-            ),
-            "φ, ° ПКВ",
-            y,
-            "23–25",
-        )
+        over_phi(f"fig{chart}", SHEET, title, y,
+                 *(Series(f"{table}.phi_deg", f"{table}.{column}", name) for table, name in tables),
+                 figure="23–25")
         for chart, column, title, y in _CHARTS
-    )
+    )  # fmt: skip

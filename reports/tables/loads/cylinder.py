@@ -5,6 +5,7 @@ from __future__ import annotations
 from reports.inputs.sections.gas import RoundedGasSection
 from reports.inputs.sections.input_file import InputFile, TableGasSection
 from reports.spec.blocks import Block, Column, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi
 from reports.spec.shape import TIMING, Shape
 from reports.tables.gas.diagram import diagram_blocks
 from reports.tables.gas.pressure import WORK, Corners, corner_points, pressure
@@ -161,3 +162,25 @@ def cylinder_blocks(model: InputFile, rows: tuple[float, ...]) -> tuple[Block, .
     if model.crankshaft.force_offsets_deg is not None:
         blocks += [shifted_table(model, rows, i, forced=True) for i in range(1, count + 1)]
     return tuple(blocks)
+
+
+def cylinder_charts() -> tuple[ChartSpec, ...]:
+    """Indicator diagram, figure 22, and forces of a cylinder, figures 46-48."""
+    ambient = ("gas_ambient_pressure_mpa",)
+    return (
+        line("pv", "Газы", "Индикаторная диаграмма p–V", ("V, дм³", "p, МПа"),
+             Series("gas.volume_dm3", "gas.p_MPa", "p"), figure="22", levels=ambient,
+             caption="Индикаторная диаграмма в координатах p–V"),
+        over_phi("p_phi", "Газы", "Развёрнутая индикаторная диаграмма", "p, МПа", "gas.p_MPa",
+                 figure="22", levels=ambient,
+                 caption="Индикаторная диаграмма, развёрнутая по углу поворота вала"),
+        over_phi("fig46", "П4.1", "Удельные силы p′г, p′j и p′s", "p′, МПа",
+                 *columns_of("P4_1", "Pg_MPa", "Pj_MPa", "Ps_MPa"), figure="46",
+                 caption="Удельные силы давления газов, инерции и их сумма"),
+        over_phi("fig47", "П4.1", "Удельные силы N и S", "МПа",
+                 *columns_of("P4_1", "N_MPa", "S_MPa"), figure="47",
+                 caption="Удельные силы на стенку цилиндра и вдоль шатуна"),
+        over_phi("fig48", "П4.1", "Удельные силы K и T", "МПа",
+                 *columns_of("P4_1", "K_MPa", "T_MPa"), figure="48",
+                 caption="Удельные нормальная и тангенциальная силы на кривошипе"),
+    )  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, TableSpec
+from reports.spec.charts import ChartSpec, Series, columns_of, over_phi, polar
 from reports.spec.extremes import extreme_columns
 from reports.spec.shape import Shape, pin_name, rods_table
 from reports.tables.loads.cylinder import cylinder_table_id
@@ -346,3 +347,55 @@ def journal_blocks(shape: Shape, rows: tuple[float, ...], *, forced: bool) -> tu
     ]
     boxes += [box(f"P4_3_{k}", f"Rmain{k}", f"П4.3 ({k})") for k in journals]
     return *rods_tables(shape, rows), *crankpins, throws_grid(shape), *tables, *boxes
+
+
+def pin_charts(shape: Shape) -> tuple[ChartSpec, ...]:
+    """Figures 50 and 51 of every crankpin; in the report the forces of two rods on a throw."""
+    made = [] if shape.single_rods else list(_rods_charts(rods_table(1)))
+    for number in range(1, len(shape.pins) + 1):
+        n = pin_name(number)
+        end = f"_{n}" if n else ""
+        name, table = f" {number}" if len(shape.pins) > 1 else "", f"crankpin{end}"
+        sheet = f"Шатунная шейка {n}".strip()
+        of = f"на шатунную шейку{name}"
+        # The report's captions number only the further pins.
+        caption = f"на шатунную шейку {n}".strip()
+        made += [
+            polar(f"fig50{end}", sheet, f"Полярная диаграмма нагрузки {of}",
+                  ("T, МПа", "K − Kr ш, МПа (вниз — к оси вала)"), f"{table}_box.box",
+                  Series(f"{table}.T_MPa", f"{table}.Krod_MPa", "R′ш.ш", only="workbook"),
+                  Series(f"{table}.T_MPa", f"{table}.K_MPa", "R′ш.ш", only="report"),
+                  figure="50", y_reversed=True,
+                  caption=f"Полярная диаграмма удельной нагрузки {caption}"),
+            over_phi(f"fig51{end}", sheet, f"Нагрузка {of}", "R, МПа", f"{table}.Rpin_MPa",
+                     figure="51", levels=(f"Rpin{n}_mean",), extremes=True,
+                     caption=f"Развёрнутая диаграмма нагрузки {caption}"),
+        ]  # fmt: skip
+    return tuple(made)
+
+
+def _rods_charts(table: str) -> tuple[ChartSpec, ...]:
+    return (
+        over_phi("rods_T", "", "Тангенциальные силы двух шатунов первого колена и их сумма",
+                 "T, МПа", *columns_of(table, "Tleft_MPa", "Tright_MPa", "T_MPa")),
+        over_phi("rods_R", "", "Удельная сила, действующая на первое колено", "R, МПа",
+                 f"{table}.Rthrow_MPa"),
+    )  # fmt: skip
+
+
+def journal_charts(shape: Shape) -> tuple[ChartSpec, ...]:
+    """Figures 53 and 55 of every main journal."""
+    made = []
+    for k in range(1, shape.throws + 2):
+        table, sheet, of = f"P4_3_{k}", f"П4.3 ({k})", f"нагрузки на коренную шейку {k}"
+        made += [
+            polar(f"fig53_{k}", sheet, f"Полярная диаграмма {of}",
+                  ("R′x, МПа (влево)", "R′y, МПа"), f"{table}_box.box",
+                  Series(f"{table}.Rx_MPa", f"{table}.Ry_MPa", f"R′к.ш{k}"),
+                  figure="53", x_reversed=True,
+                  caption=f"Полярная диаграмма удельной {of}"),
+            over_phi(f"fig55_{k}", sheet, f"Нагрузка на коренную шейку {k}", "R, МПа",
+                     f"{table}.R_MPa", figure="55", levels=(f"Rmain{k}_mean",),
+                     caption=f"Развёрнутая диаграмма {of}"),
+        ]  # fmt: skip
+    return tuple(made)

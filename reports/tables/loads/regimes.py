@@ -14,7 +14,8 @@ from kshm.results.regimes import main_only, regime_key
 from reports.formula.parse import names
 from reports.inputs.fields import Field, iter_fields
 from reports.inputs.sections.input_file import InputFile, Regime
-from reports.spec.blocks import Block, ChartSpec, Grid, Scalar, ScalarTable, TableSpec, scalars_of
+from reports.spec.blocks import Block, Grid, Scalar, ScalarTable, TableSpec, scalars_of
+from reports.spec.charts import ChartSpec
 from reports.spec.rename import renamed, with_names
 
 _LEFT_OUT = frozenset({"checks"})
@@ -134,7 +135,7 @@ class RegimeModel:
 
     def sheet(self, title: str) -> str:
         """Title of the regime's sheet."""
-        return f"{title} р{self.number}"
+        return f"{title} р{self.number}" if title else ""
 
     def renamed_charts(self) -> tuple[ChartSpec, ...]:
         """Charts whose curves are all of copied tables."""
@@ -151,6 +152,8 @@ class RegimeModel:
                     sheet=self.sheet(chart.sheet),
                     title=f"{chart.title}, режим {self.number}",
                     series=series,
+                    levels=tuple(map(self.name, chart.levels)),
+                    hole=self.name(chart.hole),
                 )
             )
         return tuple(made)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from reports.spec.blocks import Block, Column, TableSpec
+from reports.spec.charts import ChartSpec, over_phi
 from reports.spec.extremes import extreme_columns
 from reports.spec.shape import Shape, rods_table
 from reports.tables.loads.cylinder import cylinder_table_id
@@ -90,3 +91,22 @@ def rod_shares(shape: Shape) -> tuple[str, str]:
     An articulated rod pushes where its master rod does.
     """
     return ("share", "share") if shape.articulated else ("share", "share2")
+
+
+def torque_charts(shape: Shape) -> tuple[ChartSpec, ...]:
+    """Figures 49, 56 and 57."""
+    y = "M, Н·м"
+    return (
+        over_phi("fig49", "П4.2", "Индикаторный крутящий момент двигателя", y, "P4_2.Msum_Nm",
+                 figure="49", y_tex=r"$M_{\mathrm{кр}}$, Н·м", levels=("M_mean",), extremes=True),
+        *(
+            over_phi(f"fig56_{k}", "П4.4", f"Набегающий момент на коренную шейку {k}", y,
+                     f"P4_4.Mmain{k}_Nm", figure="56")
+            for k in range(2, shape.throws + 2)
+        ),
+        *(
+            over_phi(f"fig57_{i}", "П4.5", f"Набегающий момент на шатунную шейку {i}", y,
+                     f"P4_5.Mpin{i}_Nm", figure="57")
+            for i in range(1, shape.throws + 1)
+        ),
+    )  # fmt: skip

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from kshm.nomenclature.quantity import ray_key, roman
 from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, TableSpec
+from reports.spec.charts import ChartSpec, wear
 from reports.spec.extremes import NEVER, TIE
+from reports.spec.shape import Shape, pin_name
 
 HALF = f"(0.5 - {TIE})"  # cos 60°; the window includes its edges
 
@@ -105,3 +107,24 @@ def hole_scalars(name: str, rays: int) -> tuple[Scalar, Scalar]:
         Scalar(f"{key}_ray", f"min({candidates})", "Гоц, рис. 33"),
         Scalar(f"{key}_deg", f"mod(({key}_ray - 1)*360/{rays} + 180, 360)", "Гоц, 2.6"),
     )
+
+
+def wear_charts(shape: Shape) -> tuple[ChartSpec, ...]:
+    """Figures 52 and 54: the conditional diagrams of all crankpins and main journals."""
+    several = len(shape.pins) > 1
+    made = []
+    for number in range(1, len(shape.pins) + 1):
+        n = pin_name(number)
+        made.append(
+            wear(f"fig52_{n}".rstrip("_"), f"Износ ш.ш ({n})" if n else "Износ ш.ш",
+                 f"Условная диаграмма износа шатунной шейки{f' {number}' if several else ''}",
+                 f"table_14_pin_{n}_sums" if n else "table_14_sums", f"hole_pin{n}_deg",
+                 figure="52", caption=f"Условная диаграмма износа шатунной шейки {n}".strip())
+        )  # fmt: skip
+    for k in range(1, shape.throws + 2):
+        made.append(
+            wear(f"fig54_{k}", f"Износ к.ш ({k})",
+                 f"Условная диаграмма износа коренной шейки {k}", f"table_14_main_{k}_sums",
+                 f"hole_main{k}_deg", figure="54")
+        )  # fmt: skip
+    return tuple(made)

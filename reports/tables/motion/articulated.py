@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, over_phi
 from reports.spec.shape import TIMING, Shape
 from reports.tables.gas.pressure import WORK, Corners, pressure
 
@@ -237,3 +238,12 @@ def hung_table(model: InputFile, rows: tuple[float, ...], number: int) -> TableS
 
 def _force(key: str, text: str) -> Column:
     return Column(key, text, "статика шатунов", helper=True, of=f"hung_{key}")
+
+
+def hung_charts() -> tuple[ChartSpec, ...]:
+    """Motion of the articulated rod's piston, in the report alone."""
+    of = "поршня прицепного шатуна"
+    return (
+        over_phi("articulated_s", "", f"Перемещение {of}", "s, мм", "articulated.x_exact_mm"),
+        over_phi("articulated_j", "", f"Ускорение {of}", "j, м/с²", "articulated.j_exact_m_s2"),
+    )

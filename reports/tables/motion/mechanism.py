@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from reports.inputs.sections.input_file import DesignGeometrySection, GeometrySection, InputFile
 from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, only, over_phi
 from reports.spec.shape import Shape
 
 EXACT_LABEL_FIELD = "calculation_method"
@@ -219,3 +220,42 @@ def acceleration(model: InputFile, phi: str, beta: str) -> str:
     if Shape.of(model).offset:
         two_term = OFFSET_TWO_TERM.format(phi=phi)
     return f'({exact}) if calculation_method == "{METHODS["exact"]}" else ({two_term})'
+
+
+def kinematic_charts(shape: Shape) -> tuple[ChartSpec, ...]:
+    """Figures 41-45; the report shows the offset's own terms in place of the harmonics."""
+    captions = ("Перемещение поршня и его гармоники", "Скорость поршня и её гармоники",
+                "Ускорение поршня и его гармоники")  # fmt: skip
+    further: tuple[tuple[str, ...], ...] = ((), (), ())
+    if shape.offset:
+        captions = ("", "", "Ускорение поршня дезаксиального и центрального механизмов")
+        further = (("P3_1.sk_mm",), ("P3_1.vk_m_s",), ("offset.j_central_m_s2", "P3_1.jk_m_s2"))
+    motion = (
+        ("fig41", "Перемещение поршня", "s, мм", ("s_mm", "s1_mm", "s2_mm")),
+        ("fig42", "Скорость поршня", "v, м/с", ("v_m_s", "v1_m_s", "v2_m_s")),
+        ("fig43", "Ускорение поршня", "j, м/с²", ("j_m_s2", "j1_m_s2", "j2_m_s2")),
+    )
+    made = []
+    for (chart, title, y, keys), caption, own in zip(motion, captions, further, strict=True):
+        whole, *parts = (f"P3_1.{key}" for key in keys)
+        orders = only("workbook", *parts) if shape.offset else parts
+        made.append(
+            over_phi(chart, "П3.1", title, y, whole, *orders, *only("report", *own),
+                     figure=chart[3:], caption=caption)
+        )  # fmt: skip
+    made.append(
+        over_phi("fig44", "П3.2", "Угловое перемещение шатуна", "β, рад", "P3_2.beta_rad",
+                 figure="44", caption="Угол отклонения шатуна")
+    )  # fmt: skip
+    swing = (
+        ("a", "omega_rod_{}_1_s", "Угловая скорость", "ω, с⁻¹", r"\omega"),
+        ("b", "eps_rod_{}_1_s2", "Угловое ускорение", "ε, с⁻²", r"\varepsilon"),
+    )
+    for letter, kind, title, y, tex in swing:
+        exact, near = (f"P3_2.{kind.format(way)}" for way in ("exact", "approx"))
+        approximate = only("workbook", near) if shape.offset else (near,)
+        made.append(
+            over_phi(f"fig45{letter}", "П3.2", f"{title} качания шатуна", y, exact, *approximate,
+                     figure="45", y_tex=rf"${tex}_{{\mathrm{{ш}}}}$, {y[3:]}")
+        )  # fmt: skip
+    return tuple(made)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from reports.spec.blocks import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
-from reports.tables.motion.segal import J, S, V, filled, rows
+from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, columns_of, over_phi
+from reports.tables.motion.segal import ALPHA, TITLES, J, S, V, filled, rows
 
 SHEET, RESULTS, TABLES = "Нейман", "Нейман, ряд", "Нейман 1-4"
 SHOWN = (1, 2, 4, 6)
@@ -140,37 +141,16 @@ def neiman_blocks() -> tuple[Block, ...]:
 
 def neiman_charts() -> tuple[ChartSpec, ...]:
     """Figures 2-4, 6, 9 for the engine's λ."""
-    x = "neiman_motion.alpha_deg"
-    made = []
-    names = {"s": ("Перемещение", "4"), "v": ("Скорость", "6"), "j": ("Ускорение", "9")}
-    for letter, (title, _) in names.items():
-        keys = [f"{letter}_exact", *(f"{letter}_order{n}" for n in (1, 2, 4))]
-        series = tuple(Series(x, f"neiman_motion.{key}") for key in keys)
-        made.append(
-            ChartSpec(
-                f"neiman_{letter}",
-                SHEET,
-                f"{title} поршня и его гармоники",
-                "line",
-                series,
-                "α, °",
-                letter,
-            )
-        )
-    one = (
-        ("rod", "Угловая скорость шатуна на шатунной шейке", "rod_on_pin_rel", "(dΦ/dt)/ω"),
-        ("rod_acceleration", "Угловое ускорение шатуна", "rod_acceleration_rel", "Θ/ω²"),
-    )
-    made += [
-        ChartSpec(
-            f"neiman_{key}",
-            SHEET,
-            title,
-            "line",
-            (Series(x, f"neiman_motion.{column}"),),
-            "α, °",
-            y,
-        )
-        for key, title, column, y in one
-    ]
-    return tuple(made)
+    t = "neiman_motion"
+    return (
+        *(
+            over_phi(f"neiman_{letter}", SHEET, f"{title} поршня и его гармоники", letter,
+                     *columns_of(t, f"{letter}_exact", *(f"{letter}_order{n}" for n in (1, 2, 4))),
+                     x=ALPHA)
+            for letter, title in TITLES.items()
+        ),
+        over_phi("neiman_rod", SHEET, "Угловая скорость шатуна на шатунной шейке", "(dΦ/dt)/ω",
+                 f"{t}.rod_on_pin_rel", x=ALPHA),
+        over_phi("neiman_rod_acceleration", SHEET, "Угловое ускорение шатуна", "Θ/ω²",
+                 f"{t}.rod_acceleration_rel", x=ALPHA),
+    )  # fmt: skip

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from reports.spec.blocks import Block, ChartSpec, Column, Grid, GridRow, Scalar, Series, TableSpec
+from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, TableSpec
+from reports.spec.charts import ChartSpec, Series, over_phi
 
 SHEET = "Дезаксиал"
 _PHI = "rad(phi_deg)"
@@ -140,32 +141,16 @@ def _sketch() -> Grid:
 def offset_charts() -> tuple[ChartSpec, ...]:
     """Figures 11 and 12."""
     at = "offset_sketch.sketch"
-    return (
-        ChartSpec(
-            "fig11",
-            SHEET,
-            "Схема дезаксиального механизма при φ = 60°",
-            "path",
-            (
-                Series(f"{at}_axis_x", f"{at}_axis_y", "ось цилиндра"),
-                Series(f"{at}_rod_x", f"{at}_rod_y", "кривошип и шатун"),
-            ),
-            "",
-            "",
-            "11",
-        ),
-        ChartSpec(
-            "fig12",
-            SHEET,
-            "Ускорение поршня дезаксиального и центрального механизмов",
-            "line",
-            (
-                Series("offset.phi_deg", "P3_1.j_m_s2", "jд"),
-                Series("offset.phi_deg", "offset.j_central_m_s2", "jц"),
-                Series("offset.phi_deg", "offset.j_exact_m_s2", "jд точное"),
-            ),
-            "φ, ° ПКВ",
-            "j, м/с²",
-            "12",
-        ),
+    curves = (
+        Series(f"{at}_axis_x", f"{at}_axis_y", "ось цилиндра"),
+        Series(f"{at}_rod_x", f"{at}_rod_y", "кривошип и шатун"),
     )
+    return (
+        ChartSpec("fig11", SHEET, "Схема дезаксиального механизма при φ = 60°", "scheme", curves,
+                  figure="11", x_reversed=True),
+        over_phi("fig12", SHEET, "Ускорение поршня дезаксиального и центрального механизмов",
+                 "j, м/с²",
+                 Series("offset.phi_deg", "P3_1.j_m_s2", "jд"),
+                 Series("offset.phi_deg", "offset.j_central_m_s2", "jц"),
+                 Series("offset.phi_deg", "offset.j_exact_m_s2", "jд точное"), figure="12"),
+    )  # fmt: skip

@@ -4,17 +4,8 @@ from __future__ import annotations
 
 from kshm.results.reference import FIGURE_6
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import (
-    Block,
-    ChartSpec,
-    Column,
-    Grid,
-    GridRow,
-    Scalar,
-    ScalarTable,
-    Series,
-    TableSpec,
-)
+from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi, polar
 
 MOTION, SPEED, VECTORS, SKETCH = "Рис. 3–10", "Рис. 6", "Рис. 20", "Рис. 5"
 KINEMATIC, FORCES = "Табл. 1–3", "Табл. 5–8"
@@ -248,60 +239,61 @@ def _drawing() -> tuple[Grid, ...]:
 
 def reference_charts(model: InputFile) -> tuple[ChartSpec, ...]:
     """Figure 20 always, figures 3-10 and 5 with the section [reference]."""
-    made = [
-        _vector_chart("fig20a", "20, а, в", "Сила инерции первого порядка", "1", "C"),
-        _vector_chart("fig20b", "20, б, г", "Сила инерции второго порядка", "2", "λC"),
-        _over("fig20p", "20", VECTORS, "Силы инерции первого и второго порядков", "Pj, кН",
-              "vectors.Pj1_kN", "vectors.Pj2_kN"),
-    ]  # fmt: skip
-    if model.reference is None:
-        return tuple(made)
-    count = len(model.reference.lambdas)
-    values = [f"{value:.4g}".replace(".", ",") for value in model.reference.lambdas]
+    made = (
+        _vector_chart("fig20a", "20, а, в", "первого", "1", "C"),
+        _vector_chart("fig20b", "20, б, г", "второго", "2", "λC"),
+        over_phi("fig20p", VECTORS, "Силы инерции первого и второго порядков", "Pj, кН",
+                 "vectors.Pj1_kN", "vectors.Pj2_kN", figure="20"),
+    )  # fmt: skip
+    return made if model.reference is None else (*made, *_reference_charts(model.reference.lambdas))
 
-    def motion(figure: str, title: str, y: str, *keys: str) -> ChartSpec:
-        names = [f"ref_motion.{key}" for key in keys]
-        return _over(f"ref_fig{figure}", figure, MOTION, title, y, *names)
 
-    j_curves = tuple(
-        Series("ref_3.phi_deg", f"ref_3.ref_lambda{i}", f"λ{i} = {values[i - 1]}")
-        for i in range(1, min(count, 6) + 1)
+def _reference_charts(lambdas: tuple[float, ...]) -> tuple[ChartSpec, ...]:
+    def motion(figure: str, title: str, y: str, keys: str, caption: str = "") -> ChartSpec:
+        columns = columns_of("ref_motion", *keys.split())
+        return over_phi(f"ref_fig{figure}", MOTION, title, y, *columns, figure=figure,
+                        caption=caption)  # fmt: skip
+
+    curves = (
+        Series("ref_3.phi_deg", f"ref_3.ref_lambda{i}", f"λ{i} = {value:.4g}".replace(".", ","))
+        for i, value in enumerate(lambdas[:6], 1)
     )
     x = "ref_fig6.lambda_value"
     return (
-        *made,
-        motion("3", "Перемещение поршня", "s/r", "s_rel", "s1_rel", "s2_rel"),
-        motion("4", "Скорость поршня", "v/(rω)", "v_rel", "v1_rel", "v2_rel"),
-        motion("7", "Ускорение поршня", "j/(rω²)", "j_rel", "j1_rel", "j2_rel"),
-        motion("10", "Угловые скорость и ускорение шатуна", "ω/ω, ε/ω²", "omega_rod_rel",
-               "eps_rod_rel"),
-        ChartSpec("ref_fig8", MOTION, "Ускорение поршня при разных λ", "line", j_curves,
-                  "φ, ° ПКВ", "j/(rω²)", "8"),
-        ChartSpec("ref_fig6a", SPEED, "Угол наибольшей скорости поршня", "line",
-                  (Series(x, "ref_fig6.phi_vmax_deg"),), "λ", "φ, °", "6"),
-        ChartSpec("ref_fig6b", SPEED, "Отношение наибольшей скорости к средней", "line",
-                  (Series(x, "ref_fig6.v_ratio"), Series(x, "ref_fig6.v1_ratio")), "λ", "v/cm",
-                  "6"),
-        ChartSpec("ref_fig5", SKETCH, "Графическое определение скорости поршня", "polar",
-                  (Series("draw_circle.draw_x", "draw_circle.draw_y", "кривошип"),
-                   Series("draw_links.draw_x", "draw_links.draw_y", "звенья"),
-                   Series("draw_cut.draw_x", "draw_cut.draw_y", "отрезок OH"),
-                   Series("draw_box.draw_x", "draw_box.draw_x", "оси")), "x/r", "y/r", "5, 9"),
+        motion("3", "Перемещение поршня", "s/r", "s_rel s1_rel s2_rel",
+               "Перемещение поршня и его гармоники"),
+        motion("4", "Скорость поршня", "v/(rω)", "v_rel v1_rel v2_rel",
+               "Скорость поршня и её гармоники"),
+        motion("7", "Ускорение поршня", "j/(rω²)", "j_rel j1_rel j2_rel",
+               "Ускорение поршня и его гармоники"),
+        motion("10", "Угловые скорость и ускорение шатуна", "ω/ω, ε/ω²",
+               "omega_rod_rel eps_rod_rel"),
+        over_phi("ref_fig8", MOTION, "Ускорение поршня при разных λ", "j/(rω²)", *curves,
+                 figure="8"),
+        line("ref_fig6a", SPEED, "Угол наибольшей скорости поршня", ("λ", "φ, °"),
+             Series(x, "ref_fig6.phi_vmax_deg"), figure="6", from_zero=False),
+        line("ref_fig6b", SPEED, "Отношение наибольшей скорости к средней", ("λ", "v/cm"),
+             Series(x, "ref_fig6.v_ratio"), Series(x, "ref_fig6.v1_ratio", only="workbook"),
+             figure="6", from_zero=False,
+             caption="Отношение наибольшей скорости поршня к средней"),
+        polar("ref_fig5", SKETCH, "Графическое определение скорости поршня", ("x/r", "y/r"),
+              "draw_box.draw_x",
+              Series("draw_circle.draw_x", "draw_circle.draw_y", "кривошип"),
+              Series("draw_links.draw_x", "draw_links.draw_y", "звенья"),
+              Series("draw_cut.draw_x", "draw_cut.draw_y", "отрезок OH"), figure="5, 9"),
     )  # fmt: skip
 
 
-def _over(
-    chart: str, figure: str, sheet: str, title: str, y: str, *columns: str
-) -> ChartSpec:  # fmt: skip
-    x = columns[0].split(".")[0] + ".phi_deg"
-    series = tuple(Series(x, column) for column in columns)
-    return ChartSpec(chart, sheet, title, "line", series, "φ, ° ПКВ", y, figure)
-
-
-def _vector_chart(chart: str, figure: str, title: str, order: str, vector: str) -> ChartSpec:
-    series = (
-        Series(f"vectors.C{order}_x_kN", f"vectors.C{order}_y_kN", f"конец вектора {vector}"),
-        Series(f"vectors.rose{order}_x_kN", f"vectors.rose{order}_y_kN", f"Pj{order}"),
-        Series(f"vector{order}_box.box_kN", f"vector{order}_box.box_kN", "оси"),
+def _vector_chart(chart: str, figure: str, word: str, order: str, vector: str) -> ChartSpec:
+    x, y = (f"vectors.{{}}{order}_{axis}_kN" for axis in "xy")
+    return polar(
+        chart,
+        VECTORS,
+        f"Сила инерции {word} порядка",
+        ("кН", "кН"),
+        f"vector{order}_box.box_kN",
+        Series(x.format("C"), y.format("C"), f"конец вектора {vector}", only="workbook"),
+        Series(x.format("rose"), y.format("rose"), f"Pj{order}"),
+        figure=figure,
+        caption=f"Сила инерции {word} порядка в полярных координатах",
     )
-    return ChartSpec(chart, VECTORS, title, "polar", series, "кН", "кН", figure)

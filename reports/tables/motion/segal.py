@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from reports.spec.blocks import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
+from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi
 
 SHEET, FIRST, SECOND = "Сегаль", "Сегаль 2, 3", "Сегаль 4, 5"
 RESULTS = "Сегаль, итоги"
@@ -13,6 +14,8 @@ _BETA = "asin({lam}*sin(rad(alpha_deg)))"
 S = "1 - cos(rad(alpha_deg)) + (1 - cos({beta}))/{lam}"
 V = "sin(rad(alpha_deg) + {beta})/cos({beta})"
 J = "cos(rad(alpha_deg) + {beta})/cos({beta}) + {lam}*cos(rad(alpha_deg))**2/cos({beta})**3"
+ALPHA = ("alpha_deg", "α, °")
+TITLES = {"s": "Перемещение", "v": "Скорость", "j": "Ускорение"}
 _INDEX = Column("alpha_deg", None)
 _NEVER = "9999"
 
@@ -173,46 +176,19 @@ def segal_blocks() -> tuple[Block, ...]:
 
 def segal_charts() -> tuple[ChartSpec, ...]:
     """Exact curves with the approximate ones, errors and the inverse problem."""
-    made = []
-    for letter, title in (("s", "Перемещение"), ("v", "Скорость"), ("j", "Ускорение")):
-        series = [
-            Series("segal_errors.alpha_deg", f"segal_errors.{letter}_{way}")
-            for way in ("exact", "two_term")
-        ]
-        made.append(
-            ChartSpec(
-                f"segal_{letter}",
-                SHEET,
-                f"{title} поршня: точно и приближённо",
-                "line",
-                tuple(series),
-                "α, °",
-                letter,
-            )
-        )
-    errors = tuple(Series("segal_errors.alpha_deg", f"segal_errors.d{x}") for x in "svj")
-    inverse = tuple(
+    t = "segal_errors"
+    inverse = (
         Series("segal_inverse.s_given", f"segal_inverse.alpha_{way}_deg")
         for way in ("exact", "quadratic", "small")
     )
     return (
-        *made,
-        ChartSpec(
-            "segal_errors",
-            SHEET,
-            "Погрешности приближённых формул",
-            "line",
-            errors,
-            "α, °",
-            "доля R, ωR, ω²R",
+        *(
+            over_phi(f"segal_{letter}", SHEET, f"{title} поршня: точно и приближённо", letter,
+                     f"{t}.{letter}_exact", f"{t}.{letter}_two_term", x=ALPHA)
+            for letter, title in TITLES.items()
         ),
-        ChartSpec(
-            "segal_inverse",
-            SHEET,
-            "Угол кривошипа по положению поршня",
-            "line",
-            inverse,
-            "s/R",
-            "α, °",
-        ),
-    )
+        over_phi("segal_errors", SHEET, "Погрешности приближённых формул", "доля R, ωR, ω²R",
+                 *columns_of(t, "ds", "dv", "dj"), x=ALPHA),
+        line("segal_inverse", SHEET, "Угол кривошипа по положению поршня", ("s/R", "α, °"),
+             *inverse),
+    )  # fmt: skip

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import GeometrySection, InputFile
-from reports.spec.blocks import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
+from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, only, over_phi
 from reports.spec.extremes import NEVER, TIE
 
 SHEET = "Погрешность"
@@ -109,15 +110,11 @@ def _list(model: InputFile) -> ScalarTable:
 
 def two_term_charts() -> tuple[ChartSpec, ...]:
     """Errors of motion and of the forces over the angle."""
-    x = "two_term.phi_deg"
-
-    def over(chart: str, title: str, y: str, *keys: str) -> ChartSpec:
-        series = tuple(Series(x, f"two_term.{key}") for key in keys)
-        return ChartSpec(chart, SHEET, title, "line", series, "φ, ° ПКВ", y)
-
+    t = "two_term"
     return (
-        over("two_term_s", "Погрешность перемещения поршня", "Δs, мм", "es_mm"),
-        over("two_term_v", "Погрешность скорости поршня", "Δv, м/с", "ev_m_s"),
-        over("two_term_j", "Погрешность ускорения поршня", "Δj, м/с²", "ej_m_s2"),
-        over("two_term_P", "Погрешность удельных сил", "МПа", "ePj_MPa", "eN_MPa", "eT_MPa"),
-    )
+        over_phi("two_term_s", SHEET, "Погрешность перемещения поршня", "Δs, мм", f"{t}.es_mm"),
+        over_phi("two_term_v", SHEET, "Погрешность скорости поршня", "Δv, м/с", f"{t}.ev_m_s"),
+        over_phi("two_term_j", SHEET, "Погрешность ускорения поршня", "Δj, м/с²", f"{t}.ej_m_s2"),
+        over_phi("two_term_P", SHEET, "Погрешность удельных сил", "МПа", f"{t}.ePj_MPa",
+                 *only("workbook", f"{t}.eN_MPa"), f"{t}.eT_MPa"),
+    )  # fmt: skip

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Block, ChartSpec
+from reports.spec.blocks import Block
+from reports.spec.charts import ChartSpec
 from reports.spec.shape import Shape
 from reports.tables.balance.balance import balance_blocks, balance_charts
 from reports.tables.balance.inertia import inertia_blocks, inertia_charts

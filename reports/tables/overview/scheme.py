@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from reports.spec.blocks import Block, ChartSpec, Grid, GridRow, Scalar, Series
+from reports.spec.blocks import Block, Grid, GridRow, Scalar
+from reports.spec.charts import ChartSpec, Series
 from reports.spec.shape import Shape
 
 SHEET = "Схема"
@@ -91,17 +92,9 @@ def _throws(shape: Shape) -> Grid:
 def scheme_charts() -> tuple[ChartSpec, ...]:
     """The drawing of the engine from the nose."""
     at = "scheme_lines."
-    return (
-        ChartSpec(
-            "scheme",
-            SHEET,
-            "Схема двигателя с носка вала: колена и оси рядов цилиндров",
-            "scheme",
-            (
-                Series(f"{at}bank_line_x", f"{at}bank_line_y", "оси рядов"),
-                Series(f"{at}throw_line_x", f"{at}throw_line_y", "колена"),
-            ),
-            "",
-            "",
-        ),
+    curves = (
+        Series(f"{at}bank_line_x", f"{at}bank_line_y", "оси рядов"),
+        Series(f"{at}throw_line_x", f"{at}throw_line_y", "колена"),
     )
+    title = "Схема двигателя с носка вала: колена и оси рядов цилиндров"
+    return (ChartSpec("scheme", SHEET, title, "scheme", curves),)

@@ -91,16 +91,7 @@ def grid(first: float, last: float, step: float) -> Array:
 
 def _segal(engine: Engine) -> dict[str, Columns]:
     lam = engine.geometry.lam
-    keys = [f"lambda_{value}".replace(".", "") for value in segal.SEGAL_LAMBDAS]
-    lambdas = np.array([*segal.SEGAL_LAMBDAS, lam])
-    quarter, half, fine = grid(0, 90, 5), grid(0, 180, 5), np.radians(grid(0, 180, 2))
-
-    def table(degrees: Array, values: Array) -> Columns:
-        names = [*keys, "lambda_engine"]
-        return {"alpha_deg": degrees, **{name: values[:, i] for i, name in enumerate(names)}}
-
-    rows = np.radians(half)[:, None]
-    beta = np.arcsin(lambdas * np.sin(np.radians(quarter)[:, None]))
+    fine = np.radians(grid(0, 180, 2))
     at = np.array(lam)
     exact = segal.displacement(fine, at), segal.velocity(fine, at), segal.acceleration(fine, at)
     s, v, j = exact
@@ -114,10 +105,6 @@ def _segal(engine: Engine) -> dict[str, Columns]:
     angles["dalpha_quadratic_deg"] = angles["alpha_quadratic_deg"] - angles["alpha_exact_deg"]
     angles["dalpha_small_deg"] = angles["alpha_small_deg"] - angles["alpha_exact_deg"]
     return {
-        "segal_t2": table(quarter, segal.packed_minutes(beta)),
-        "segal_t3": table(half, segal.displacement(rows, lambdas)),
-        "segal_t4": table(half, segal.velocity(rows, lambdas)),
-        "segal_t5": table(half, segal.acceleration(rows, lambdas)),
         "segal_errors": in_units(
             {
                 "alpha_deg": fine,
@@ -165,22 +152,7 @@ def _segal_scalars(engine: Engine) -> dict[str, float]:
 
 
 def _neiman(engine: Engine) -> dict[str, Columns]:
-    ratios = np.array(harmonics.NEIMAN_RATIOS)
-    p = {
-        order: np.array([harmonics.printed_coefficient(1 / ratio, order) for ratio in ratios])
-        for order in (0, 2, 4, 6, 8)
-    }
-    angle, ratio = harmonics.max_velocity(1 / ratios)
-    orders = (2, 4, 6, 8)
-    return {
-        "neiman_t1": {"inv_lambda": ratios, "k": p[0], **{f"p{n}": p[n] for n in orders}},
-        "neiman_t2": {"inv_lambda": ratios, **{f"{n}p{n}": n * p[n] for n in orders}},
-        "neiman_t3": {
-            "inv_lambda": ratios, "alpha1": segal.packed_minutes(angle), "ratio": ratio,
-        },
-        "neiman_t4": {"inv_lambda": ratios, **{f"{n * n}p{n}": n * n * p[n] for n in orders}},
-        "neiman_motion": _neiman_motion(engine.geometry.lam),
-    }  # fmt: skip
+    return {"neiman_motion": _neiman_motion(engine.geometry.lam)}
 
 
 def _neiman_motion(lam: float) -> Columns:

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Columns = dict[str, Array]
 
-D50_IMBALANCE = 19.2  # kg/m = 192 gf·cm/cm², the Д-50 engine
-D50_SUPPRESSIONS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
 LAST_ORDER = 8.0
 
 
@@ -68,7 +66,7 @@ def _second(curve: Array, period: float) -> tuple[float, float]:
 
 
 def columns(engine: Engine, raw: BatchSolution, index: int) -> dict[str, Columns]:
-    """Tables ``tangential``, ``torque_orders``, ``suppression`` and ``d50`` in SI units."""
+    """Tables ``tangential``, ``torque_orders`` and ``suppression`` in SI units."""
     curves = tangential(engine, raw, index)
     found = orders(engine.step_deg, engine.strokes)
     gas, inertia = (
@@ -89,7 +87,7 @@ def columns(engine: Engine, raw: BatchSolution, index: int) -> dict[str, Columns
     table["M_engine_order_Nm"] = total.amplitude * lever * together
     tables = {"tangential": {"phi_deg": raw.phi, **curves}, "torque_orders": table}
     if engine.strokes == 4:
-        tables |= {"suppression": _suppression(engine, raw, index), "d50": _d50()}
+        tables |= {"suppression": _suppression(engine, raw, index)}
     return tables
 
 
@@ -113,15 +111,6 @@ def _suppression(engine: Engine, raw: BatchSolution, index: int) -> Columns:
         "psi_best": best,
         "psi_best_idle": torque_harmonics.best_suppression(idle, t_j),
         "h_best_mm": best * engine.geometry.rod_length,
-    }
-
-
-def _d50() -> Columns:
-    omega: Array = np.linspace(1200, 3000, 10) * np.pi / 30
-    t_j = torque_harmonics.inertia_second(np.array(D50_IMBALANCE), omega)
-    return {
-        "n_rpm": omega,
-        **{f"t_psi{round(10 * psi)}": (1 - psi) * t_j for psi in D50_SUPPRESSIONS},
     }
 
 
@@ -156,8 +145,6 @@ def scalars(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float]:
     bounds = [torque_harmonics.speed_of(values[key], d_j) for key in ("t_gas2_idle", "t_gas2")]
     best = float(torque_harmonics.best_suppression(np.array(values["t_gas2"]), np.array(t_j)))
     lam = geometry.lam
-    omega_d50 = 1630 * np.pi / 30
-    d50 = float(torque_harmonics.inertia_second(np.array(D50_IMBALANCE), np.array(omega_d50)))
     found = {
         **{f"t_j_order{n}": value * unit
            for n, value in enumerate(torque_harmonics.inertia_coefficients(lam), 1)},
@@ -176,8 +163,6 @@ def scalars(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float]:
         "psi_best_nominal": best,
         "h_shafts": torque_harmonics.shaft_offset(psi, geometry.rod_length),
         "h_shafts_best": torque_harmonics.shaft_offset(best, geometry.rod_length),
-        "d50_t_j2": d50,
-        "d50_t_gas2": 0.6 * d50,
     }  # fmt: skip
     if engine.is_in_line:
         found["P_shafts"] = 0.5 * lam * unit * geometry.piston_area * engine.cylinders

@@ -132,7 +132,7 @@ def _second_of_unit() -> float:
 @lru_cache(maxsize=1)
 def _gas_second() -> float:
     """t_г2 that ψ = 0.4 at 1630 min⁻¹ implies [Pa]; the paper's curve is not printed."""
-    return solution("d-240").scalars["d50_t_gas2"] * _KGF
+    return 0.6 * float(torque_harmonics.inertia_second(np.array(_D50), np.array(1630 * _RPM)))
 
 
 def _full_helps_from() -> float:

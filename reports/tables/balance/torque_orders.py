@@ -12,7 +12,6 @@ from reports.tables.motion.segal import rows
 
 SHEET, SHAFTS, RESULTS = "Гармоники момента", "Гашение 2-го порядка", "Чудаков, итоги"
 LAST_ORDER = 8.0
-SUPPRESSIONS = (0, 2, 4, 6, 8, 10)
 _NOISE = "0.000000001"
 
 
@@ -173,8 +172,6 @@ def _coefficients(model: InputFile) -> ScalarTable:
             Scalar("h_shafts", "to_mm(balance_suppression*L_rod)", "Чудаков (8)"),
             Scalar("h_shafts_best", "to_mm(psi_best_nominal*L_rod)", "Чудаков (8)"),
             *shafts,
-            Scalar("d50_t_j2", "0.5*pi**2/(900*981)*192*1630**2/1000", "Чудаков (5), Д-50"),
-            Scalar("d50_t_gas2", "(1 - 2/5)*d50_t_j2", "Чудаков, рис. 5: ψ = 0,4"),
         ),
         note=(
             "На холостом ходу коэффициент газов взят линейно по среднему индикаторному давлению "
@@ -212,40 +209,16 @@ def _suppression() -> TableSpec:
     )
 
 
-def _d50() -> TableSpec:
-    t_j = "0.5*pi**2/(900*981)*192*n_rpm**2/1000"
-    return TableSpec(
-        "d50",
-        "Д-50",
-        "Коэффициент tj2 двигателя Д-50 при разных ψ",
-        SHAFTS,
-        (
-            Column("n_rpm", None),
-            *(
-                Column(f"t_psi{k}", f"(1 - {k}/10)*{t_j}", "Чудаков (5), рис. 4")
-                for k in SUPPRESSIONS
-            ),
-        ),
-        rows(1200, 3000, 200),
-        step=200.0,
-    )
-
-
 def torque_order_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block, ...]:
     """Sheets of the torque's harmonics and of the balance shafts."""
     general = _tangential(model, cycle), _orders(model, model.engine.cylinders)
     if model.engine.strokes != 4:
         return general
-    return (
-        *general,
-        _suppression(),
-        _d50(),
-        _coefficients(model),
-    )
+    return (*general, _suppression(), _coefficients(model))
 
 
 def torque_order_charts(strokes: int) -> tuple[ChartSpec, ...]:
-    """Tangential forces, amplitudes by order, suppression over speed, the Д-50."""
+    """Tangential forces, amplitudes by order, suppression over speed."""
     curves = ("gas", "inertia", "motored") if strokes == 4 else ("gas", "inertia")
     o, k = "torque_orders", "порядок k"
     general = (
@@ -272,6 +245,4 @@ def _shaft_charts() -> tuple[ChartSpec, ...]:
              caption="Инерционный коэффициент второго порядка и остаток момента"),
         line("suppression_best", SHAFTS, "Оптимальная степень гашения", (n, "ψ"),
              *(Series(f"{s}.n_rpm", f"{s}.{k}") for k in ("psi_best", "psi_best_idle"))),
-        line("d50", SHAFTS, "Двигатель Д-50: tj2 при разных ψ", (n, "t, кгс/см²"),
-             *(Series("d50.n_rpm", f"d50.t_psi{k}") for k in SUPPRESSIONS)),
     )  # fmt: skip

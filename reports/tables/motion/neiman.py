@@ -1,4 +1,4 @@
-"""Neiman: Fourier series of the piston motion, tables 1-4, the rod on its pin."""
+"""Neiman: Fourier series of the piston motion, the rod on its pin."""
 
 from __future__ import annotations
 
@@ -6,56 +6,9 @@ from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, columns_of, over_phi
 from reports.tables.motion.segal import ALPHA, TITLES, J, S, V, filled, rows
 
-SHEET, RESULTS, TABLES = "Нейман", "Нейман, ряд", "Нейман 1-4"
+SHEET, RESULTS = "Нейман", "Нейман, ряд"
 SHOWN = (1, 2, 4, 6)
 ORDERS = (2, 4, 6, 8, 10, 12)
-_INDEX = Column("inv_lambda", None)
-_LAM = "(1/inv_lambda)"
-
-# Neiman (20) divided by λ, cut after sin⁸ as the text says under (23).
-_SERIES = {
-    "k": "{l}/4 + 3/64*{l}**3 + 5/256*{l}**5 + 175/16384*{l}**7",
-    "p2": "{l}/4 + {l}**3/16 + 15/512*{l}**5 + 35/2048*{l}**7",
-    "p4": "{l}**3/64 + 3/256*{l}**5 + 35/4096*{l}**7",
-    "p6": "{l}**5/512 + 5/2048*{l}**7",
-    "p8": "5/16384*{l}**7",
-}
-
-
-def _tables() -> tuple[Block, ...]:
-    printed = [Column(k, text.format(l=_LAM), "Нейман (21)") for k, text in _SERIES.items()]
-    velocity = [Column(f"{n}p{n}", f"{n}*neiman_t1.p{n}", "Нейман (28)") for n in (2, 4, 6, 8)]
-    acceleration = [
-        Column(f"{n * n}p{n}", f"{n * n}*neiman_t1.p{n}", "Нейман (36)") for n in (2, 4, 6, 8)
-    ]
-    angle = f"acos((sqrt(1 + 8*{_LAM}**2) - 1)/(4*{_LAM}))"
-    minutes = f"floor(deg({angle})*60 + 0.5)"
-    fastest = [
-        Column("alpha1", f"floor({minutes}/60)*100 + mod({minutes}, 60)", "Нейман (32)"),
-        Column("ratio", f"pi/2*(sin({angle}) + {_LAM}/2*sin(2*{angle}))", "Нейман (33)"),
-    ]
-    found = (
-        (1, "Коэффициенты ряда перемещения", printed),
-        (2, "Коэффициенты ряда скорости", velocity),
-        (3, "Наибольшая скорость поршня", fastest),
-        (4, "Коэффициенты ряда ускорения", acceleration),
-    )
-    return tuple(
-        TableSpec(
-            f"neiman_t{number}",
-            f"Н{number}",
-            title,
-            TABLES,
-            (_INDEX, *columns),
-            rows(3.4, 4.0, 0.1),
-            note=(
-                "Степени λ в напечатанной формуле (21) на единицу больше верных; здесь ряд (20) "
-                "разделён на λ и оборван на sin⁸α, как в тексте."
-            ),
-            step=0.1,
-        )
-        for number, title, columns in found
-    )
 
 
 def _sign(order: int) -> int:
@@ -135,8 +88,8 @@ def _coefficients() -> ScalarTable:
 
 
 def neiman_blocks() -> tuple[Block, ...]:
-    """Harmonics of the engine's motion and tables 1-4."""
-    return _motion(), _coefficients(), *_tables()
+    """Harmonics of the engine's motion."""
+    return _motion(), _coefficients()
 
 
 def neiman_charts() -> tuple[ChartSpec, ...]:

@@ -1,13 +1,11 @@
-"""Segal: exact and approximate motion of the piston, tables 2-5, the inverse problem."""
+"""Segal: exact and approximate motion of the piston, the inverse problem."""
 
 from __future__ import annotations
 
 from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi
 
-SHEET, FIRST, SECOND = "Сегаль", "Сегаль 2, 3", "Сегаль 4, 5"
-RESULTS = "Сегаль, итоги"
-LAMBDAS = ("0.16", "0.18", "0.2", "0.22", "0.24", "0.26", "0.28", "0.303")
+SHEET, RESULTS = "Сегаль", "Сегаль, итоги"
 ITERATIONS = 9
 
 _BETA = "asin({lam}*sin(rad(alpha_deg)))"
@@ -28,27 +26,6 @@ def rows(first: float, last: float, step: float) -> tuple[float, ...]:
 def filled(text: str, lam: str) -> str:
     """A formula with λ and β of one column put in."""
     return text.format(lam=lam, beta=_BETA.format(lam=lam))
-
-
-def _table(number: int, title: str, sheet: str, text: str, last: float, source: str) -> TableSpec:
-    columns = [_INDEX]
-    for lam in (*LAMBDAS, "lam"):
-        key = "lambda_engine" if lam == "lam" else "lambda_" + lam.replace(".", "")
-        of = f"dm_{key}" if number == 2 else ""
-        columns.append(Column(key, filled(text, lam), source, of=of))
-    table = f"segal_t{number}"
-    return TableSpec(table, f"С{number}", title, sheet, tuple(columns), rows(0, last, 5), step=5.0)
-
-
-def _tables() -> tuple[Block, ...]:
-    minutes = "floor(deg({beta})*60 + 0.5)"
-    packed = f"floor({minutes}/60)*100 + mod({minutes}, 60)"
-    return (
-        _table(2, "Углы отклонения шатуна β", FIRST, packed, 90, "Сегаль (1.3), табл. 2"),
-        _table(3, "Безразмерное перемещение поршня s", FIRST, S, 180, "Сегаль (1.17), табл. 3"),
-        _table(4, "Безразмерная скорость поршня v", SECOND, V, 180, "Сегаль (1.18), табл. 4"),
-        _table(5, "Безразмерное ускорение поршня j", SECOND, J, 180, "Сегаль (1.19), табл. 5"),
-    )
 
 
 def _errors() -> TableSpec:
@@ -170,8 +147,8 @@ def _extremes() -> ScalarTable:
 
 
 def segal_blocks() -> tuple[Block, ...]:
-    """Errors, inverse problem, extremes and tables 2-5."""
-    return _errors(), _inverse(), _error_scalars(), _extremes(), *_tables()
+    """Errors, inverse problem and extremes."""
+    return _errors(), _inverse(), _error_scalars(), _extremes()
 
 
 def segal_charts() -> tuple[ChartSpec, ...]:

@@ -137,7 +137,7 @@ def polar(
     )  # fmt: skip
 
 
-def wear(
+def wear_chart(
     chart: str, sheet: str, title: str, grid: str, hole: str, **more: Unpack[More]
 ) -> ChartSpec:
     """Conditional wear diagram of a journal from the grid with the sums of its rays."""

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, columns_of, over_phi, polar
+from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape
 from reports.tables.balance.balance_sums import (
     NOTHING,
@@ -174,19 +175,21 @@ def numbers(shape: Shape) -> range:
     return range(1, shape.cylinders + 1)
 
 
-def balance_blocks(shape: Shape, cycle: tuple[float, ...], *, forced: bool) -> tuple[Block, ...]:
+def balance(scope: Scope) -> Part:
     """Sheets of the balance; for pistons that Neiman's series describes."""
-    turn = tuple(angle for angle in cycle if angle <= 360)
+    shape = scope.shape
+    if not shape.by_orders:
+        return Part()
     blocks: list[Block] = [
-        _turn(shape, turn), *_boxes(shape), devices_table(shape), vectors_table(shape),
+        _turn(shape, scope.turn), *_boxes(shape), devices_table(shape), vectors_table(shape),
         sums_table(shape), throws_grid(shape), _orders(shape),
     ]  # fmt: skip
     if shape.strokes == 4 and shape.cylinders <= MAX_CYLINDERS:
-        loads = has_loads(shape, forced=forced)
+        loads = has_loads(shape, forced=scope.forced)
         blocks.append(firing_table(shape, loads=loads))
         if loads and shape.throws > 1:
-            blocks.append(firing_loads(shape, cycle))
-    return tuple(blocks)
+            blocks.append(firing_loads(shape, scope.cycle))
+    return Part(tuple(blocks), _charts(shape))
 
 
 def _boxes(shape: Shape) -> Iterator[Block]:
@@ -209,7 +212,7 @@ def _boxes(shape: Shape) -> Iterator[Block]:
         )
 
 
-def balance_charts(shape: Shape) -> tuple[ChartSpec, ...]:
+def _charts(shape: Shape) -> tuple[ChartSpec, ...]:
     """Forces and moments over a turn, vector diagrams."""
     forces, moments = "F, кН", "M, Н·м"
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
+from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, columns_of, over_phi
+from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape
 from reports.tables.loads.cylinder import cylinder_table_id
 
@@ -281,12 +282,15 @@ def _rod_model() -> ScalarTable:
     )
 
 
-def inertia_blocks(model: InputFile, rows: tuple[float, ...]) -> tuple[Block, ...]:
+def inertia(scope: Scope) -> Part:
     """Sheets of the reduced inertia."""
-    return _table(Shape.of(model), rows), _results(), _parts(model), _rod_model()
+    if not scope.shape.by_orders:
+        return Part()
+    table = _table(scope.shape, scope.cycle)
+    return Part((table, _results(), _parts(scope.input), _rod_model()), _charts())
 
 
-def inertia_charts() -> tuple[ChartSpec, ...]:
+def _charts() -> tuple[ChartSpec, ...]:
     """Reduced inertia exact and approximate, excess work, speed."""
     t, one = "inertia", "Приведённый момент инерции одного цилиндра"
     return (

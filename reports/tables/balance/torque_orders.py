@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import InputFile, TableGasSection
-from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
+from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi
+from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape
-from reports.tables.gas.cycle_names import from_cycle, section_of
+from reports.tables.gas.cycle_names import section_of
 from reports.tables.gas.diagram import is_smooth, smooth_pressure
 from reports.tables.motion.segal import rows
 
@@ -24,10 +25,9 @@ def _tangential(model: InputFile, cycle: tuple[float, ...]) -> TableSpec:
             else ("interpolate(min(phi_deg, 720 - phi_deg), gas_points_deg, gas_points_mpa)")
         )
     else:
-        cold = from_cycle(
-            model,
+        cold = (
             "gas_intake_pressure_mpa"
-            "*(geometry_compression_ratio/gas.volume_ratio)**gas_compression_exponent",
+            "*(geometry_compression_ratio/gas.volume_ratio)**gas_compression_exponent"
         )
     inside = "phi_deg > 180 + 0.0000001 and phi_deg < 540 - 0.0000001"
     compressed = (
@@ -209,15 +209,18 @@ def _suppression() -> TableSpec:
     )
 
 
-def torque_order_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block, ...]:
+def torque_orders(scope: Scope) -> Part:
     """Sheets of the torque's harmonics and of the balance shafts."""
-    general = _tangential(model, cycle), _orders(model, model.engine.cylinders)
-    if model.engine.strokes != 4:
-        return general
-    return (*general, _suppression(), _coefficients(model))
+    model, strokes = scope.input, scope.shape.strokes
+    if not scope.shape.by_orders:
+        return Part()
+    blocks = (_tangential(model, scope.cycle), _orders(model, model.engine.cylinders))
+    if strokes == 4:
+        return Part((*blocks, _suppression(), _coefficients(model)), _charts(strokes))
+    return Part(blocks, _charts(strokes))
 
 
-def torque_order_charts(strokes: int) -> tuple[ChartSpec, ...]:
+def _charts(strokes: int) -> tuple[ChartSpec, ...]:
     """Tangential forces, amplitudes by order, suppression over speed."""
     curves = ("gas", "inertia", "motored") if strokes == 4 else ("gas", "inertia")
     o, k = "torque_orders", "порядок k"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from reports.inputs.sections.cycle import PUMPING, ROUNDINGS, CycleSection
 from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Block, Grid, Scalar, ScalarTable
+from reports.spec.parts import Part, Scope
 from reports.tables.gas.cycle import EPS, air_energy, cell, passes, products_energy, weight
 from reports.tables.gas.cycle_names import (
     SHEET,
@@ -20,11 +21,12 @@ from reports.tables.gas.cycle_names import (
 STROKE_PASSES = 6  # Newton's rule: four are enough, two to spare
 
 
-def result_blocks(model: InputFile) -> tuple[Block, ...]:
+def results(scope: Scope) -> Part:
     """What follows from the processes; nothing without a cycle."""
+    model = scope.input
     section = section_of(model)
     if section is None:
-        return ()
+        return Part()
     blocks: list[Block] = [_indicated()]
     if sizes_are_found(model):
         if friction_by_speed(section):
@@ -34,7 +36,7 @@ def result_blocks(model: InputFile) -> tuple[Block, ...]:
     if is_boosted(section):
         blocks.append(_turbo(section))
     blocks.append(_balance(section))
-    return tuple(blocks)
+    return Part(tuple(blocks))
 
 
 def _table(name: str, title: str, *scalars: Scalar) -> ScalarTable:

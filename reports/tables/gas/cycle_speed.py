@@ -7,9 +7,9 @@ from kshm.cycle.speed_characteristic import IDLE_SHARE, LEIDERMAN
 from kshm.cycle.usual_ranges import usual_ranges
 from kshm.results.cycle import DIAGRAM_STEP, SPEED_STEP, diagram_rows, speed_rows
 from reports.inputs.sections.cycle import CycleSection
-from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
+from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, line, over_phi
+from reports.spec.parts import Part, Scope
 from reports.tables.gas.cycle_names import SHEET, SOURCE, is_boosted, section_of
 
 SPEED_SHEET, DIAGRAM_SHEET, RANGE_SHEET = "ВСХ", "Диаграмма цикла", "Правдоподобие цикла"
@@ -44,18 +44,19 @@ _RANGE_NAMES = {
 }
 
 
-def speed_blocks(model: InputFile) -> tuple[Block, ...]:
+def speed(scope: Scope) -> Part:
     """Diagram, speed characteristic and plausibility; nothing without a cycle."""
-    section = section_of(model)
+    section = section_of(scope.input)
     if section is None:
-        return ()
-    return (
+        return Part()
+    blocks = (
         _diagram_points(),
         _law(section),
         _diagram(),
         _speed(section),
         _ranges(section),
     )
+    return Part(blocks, _charts())
 
 
 def _diagram() -> TableSpec:
@@ -214,10 +215,7 @@ def cycle_checks() -> list[tuple[str, str, str, str]]:
     ]  # fmt: skip
 
 
-def cycle_charts(model: InputFile) -> tuple[ChartSpec, ...]:
-    """Charts of the cycle's sheets."""
-    if section_of(model) is None:
-        return ()
+def _charts() -> tuple[ChartSpec, ...]:
     names = (
         ("Ne", "Эффективная мощность", "Nе, кВт"),
         ("Me", "Эффективный крутящий момент", "Mе, Н·м"),

@@ -9,6 +9,7 @@ from reports.inputs.to_si.engine import arrangement_of
 from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, over_phi, polar
 from reports.spec.extremes import NEVER, TIE, extreme_columns, extreme_scalars
+from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape, rods_table
 from reports.tables.loads.cylinder import cylinder_table_id
 
@@ -18,8 +19,9 @@ INDEX = Column("phi_deg", None)
 _UNIT = "r_crank*omega**2"
 
 
-def bearing_blocks(model: InputFile, rows: tuple[float, ...]) -> tuple[Block, ...]:
+def bearings(scope: Scope) -> Part:
     """All blocks that apply to the layout."""
+    model, rows = scope.input, scope.cycle
     arrangement = arrangement_of(model)
     blocks: list[Block] = []
     if all(c.master is None for c in arrangement):
@@ -28,7 +30,7 @@ def bearing_blocks(model: InputFile, rows: tuple[float, ...]) -> tuple[Block, ..
         blocks += [_bending(model, rows), *_bending_results(model)]
     if has_continuous(model):
         blocks += [_beam(model), _pivots(model), _continuous(model, rows), _compared(model)]
-    return tuple(blocks)
+    return Part(tuple(blocks), _charts(model))
 
 
 def has_continuous(model: InputFile) -> bool:
@@ -373,7 +375,7 @@ def _compared(model: InputFile) -> Grid:
     )
 
 
-def bearing_charts(model: InputFile) -> tuple[ChartSpec, ...]:
+def _charts(model: InputFile) -> tuple[ChartSpec, ...]:
     """Diagrams of the bearings, bending in the hole's plane, both schemes over the angle."""
     arrangement = arrangement_of(model)
     journals = range(1, len(model.crankshaft.throw_angles_deg) + 2)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, TableSpec
 from reports.spec.charts import ChartSpec, Series, columns_of, over_phi, polar
 from reports.spec.extremes import extreme_columns
+from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape, pin_name, rods_table
 from reports.tables.loads.cylinder import cylinder_table_id
 from reports.tables.loads.torques import rod_shares
@@ -336,20 +337,24 @@ def box(table: str, name: str, sheet: str) -> Grid:
     )
 
 
-def journal_blocks(shape: Shape, rows: tuple[float, ...], *, forced: bool) -> tuple[Block, ...]:
+def journals(scope: Scope) -> Part:
     """Crankpins, throws and every main journal."""
-    journals, pins = range(1, shape.throws + 2), range(1, len(shape.pins) + 1)
+    shape, rows = scope.shape, scope.cycle
+    numbers, pins = range(1, shape.throws + 2), range(1, len(shape.pins) + 1)
     crankpins = [crankpin_table(shape, number, rows) for number in pins]
-    tables = [journal_table(shape, k, rows, forced=forced) for k in journals]
+    tables = [journal_table(shape, k, rows, forced=scope.forced) for k in numbers]
     boxes = [
         box(table.id, f"Rpin{pin_name(number)}", table.sheet)
         for number, table in enumerate(crankpins, 1)
     ]
-    boxes += [box(f"P4_3_{k}", f"Rmain{k}", f"П4.3 ({k})") for k in journals]
-    return *rods_tables(shape, rows), *crankpins, throws_grid(shape), *tables, *boxes
+    boxes += [box(f"P4_3_{k}", f"Rmain{k}", f"П4.3 ({k})") for k in numbers]
+    return Part(
+        (*rods_tables(shape, rows), *crankpins, throws_grid(shape), *tables, *boxes),
+        (*_pin_charts(shape), *_journal_charts(shape)),
+    )
 
 
-def pin_charts(shape: Shape) -> tuple[ChartSpec, ...]:
+def _pin_charts(shape: Shape) -> tuple[ChartSpec, ...]:
     """Figures 50 and 51 of every crankpin; in the report the forces of two rods on a throw."""
     made = [] if shape.single_rods else list(_rods_charts(rods_table(1)))
     for number in range(1, len(shape.pins) + 1):
@@ -383,7 +388,7 @@ def _rods_charts(table: str) -> tuple[ChartSpec, ...]:
     )  # fmt: skip
 
 
-def journal_charts(shape: Shape) -> tuple[ChartSpec, ...]:
+def _journal_charts(shape: Shape) -> tuple[ChartSpec, ...]:
     """Figures 53 and 55 of every main journal."""
     made = []
     for k in range(1, shape.throws + 2):

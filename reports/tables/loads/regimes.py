@@ -14,9 +14,10 @@ from kshm.results.regimes import main_only, regime_key
 from reports.formula.parse import names
 from reports.inputs.fields import Field, iter_fields
 from reports.inputs.sections.input_file import InputFile, Regime
-from reports.spec.blocks import Block, Grid, Scalar, ScalarTable, TableSpec, scalars_of
+from reports.spec.blocks import Block, Grid, ScalarTable, TableSpec, scalars_of
 from reports.spec.charts import ChartSpec
-from reports.spec.rename import renamed, with_names
+from reports.spec.parts import Part
+from reports.spec.rename import copied, copied_chart
 
 _LEFT_OUT = frozenset({"checks"})
 _WHOLE = frozenset(
@@ -79,7 +80,7 @@ class RegimeModel:
         }
 
     @cached_property
-    def copied(self) -> tuple[Block, ...]:
+    def blocks_to_copy(self) -> tuple[Block, ...]:
         """Blocks to copy: whole tables and grids, of lists only what depends on the regime."""
         made: list[Block] = []
         for block in self.blocks:
@@ -96,8 +97,8 @@ class RegimeModel:
     @cached_property
     def _own(self) -> frozenset[str]:
         """Bare names and ids of tables and grids that get the regime's ending."""
-        keys = {scalar.key for block in self.copied for scalar in scalars_of(block)}
-        ids = {block.id for block in self.copied}
+        keys = {scalar.key for block in self.blocks_to_copy for scalar in scalars_of(block)}
+        ids = {block.id for block in self.blocks_to_copy}
         inputs = {item.name for item in self.inputs if item.path[0] in ("regime", "gas")}
         return frozenset(keys | ids | inputs | {"gas_points_deg", "gas_points_mpa"})
 
@@ -108,55 +109,37 @@ class RegimeModel:
             return token
         return f"{regime_key(head, self.number)}{dot}{column}"
 
-    def renamed_blocks(self) -> tuple[Block, ...]:
-        """The copies with names, ids and sheets of their own."""
-        return tuple(map(self._block, self.copied))
+    def part(self) -> Part:
+        """The copies with names, ids and sheets of their own; charts of copied tables alone."""
+        kept = {block.id for block in self.blocks_to_copy}
+        charts = (
+            self._chart(chart)
+            for chart in self.charts
+            if {axis.split(".")[0] for s in chart.series for axis in (s.x, s.y)} <= kept
+        )
+        return Part(tuple(map(self._block, self.blocks_to_copy)), tuple(charts))
 
     def _block(self, block: Block) -> Block:
-        local = {c.key for c in block.columns} if isinstance(block, TableSpec) else set()
-
-        def name(token: str) -> str:
-            return token if token in local else self.name(token)
-
-        made = with_names(block, lambda expr: renamed(expr, name))
-        title = f"{block.title} (режим {self.number})"
-        made = replace(made, id=self.name(block.id), title=title, sheet=self.sheet(block.sheet))
+        made = replace(
+            copied(block, self.name),
+            title=f"{block.title} (режим {self.number})",
+            sheet=self.sheet(block.sheet),
+        )
         if isinstance(made, TableSpec):
             return replace(made, number=f"{made.number}.р{self.number}")
-        if isinstance(made, ScalarTable):
-            return replace(made, scalars=tuple(map(self._scalar, made.scalars)))
-        rows = tuple(
-            replace(row, cells=tuple(c and self._scalar(c) for c in row.cells)) for row in made.rows
-        )
-        return replace(made, rows=rows)
-
-    def _scalar(self, scalar: Scalar) -> Scalar:
-        return replace(scalar, key=regime_key(scalar.key, self.number), of=scalar.of or scalar.key)
+        return made
 
     def sheet(self, title: str) -> str:
         """Title of the regime's sheet."""
         return f"{title} р{self.number}" if title else ""
 
-    def renamed_charts(self) -> tuple[ChartSpec, ...]:
-        """Charts whose curves are all of copied tables."""
-        made = []
-        for chart in self.charts:
-            tables = {axis.split(".")[0] for s in chart.series for axis in (s.x, s.y)}
-            if not tables <= {block.id for block in self.copied}:
-                continue
-            series = tuple(replace(s, x=self.name(s.x), y=self.name(s.y)) for s in chart.series)
-            made.append(
-                replace(
-                    chart,
-                    id=regime_key(chart.id, self.number),
-                    sheet=self.sheet(chart.sheet),
-                    title=f"{chart.title}, режим {self.number}",
-                    series=series,
-                    levels=tuple(map(self.name, chart.levels)),
-                    hole=self.name(chart.hole),
-                )
-            )
-        return tuple(made)
+    def _chart(self, chart: ChartSpec) -> ChartSpec:
+        return replace(
+            copied_chart(chart, self.name),
+            id=regime_key(chart.id, self.number),
+            sheet=self.sheet(chart.sheet),
+            title=f"{chart.title}, режим {self.number}",
+        )
 
 
 def _nodes(block: Block) -> list[tuple[str, str]]:
@@ -166,10 +149,7 @@ def _nodes(block: Block) -> list[tuple[str, str]]:
     return [(scalar.key, scalar.expr) for scalar in scalars_of(block)]
 
 
-def regime_models(
-    model: InputFile,
-    chain: Callable[[InputFile], tuple[tuple[Block, ...], tuple[ChartSpec, ...]]],
-) -> tuple[RegimeModel, ...]:
+def regime_models(model: InputFile, chain: Callable[[InputFile], Part]) -> tuple[RegimeModel, ...]:
     """One for each further regime.
 
     Args:
@@ -179,7 +159,7 @@ def regime_models(
     if not model.regimes:
         return ()
     made = []
-    main = dict(node for block in chain(model)[0] for node in _nodes(block))
+    main = dict(node for block in chain(model).blocks for node in _nodes(block))
     for number, regime in enumerate(model.regimes, 2):
         values = {key: value for key, value in regime if key not in ("gas", "name")}
         alone = model.model_copy(
@@ -191,6 +171,7 @@ def regime_models(
                 "reference": None,
             }
         )
-        blocks, charts = chain(alone)
-        made.append(RegimeModel(number, tuple(iter_fields(alone)), blocks, charts, main))
+        part = chain(alone)
+        inputs = tuple(iter_fields(alone))
+        made.append(RegimeModel(number, inputs, part.blocks, part.charts, main))
     return tuple(made)

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from reports.spec.blocks import Block, Column, TableSpec
+from reports.spec.blocks import Column, TableSpec
 from reports.spec.charts import ChartSpec, over_phi
 from reports.spec.extremes import extreme_columns
+from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape, rods_table
 from reports.tables.loads.cylinder import cylinder_table_id
 
 INDEX = Column("phi_deg", None)
 
 
-def torque_tables(shape: Shape, rows: tuple[float, ...]) -> tuple[Block, ...]:
+def torques(scope: Scope) -> Part:
     """Tables П4.2, П4.4 and П4.5 with the torques of the pin sections by statics."""
+    shape, rows = scope.shape, scope.cycle
     numbers = range(1, shape.cylinders + 1)
     each = [Column(f"M{i}_Nm", f"{cylinder_table_id(i)}.M_Nm", "Гоц, 2.5") for i in numbers]
     total = " + ".join(f"M{i}_Nm" for i in numbers)
@@ -24,7 +26,8 @@ def torque_tables(shape: Shape, rows: tuple[float, ...]) -> tuple[Block, ...]:
         (INDEX, *each, Column("Msum_Nm", total, "Гоц, 2.8"), *extreme_columns("Msum_Nm", "M")),
         rows,
     )
-    return torque, _main(shape, rows), _pin(shape, rows), _statics(shape, rows)
+    blocks = (torque, _main(shape, rows), _pin(shape, rows), _statics(shape, rows))
+    return Part(blocks, _charts(shape))
 
 
 def _main(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
@@ -93,7 +96,7 @@ def rod_shares(shape: Shape) -> tuple[str, str]:
     return ("share", "share") if shape.articulated else ("share", "share2")
 
 
-def torque_charts(shape: Shape) -> tuple[ChartSpec, ...]:
+def _charts(shape: Shape) -> tuple[ChartSpec, ...]:
     """Figures 49, 56 and 57."""
     y = "M, Н·м"
     return (

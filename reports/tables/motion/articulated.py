@@ -8,8 +8,9 @@ written in the frame of its own cylinder, velocities and accelerations follow li
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
+from reports.spec.blocks import Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, over_phi
+from reports.spec.parts import Part, Scope
 from reports.spec.shape import TIMING, Shape
 from reports.tables.gas.pressure import WORK, Corners, pressure
 
@@ -89,11 +90,12 @@ def _height(shape: Shape, phi: str) -> str:
     return f"r_crank*cos(rad({phi})) + {_RHO}*cos({chi}) + sqrt({_LENGTH}**2 - {across}**2)"
 
 
-def hung_blocks(model: InputFile, rows: tuple[float, ...]) -> tuple[Block, ...]:
+def articulated(scope: Scope) -> Part:
     """Dead centres, volumes and motion of the articulated rod."""
-    shape = Shape.of(model)
-    turn = tuple(angle for angle in rows if angle <= 360)
-    return _centres(shape), _sizes(), _motion(shape, turn)
+    shape = scope.shape
+    if not shape.articulated:
+        return Part()
+    return Part((_centres(shape), _sizes(), _motion(shape, scope.turn)), _charts())
 
 
 def _centres(shape: Shape) -> Grid:
@@ -240,7 +242,7 @@ def _force(key: str, text: str) -> Column:
     return Column(key, text, "статика шатунов", helper=True, of=f"hung_{key}")
 
 
-def hung_charts() -> tuple[ChartSpec, ...]:
+def _charts() -> tuple[ChartSpec, ...]:
     """Motion of the articulated rod's piston, in the report alone."""
     of = "поршня прицепного шатуна"
     return (

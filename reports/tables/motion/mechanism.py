@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import DesignGeometrySection, GeometrySection, InputFile
-from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
+from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, only, over_phi
+from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape
-
-EXACT_LABEL_FIELD = "calculation_method"
 
 TWO_TERM = "r_crank*omega**2*(cos(rad({phi})) + lam*cos(2*rad({phi})))"
 OFFSET_TWO_TERM = (
@@ -19,7 +18,12 @@ EXACT = (
 )
 
 
-def geometry(model: InputFile) -> ScalarTable:
+def dimensions(scope: Scope) -> Part:
+    """Dimensions, masses and constant forces."""
+    return Part((_sizes(scope.input), _masses(scope.input)))
+
+
+def _sizes(model: InputFile) -> ScalarTable:
     """Derived geometry and kinematic scalars."""
     given, shape = model.geometry, Shape.of(model)
     bore = "of_mm(geometry_bore_mm)"
@@ -129,7 +133,7 @@ def _central_extremes() -> tuple[Scalar, ...]:
     )
 
 
-def masses(model: InputFile) -> ScalarTable:
+def _masses(model: InputFile) -> ScalarTable:
     """Masses and constant inertia forces."""
     given = model.masses
     scalars: list[Scalar] = []
@@ -162,8 +166,11 @@ def _rotating(shape: Shape) -> str:
     return "m_k + m_2" if rods == 1 else f"m_k + {rods}*m_2"
 
 
-def kinematic_tables(rows: tuple[float, ...]) -> tuple[Block, ...]:
-    """Tables П3.1 and П3.2 over one turn."""
+def kinematics(scope: Scope) -> Part:
+    """Tables П3.1 and П3.2 over one turn and figures 41-45; not with an offset."""
+    if scope.shape.offset:
+        return Part()
+    rows = scope.turn
     phi = "rad(phi_deg)"
     index = Column("phi_deg", None)
     piston = TableSpec(
@@ -209,7 +216,7 @@ def kinematic_tables(rows: tuple[float, ...]) -> tuple[Block, ...]:
             "напечатан по приближённой формуле, второй — по точной."
         ),
     )
-    return piston, rod
+    return Part((piston, rod), kinematic_charts(scope.shape))
 
 
 def acceleration(model: InputFile, phi: str, beta: str) -> str:

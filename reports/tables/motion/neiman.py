@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
+from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, columns_of, over_phi
+from reports.spec.parts import Part, Scope
 from reports.tables.motion.segal import ALPHA, TITLES, J, S, V, filled, rows
 
 SHEET, RESULTS = "Нейман", "Нейман, ряд"
@@ -87,12 +88,12 @@ def _coefficients() -> ScalarTable:
     return ScalarTable("neiman_list", "Коэффициенты ряда при λ двигателя", RESULTS, tuple(scalars))
 
 
-def neiman_blocks() -> tuple[Block, ...]:
+def neiman(scope: Scope) -> Part:
     """Harmonics of the engine's motion."""
-    return _motion(), _coefficients()
+    return Part((_motion(), _coefficients()), _charts()) if scope.shape.by_orders else Part()
 
 
-def neiman_charts() -> tuple[ChartSpec, ...]:
+def _charts() -> tuple[ChartSpec, ...]:
     """Figures 2-4, 6, 9 for the engine's λ."""
     t = "neiman_motion"
     return (

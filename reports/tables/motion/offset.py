@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, TableSpec
+from reports.spec.blocks import Column, Grid, GridRow, Scalar, TableSpec
 from reports.spec.charts import ChartSpec, Series, over_phi
+from reports.spec.parts import Part, Scope
+from reports.tables.motion.mechanism import kinematic_charts
 
 SHEET = "Дезаксиал"
 _PHI = "rad(phi_deg)"
@@ -11,9 +13,15 @@ _ROOT = f"sqrt(1 - lam**2*(sin({_PHI}) - k_offset)**2)"
 _SKETCH_DEG = "60"  # position of the crank in the drawing
 
 
-def offset_tables(rows: tuple[float, ...]) -> tuple[Block, ...]:
+def offset(scope: Scope) -> Part:
     """П3.1 and П3.2 of an offset mechanism, the exact motion beside them."""
-    return _piston(rows), _rod(rows), _exact(rows), _sketch()
+    if not scope.shape.offset:
+        return Part()
+    rows = scope.turn
+    return Part(
+        (_piston(rows), _rod(rows), _exact(rows), _sketch()),
+        (*kinematic_charts(scope.shape), *_charts()),
+    )
 
 
 def _piston(rows: tuple[float, ...]) -> TableSpec:
@@ -138,7 +146,7 @@ def _sketch() -> Grid:
     )
 
 
-def offset_charts() -> tuple[ChartSpec, ...]:
+def _charts() -> tuple[ChartSpec, ...]:
     """Figures 11 and 12."""
     at = "offset_sketch.sketch"
     curves = (

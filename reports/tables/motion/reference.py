@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from kshm.results.reference import FIGURE_6
-from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi, polar
+from reports.spec.parts import Part, Scope
 
 MOTION, SPEED, VECTORS, SKETCH = "Рис. 3–10", "Рис. 6", "Рис. 20", "Рис. 5"
 KINEMATIC, FORCES = "Табл. 1–3", "Табл. 5–8"
@@ -28,18 +28,22 @@ TABLES: dict[str, tuple[str, str, str, str]] = {
 }  # fmt: skip
 
 
-def reference_blocks(model: InputFile, turn: tuple[float, ...]) -> tuple[Block, ...]:
+def reference(scope: Scope) -> Part:
     """Figure 20 always, the other tables where the input has a section [reference]."""
-    blocks: list[Block] = [_vectors(turn), *_vector_boxes()]
-    if model.reference is None:
-        return tuple(blocks)
-    count = len(model.reference.lambdas)
+    asked = scope.input.reference
+    blocks: list[Block] = [_vectors(scope.turn), *_vector_boxes()]
+    if asked is None:
+        return Part(tuple(blocks), _vector_charts())
+    count = len(asked.lambdas)
     half = tuple(float(angle) for angle in range(0, 190, 10))
     whole = tuple(float(angle) for angle in range(0, 370, 10))
     for number in TABLES:
         blocks.append(_table(number, count, half))
     blocks += [_lambdas(sheet, count) for sheet in (KINEMATIC, FORCES)]
-    return (*blocks, _motion(whole), _figure_6(), _sketch(), *_drawing())
+    return Part(
+        (*blocks, _motion(whole), _figure_6(), _sketch(), *_drawing()),
+        (*_vector_charts(), *_charts(asked.lambdas)),
+    )
 
 
 def _table(number: str, count: int, rows: tuple[float, ...]) -> TableSpec:
@@ -237,18 +241,16 @@ def _drawing() -> tuple[Grid, ...]:
     return (*grids, corners)
 
 
-def reference_charts(model: InputFile) -> tuple[ChartSpec, ...]:
-    """Figure 20 always, figures 3-10 and 5 with the section [reference]."""
-    made = (
+def _vector_charts() -> tuple[ChartSpec, ...]:
+    return (
         _vector_chart("fig20a", "20, а, в", "первого", "1", "C"),
         _vector_chart("fig20b", "20, б, г", "второго", "2", "λC"),
         over_phi("fig20p", VECTORS, "Силы инерции первого и второго порядков", "Pj, кН",
                  "vectors.Pj1_kN", "vectors.Pj2_kN", figure="20"),
     )  # fmt: skip
-    return made if model.reference is None else (*made, *_reference_charts(model.reference.lambdas))
 
 
-def _reference_charts(lambdas: tuple[float, ...]) -> tuple[ChartSpec, ...]:
+def _charts(lambdas: tuple[float, ...]) -> tuple[ChartSpec, ...]:
     def motion(figure: str, title: str, y: str, keys: str, caption: str = "") -> ChartSpec:
         columns = columns_of("ref_motion", *keys.split())
         return over_phi(f"ref_fig{figure}", MOTION, title, y, *columns, figure=figure,

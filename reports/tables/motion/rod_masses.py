@@ -1,6 +1,6 @@
 """Sheet of masses: three masses, weighing, swinging, table 4, reduction of webs, Gots 2.2.
 
-What the input does not give stands here as a formula; ``stand_ins`` names the inputs that
+What the input does not give stands here as a formula; ``mass_stand_ins`` names the inputs that
 it replaces in the other sheets.
 """
 
@@ -9,14 +9,15 @@ from __future__ import annotations
 from kshm.engine.masses import BORES, PISTON, ROD, STROKE_BORE, THROW
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, to_estimate
-from reports.spec.blocks import Block, Scalar, ScalarTable
+from reports.spec.blocks import Scalar, ScalarTable
+from reports.spec.parts import Part, Scope
 
 SHEET = "Массы шатуна"
 YES, NO = "да", "НЕТ"
 _BORE = "2*sqrt(F_piston/pi)"
 
 
-def stand_ins(model: InputFile) -> dict[str, str]:
+def mass_stand_ins(model: InputFile) -> dict[str, str]:
     """Input name → scalar of this sheet that takes its place."""
     given, names = model.masses, {}
     if given.reciprocating_kg is None:
@@ -36,16 +37,10 @@ def stand_ins(model: InputFile) -> dict[str, str]:
     return names
 
 
-def mass_blocks(model: InputFile) -> tuple[Block, ...]:
+def masses(scope: Scope) -> Part:
     """All blocks of the sheet that apply to the input."""
-    blocks = [
-        _estimate(model),
-        _rod(model),
-        _three(model),
-        _webs(model),
-        _specific(model),
-    ]
-    return tuple(block for block in blocks if block is not None and block.scalars)
+    blocks = (find(scope.input) for find in (_estimate, _rod, _three, _webs, _specific))
+    return Part(tuple(block for block in blocks if block is not None and block.scalars))
 
 
 def _estimate(model: InputFile) -> ScalarTable | None:

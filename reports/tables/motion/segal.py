@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
+from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi
+from reports.spec.parts import Part, Scope
 
 SHEET, RESULTS = "Сегаль", "Сегаль, итоги"
 ITERATIONS = 9
@@ -146,12 +147,14 @@ def _extremes() -> ScalarTable:
     return ScalarTable("segal_extremes", "Крайние значения ускорения", RESULTS, tuple(scalars))
 
 
-def segal_blocks() -> tuple[Block, ...]:
+def segal(scope: Scope) -> Part:
     """Errors, inverse problem and extremes."""
-    return _errors(), _inverse(), _error_scalars(), _extremes()
+    if not scope.shape.by_orders:
+        return Part()
+    return Part((_errors(), _inverse(), _error_scalars(), _extremes()), _charts())
 
 
-def segal_charts() -> tuple[ChartSpec, ...]:
+def _charts() -> tuple[ChartSpec, ...]:
     """Exact curves with the approximate ones, errors and the inverse problem."""
     t = "segal_errors"
     inverse = (

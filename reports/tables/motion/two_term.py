@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import GeometrySection, InputFile
-from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
+from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, only, over_phi
 from reports.spec.extremes import NEVER, TIE
+from reports.spec.parts import Part, Scope
 
 SHEET = "Погрешность"
 _PHI = "rad(phi_deg)"
@@ -15,9 +16,9 @@ _ERRORS = (
 )  # fmt: skip
 
 
-def two_term_blocks(model: InputFile, rows: tuple[float, ...]) -> tuple[Block, ...]:
+def two_term(scope: Scope) -> Part:
     """Table over a turn and the list of the greatest errors."""
-    return _table(rows), _list(model)
+    return Part((_table(scope.turn), _list(scope.input)), _charts())
 
 
 def _offset(model: InputFile) -> str:
@@ -108,7 +109,7 @@ def _list(model: InputFile) -> ScalarTable:
     return ScalarTable("two_term_list", title, f"{SHEET}, итоги", tuple(scalars))
 
 
-def two_term_charts() -> tuple[ChartSpec, ...]:
+def _charts() -> tuple[ChartSpec, ...]:
     """Errors of motion and of the forces over the angle."""
     t = "two_term"
     return (

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from reports.spec.blocks import Block, Grid, GridRow, Scalar
+from reports.spec.blocks import Grid, GridRow, Scalar
 from reports.spec.charts import ChartSpec, Series
+from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape
 
 SHEET = "Схема"
@@ -12,9 +13,9 @@ _CRANK = "0.5"
 _SOURCE = "исходные данные"
 
 
-def scheme_blocks(shape: Shape) -> tuple[Block, ...]:
+def scheme(scope: Scope) -> Part:
     """Cylinders with their places and firing order, throws with the points of the drawing."""
-    return _cylinders(shape), _throws(shape)
+    return Part((_cylinders(scope.shape), _throws(scope.shape)), (_drawing(),))
 
 
 def _lean(shape: Shape) -> str:
@@ -89,7 +90,7 @@ def _throws(shape: Shape) -> Grid:
     )
 
 
-def scheme_charts() -> tuple[ChartSpec, ...]:
+def _drawing() -> ChartSpec:
     """The drawing of the engine from the nose."""
     at = "scheme_lines."
     curves = (
@@ -97,4 +98,4 @@ def scheme_charts() -> tuple[ChartSpec, ...]:
         Series(f"{at}throw_line_x", f"{at}throw_line_y", "колена"),
     )
     title = "Схема двигателя с носка вала: колена и оси рядов цилиндров"
-    return (ChartSpec("scheme", SHEET, title, "scheme", curves),)
+    return ChartSpec("scheme", SHEET, title, "scheme", curves)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Block, Scalar, ScalarTable
+from reports.spec.blocks import Scalar, ScalarTable
 from reports.spec.extremes import extreme_scalars, first_number
+from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape, pin_name
 from reports.tables.gas.cycle_names import section_of
 from reports.tables.gas.cycle_speed import cycle_checks
@@ -14,12 +15,13 @@ SHEET = "Итоги"
 YES, NO = "да", "НЕТ"
 
 
-def summary_blocks(model: InputFile, shape: Shape) -> tuple[Block, ...]:
+def summary(scope: Scope) -> Part:
     """Torque, crankpin, journals, running-on torques, checks."""
+    model, shape = scope.input, scope.shape
     throws, pins = shape.throws, len(shape.pins)
     journals = throws + 1
     rays = model.calculation.wear_rays
-    return (
+    blocks = (
         _torque(model, shape),
         *(_pin(number, pins, rays) for number in range(1, pins + 1)),
         *(_journal(k, rays) for k in range(1, journals + 1)),
@@ -27,6 +29,7 @@ def summary_blocks(model: InputFile, shape: Shape) -> tuple[Block, ...]:
         _loads(journals, pins),
         checks(model, shape),
     )
+    return Part(blocks)
 
 
 def _torque(model: InputFile, shape: Shape) -> ScalarTable:

@@ -148,7 +148,9 @@ def _axes(chart: ScatterChart, spec: ChartSpec, values: Values) -> None:
 
 
 def _series(series: SeriesSpec, number: int, layout: Layout) -> XYSeries:
-    name = series.name or quantity(series.y.split(".")[1]).symbol
+    node = layout.model.nodes.get(series.y)  # a column; rows of grids are called by quantity
+    known = node.quantity if node is not None else quantity(series.y.split(".")[1])
+    name = series.name or known.symbol
     line = LineProperties(noFill=True) if series.invisible else _look(number)
     return _curve(number, Curve(name, layout.range_of(series.x), layout.range_of(series.y)), line)
 

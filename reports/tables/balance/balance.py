@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, columns_of, over_phi, polar
+from reports.spec.listing import column_list, scalar_list
 from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape
 from reports.tables.balance.balance_sums import (
@@ -36,14 +37,21 @@ def _amplitude() -> str:
 
 def _orders(shape: Shape) -> TableSpec:
     far = "max(" + ", ".join(f"abs({place(shape, i)})" for i in numbers(shape)) + ")"
-    columns = [Column("order", None), Column("order_amplitude", _amplitude(), "Нейман (36)")]
+    columns = [
+        *column_list(f"""
+        order
+        order_amplitude = {_amplitude()} | Нейман (36)
+    """)
+    ]
     for across, letter, unit, scale in (("order", "F", "kN", "1"), ("arm", "M", "Nm", far)):
         columns += _order_columns(shape, across, letter, unit, scale)
     first, second = "balance_first_shafts_share", "balance_second_shafts_share"
     rest = f"(1 - {first} if order == 1 else 1 - {second} if order == 2 else 1)"
     columns += [
-        Column("F_left_kN", f"F_order_kN*{rest}", "балансирные валы"),
-        Column("M_left_Nm", f"M_order_Nm*{rest}", "балансирные валы"),
+        *column_list(f"""
+            F_left_kN = F_order_kN*{rest} | балансирные валы
+            M_left_Nm = M_order_Nm*{rest} | балансирные валы
+        """),
     ]
     directed = (
         "Силы складываются по осям цилиндров, вверх — вдоль оси цилиндра 1; вектор порядка "
@@ -200,10 +208,10 @@ def _boxes(shape: Shape) -> Iterator[Block]:
                  f"{key}right_after_{unit}")  # fmt: skip
         ends = ", ".join(f"col_max(balance.{name}), -(col_min(balance.{name}))" for name in names)
         size = f"balance_{key}_size"
-        cells = (
-            Scalar(f"balance_{key}_box1", f"-{size}", "оси диаграммы", of="box"),
-            Scalar(f"balance_{key}_box2", size, "оси диаграммы", of="box"),
-        )
+        cells = scalar_list(f"""
+            balance_{key}_box1 of box = -{size} | оси диаграммы
+            balance_{key}_box2 of box = {size} | оси диаграммы
+        """)
         title = "Наибольшая составляющая"
         found = Scalar(size, f"max({ends}, {NOTHING})", "оси диаграммы", of="box")
         yield ScalarTable(f"balance_{key}_sizes", title, RESULTS, (found,))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from reports.inputs.sections.input_file import InputFile, TableGasSection
 from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi
+from reports.spec.listing import column_list, scalar_list
 from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape
 from reports.tables.gas.cycle_names import section_of
@@ -30,28 +31,22 @@ def _tangential(model: InputFile, cycle: tuple[float, ...]) -> TableSpec:
             "*(geometry_compression_ratio/gas.volume_ratio)**gas_compression_exponent"
         )
     inside = "phi_deg > 180 + 0.0000001 and phi_deg < 540 - 0.0000001"
-    compressed = (
-        Column(
-            "t_motored_MPa",
-            f"(p_motored - gas_ambient_pressure_mpa)*{shape}",
-            "сжатие, отражённое от ВМТ",
-        ),
-        Column(
-            "p_motored",
-            f"({cold}) if {inside} else gas.p_MPa",
-            "политропа сжатия в обе стороны от ВМТ",
-            helper=True,
-        ),
-    )
+    compressed = column_list(f"""
+        t_motored_MPa = (p_motored - gas_ambient_pressure_mpa)*{shape} | сжатие, отражённое от ВМТ
+        helpers:
+        p_motored = ({cold}) if {inside} else gas.p_MPa | политропа сжатия в обе стороны от ВМТ
+    """)
     return TableSpec(
         "tangential",
         "М.т",
         "Удельные тангенциальные силы цилиндра 1",
         SHEET,
         (
-            Column("phi_deg", None),
-            Column("t_gas_MPa", f"P4_1.Pg_MPa*{shape}", "Чудаков, tг = Mг/(FпR)"),
-            Column("t_inertia_MPa", f"P4_1.Pj_MPa*{shape}", "Чудаков (3)"),
+            *column_list(f"""
+                phi_deg
+                t_gas_MPa = P4_1.Pg_MPa*{shape} | Чудаков, tг = Mг/(FпR)
+                t_inertia_MPa = P4_1.Pj_MPa*{shape} | Чудаков (3)
+            """),
             *(compressed if model.engine.strokes == 4 else ()),
         ),
         cycle,
@@ -70,12 +65,11 @@ def _orders(model: InputFile, cylinders: int) -> TableSpec:
         least = f"{_NOISE}*col_max({size})"
         clean = f"(0 if abs({cos}) < {least} else {cos})"
         columns += [
-            Column(size, f"sqrt({cos}**2 + {sin}**2)", "Чудаков (1)"),
-            Column(
-                f"{name}_phase_deg",
-                f"0 if {size} < {least} else deg(atan2({clean}, {sin}))",
-                "Чудаков (1)",
-            ),
+            *column_list(f"""
+                {size} = sqrt({cos}**2 + {sin}**2) | Чудаков (1)
+                {name}_phase_deg = 0 if {size} < {least} else deg(atan2({clean}, {sin}))
+                    | Чудаков (1)
+            """),
         ]
     sums = {
         turn: ", ".join(
@@ -84,16 +78,12 @@ def _orders(model: InputFile, cylinders: int) -> TableSpec:
         for turn in ("cos", "sin")
     }
     columns += [
-        Column(
-            "cylinders_sum",
-            f"sqrt(total({sums['cos']})**2 + total({sums['sin']})**2)",
-            "сложение векторов",
-        ),
-        Column(
-            "M_engine_order_Nm",
-            "of_MPa(total_amplitude_MPa)*F_piston*r_crank*cylinders_sum",
-            "сложение векторов",
-        ),
+        *column_list(f"""
+            cylinders_sum = sqrt(total({sums["cos"]})**2 + total({sums["sin"]})**2)
+                | сложение векторов
+            M_engine_order_Nm = of_MPa(total_amplitude_MPa)*F_piston*r_crank*cylinders_sum
+                | сложение векторов
+        """),
     ]
     step = 2 / model.engine.strokes
     last = min(LAST_ORDER, 180 / model.calculation.step_deg - step)
@@ -128,13 +118,10 @@ def _coefficients(model: InputFile) -> ScalarTable:
     def phase(curve: str) -> str:
         return f"deg(atan2({second(curve, 'cos')}, {second(curve, 'sin')}))"
 
-    shafts: tuple[Scalar, ...] = (
-        Scalar(
-            "P_shafts",
-            "to_kN(0.5*engine_cylinders*lam*m_j*r_crank*omega**2)",
-            "Чудаков, под (7): Pц = 0,5λmjRω²",
-        ),
-    )
+    shafts: tuple[Scalar, ...] = scalar_list("""
+        P_shafts = to_kN(0.5*engine_cylinders*lam*m_j*r_crank*omega**2)
+            | Чудаков, под (7): Pц = 0,5λmjRω²
+    """)
     if Shape.of(model).banks:  # the shafts are those of cylinders in a row
         shafts = ()
     t_gas, t_cold = "t_gas2", "t_motored2"
@@ -148,29 +135,24 @@ def _coefficients(model: InputFile) -> ScalarTable:
                 Scalar(f"t_j_order{n}", f"to_MPa({unit}*({shape}))", "двучленное движение")
                 for n, shape in enumerate(shapes, 1)
             ),
-            Scalar("d_j", "m_j*r_crank/F_piston", "Чудаков, под (5)"),
-            Scalar("d_j_technical", "10*d_j", "Чудаков, под (5)"),
-            Scalar(t_gas, size("t_gas_MPa"), "Чудаков (1)"),
-            Scalar("gamma_gas2_deg", phase("t_gas_MPa"), "Чудаков (1)"),
-            Scalar("t_inertia2", size("t_inertia_MPa"), "Чудаков (3)"),
-            Scalar("gamma_inertia2_deg", f"mod({phase('t_inertia_MPa')}, 360)", "Чудаков (2)"),
-            Scalar("t_j2", "to_MPa(d_j*omega**2/2)", "Чудаков (5)"),
-            Scalar(t_cold, size("t_motored_MPa"), "Чудаков (1)"),
-            Scalar(
-                "t_gas2_idle",
-                f"{t_cold} + ({t_gas} - {t_cold})*(1 - {efficiency})",
-                "линейно по pi",
-            ),
-            Scalar("n_zone1", f"min({speeds[0]}, {speeds[1]})", "Чудаков, рис. 2"),
-            Scalar("n_zone2", f"max({speeds[0]}, {speeds[1]})", "Чудаков, рис. 2"),
-            Scalar(
-                "zone",
-                "1 if regime_speed_rpm <= n_zone1 else 2 if regime_speed_rpm <= n_zone2 else 3",
-                "Чудаков, рис. 2",
-            ),
-            Scalar("psi_best_nominal", f"max(0, 1 - {t_gas}/t_j2)", "Чудаков (6), (7)"),
-            Scalar("h_shafts", "to_mm(balance_suppression*L_rod)", "Чудаков (8)"),
-            Scalar("h_shafts_best", "to_mm(psi_best_nominal*L_rod)", "Чудаков (8)"),
+            *scalar_list(f"""
+                d_j = m_j*r_crank/F_piston | Чудаков, под (5)
+                d_j_technical = 10*d_j | Чудаков, под (5)
+                {t_gas} = {size("t_gas_MPa")} | Чудаков (1)
+                gamma_gas2_deg = {phase("t_gas_MPa")} | Чудаков (1)
+                t_inertia2 = {size("t_inertia_MPa")} | Чудаков (3)
+                gamma_inertia2_deg = mod({phase("t_inertia_MPa")}, 360) | Чудаков (2)
+                t_j2 = to_MPa(d_j*omega**2/2) | Чудаков (5)
+                {t_cold} = {size("t_motored_MPa")} | Чудаков (1)
+                t_gas2_idle = {t_cold} + ({t_gas} - {t_cold})*(1 - {efficiency}) | линейно по pi
+                n_zone1 = min({speeds[0]}, {speeds[1]}) | Чудаков, рис. 2
+                n_zone2 = max({speeds[0]}, {speeds[1]}) | Чудаков, рис. 2
+                zone = 1 if regime_speed_rpm <= n_zone1 else 2 if regime_speed_rpm <= n_zone2 else 3
+                    | Чудаков, рис. 2
+                psi_best_nominal = max(0, 1 - {t_gas}/t_j2) | Чудаков (6), (7)
+                h_shafts = to_mm(balance_suppression*L_rod) | Чудаков (8)
+                h_shafts_best = to_mm(psi_best_nominal*L_rod) | Чудаков (8)
+            """),
             *shafts,
         ),
         note=(
@@ -189,21 +171,18 @@ def _suppression() -> TableSpec:
         "М.в",
         "Гашение опрокидывающего момента 2-го порядка по частоте вращения",
         SHAFTS,
-        (
-            Column("speed_share", None),
-            Column("n_rpm", "speed_share*regime_speed_rpm", "доля номинальной"),
-            Column("t_j2_MPa", "to_MPa(d_j*(n_rpm*pi/30)**2/2)", "Чудаков (5)"),
-            Column("residual_bare_MPa", f"abs({gas} - t_j2_MPa)", "Чудаков (6)"),
-            Column("residual_psi_MPa", f"abs({gas} - {rest})", "Чудаков (6), (7)"),
-            Column(
-                "residual_vector_MPa",
-                f"sqrt(({gas}*cos({gamma}) - {rest})**2 + ({gas}*sin({gamma}))**2)",
-                "сложение векторов",
-            ),
-            Column("psi_best", f"max(0, 1 - {gas}/t_j2_MPa)", "Чудаков, рис. 5"),
-            Column("psi_best_idle", "max(0, 1 - t_gas2_idle/t_j2_MPa)", "Чудаков, рис. 5"),
-            Column("h_best_mm", "to_mm(psi_best*L_rod)", "Чудаков (8)"),
-        ),
+        column_list(f"""
+            speed_share
+            n_rpm = speed_share*regime_speed_rpm | доля номинальной
+            t_j2_MPa = to_MPa(d_j*(n_rpm*pi/30)**2/2) | Чудаков (5)
+            residual_bare_MPa = abs({gas} - t_j2_MPa) | Чудаков (6)
+            residual_psi_MPa = abs({gas} - {rest}) | Чудаков (6), (7)
+            residual_vector_MPa = sqrt(({gas}*cos({gamma}) - {rest})**2 + ({gas}*sin({gamma}))**2)
+                | сложение векторов
+            psi_best = max(0, 1 - {gas}/t_j2_MPa) | Чудаков, рис. 5
+            psi_best_idle = max(0, 1 - t_gas2_idle/t_j2_MPa) | Чудаков, рис. 5
+            h_best_mm = to_mm(psi_best*L_rod) | Чудаков (8)
+        """),
         rows(0.3, 1.2, 0.1),
         step=0.1,
     )

@@ -6,6 +6,7 @@ from reports.inputs.sections.gas import RoundedGasSection
 from reports.inputs.sections.input_file import InputFile, TableGasSection
 from reports.spec.blocks import Column, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, line, over_phi
+from reports.spec.listing import column_list
 from reports.spec.parts import Part, Scope
 from reports.spec.shape import TIMING, Shape
 from reports.tables.gas.diagram import diagram_blocks
@@ -36,12 +37,15 @@ def _table(model: InputFile, rows: tuple[float, ...]) -> TableSpec:
     """The indicator diagram of cylinder 1 over φ and over the volume."""
     shape = Shape.of(model)
     columns = [
-        Column("phi_deg", None),
-        Column("x_exact_mm", f"to_mm(r_crank*{shape.displacement('phi_deg')})", displaced(shape)),
-        Column("volume_ratio", shape.volume_ratio("phi_deg"), displaced(shape)),
-        Column("volume_dm3", "V_c*volume_ratio", "Гоц, 1.1"),
-        Column("p_MPa", own_pressure(model, shape, "phi_deg"), "Гоц, 2.4"),
-        Column("work_J", WORK, "∫p dV", helper=True),
+        *column_list(f"""
+            phi_deg
+            x_exact_mm = to_mm(r_crank*{shape.displacement("phi_deg")}) | {displaced(shape)}
+            volume_ratio = {shape.volume_ratio("phi_deg")} | {displaced(shape)}
+            volume_dm3 = V_c*volume_ratio | Гоц, 1.1
+            p_MPa = {own_pressure(model, shape, "phi_deg")} | Гоц, 2.4
+            helpers:
+            work_J = {WORK} | ∫p dV
+        """),
         *timing(model, shape, "phi_deg"),
     ]
     return TableSpec("gas", "Г", "Индикаторная диаграмма", "Газы", tuple(columns), rows)

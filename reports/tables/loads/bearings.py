@@ -9,6 +9,7 @@ from reports.inputs.to_si.engine import arrangement_of
 from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, over_phi, polar
 from reports.spec.extremes import NEVER, TIE, extreme_columns, extreme_scalars
+from reports.spec.listing import column_list, scalar_list
 from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape, rods_table
 from reports.tables.loads.cylinder import cylinder_table_id
@@ -51,11 +52,13 @@ def _rod_bearing(rows: tuple[float, ...]) -> TableSpec:
             INDEX,
             Column("Kown_MPa", f"P4_1.K_MPa - to_MPa(m_2*{_UNIT}/F_piston)", "Гоц (40)",
                    helper=True, of="Krod_MPa"),
-            Column("Bx_MPa", f"Kown_MPa*sin({turn}) - P4_1.T_MPa*cos({turn})",
-                   "Гоц, 2.6: поворот на 180° + φ + β"),
-            Column("By_MPa", f"Kown_MPa*cos({turn}) + P4_1.T_MPa*sin({turn})",
-                   "Гоц, 2.6: поворот на 180° + φ + β"),
-            Column("B_MPa", "sqrt(Bx_MPa**2 + By_MPa**2)", "Гоц, 2.6"),
+            *column_list(f"""
+                Bx_MPa = Kown_MPa*sin({turn}) - P4_1.T_MPa*cos({turn})
+                    | Гоц, 2.6: поворот на 180° + φ + β
+                By_MPa = Kown_MPa*cos({turn}) + P4_1.T_MPa*sin({turn})
+                    | Гоц, 2.6: поворот на 180° + φ + β
+                B_MPa = sqrt(Bx_MPa**2 + By_MPa**2) | Гоц, 2.6
+            """),
             *extreme_columns("B_MPa", "B"),
         ),
         rows,
@@ -69,10 +72,10 @@ def _rod_bearing(rows: tuple[float, ...]) -> TableSpec:
 def _bearing_results() -> tuple[Block, ...]:
     extremes = extreme_scalars("rod_bearing", "B_MPa", "B", "Гоц, 2.6")
     mean = Scalar("B_mean", "col_mean(rod_bearing.B_MPa)", "Гоц, 2.6")
-    cells = (
-        Scalar("B_box1", "-B_max", "оси диаграммы", of="box"),
-        Scalar("B_box2", "B_max", "оси диаграммы", of="box"),
-    )
+    cells = scalar_list("""
+        B_box1 of box = -B_max | оси диаграммы
+        B_box2 of box = B_max | оси диаграммы
+    """)
     box = Grid(
         "rod_bearing_box", "Оси полярной диаграммы", BEARING, ("−", "+"), (GridRow("box", cells),)
     )
@@ -101,14 +104,11 @@ def _bending(model: InputFile, rows: tuple[float, ...]) -> TableSpec:
         (
             INDEX,
             Column("T_MPa", ahead, "Гоц (37)", helper=True),
-            Column(
-                "Ralpha_MPa",
-                f"{inward}*cos(rad(alpha_oil_deg)) + T_MPa*sin(rad(alpha_oil_deg))",
-                "Гоц, 2.6",
-            ),
-            Column(
-                "Malpha_Nm", "of_MPa(Ralpha_MPa)*F_piston*of_mm(throw1_length)/4", "Гоц, 2.6: Rl/4"
-            ),
+            *column_list(f"""
+                Ralpha_MPa = {inward}*cos(rad(alpha_oil_deg)) + T_MPa*sin(rad(alpha_oil_deg))
+                    | Гоц, 2.6
+                Malpha_Nm = of_MPa(Ralpha_MPa)*F_piston*of_mm(throw1_length)/4 | Гоц, 2.6: Rl/4
+            """),
             *planes,
         ),
         rows,
@@ -149,14 +149,16 @@ def _bending_results(model: InputFile) -> tuple[Block, ...]:
         BENDING,
         (
             Scalar("alpha_oil_deg", own, "задано" if "oil" in own else "Гоц, 2.6: по износу"),
-            Scalar("Ralpha_max", f"col_max({t}.Ralpha_MPa)", "Гоц, 2.6"),
-            Scalar("Ralpha_min", f"col_min({t}.Ralpha_MPa)", "Гоц, 2.6"),
-            Scalar("Malpha_max", f"col_max({t}.Malpha_Nm)", "Гоц, 2.6"),
-            Scalar("Malpha_min", f"col_min({t}.Malpha_Nm)", "Гоц, 2.6"),
-            Scalar("Malpha_swing", "(Malpha_max - Malpha_min)/2", "амплитуда"),
-            Scalar("Malpha_mean", "(Malpha_max + Malpha_min)/2", "среднее цикла"),
-            Scalar("alpha_best_deg", best, "плоскость наименьшей амплитуды"),
-            Scalar("Mbest_swing", low, "наименьшая амплитуда"),
+            *scalar_list(f"""
+                Ralpha_max = col_max({t}.Ralpha_MPa) | Гоц, 2.6
+                Ralpha_min = col_min({t}.Ralpha_MPa) | Гоц, 2.6
+                Malpha_max = col_max({t}.Malpha_Nm) | Гоц, 2.6
+                Malpha_min = col_min({t}.Malpha_Nm) | Гоц, 2.6
+                Malpha_swing = (Malpha_max - Malpha_min)/2 | амплитуда
+                Malpha_mean = (Malpha_max + Malpha_min)/2 | среднее цикла
+                alpha_best_deg = {best} | плоскость наименьшей амплитуды
+                Mbest_swing = {low} | наименьшая амплитуда
+            """),
         ),
     )
 

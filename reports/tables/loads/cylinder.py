@@ -5,6 +5,7 @@ from __future__ import annotations
 from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Column, TableSpec
 from reports.spec.charts import ChartSpec, columns_of, over_phi
+from reports.spec.listing import column_list
 from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape
 from reports.tables.gas.indicator import displaced, own_pressure, timing
@@ -23,17 +24,17 @@ def _forces(model: InputFile, rows: tuple[float, ...]) -> TableSpec:
         "Удельные силы и крутящий момент, действующие в КШМ одного цилиндра",
         "П4.1",
         (
-            Column("phi_deg", None),
-            Column("Pg_MPa", "gas.p_MPa - gas_ambient_pressure_mpa", "Гоц (33)"),
+            *column_list("""
+                phi_deg
+                Pg_MPa = gas.p_MPa - gas_ambient_pressure_mpa | Гоц (33)
+            """),
             *_chain("phi_deg"),
-            Column("beta_rad", shape.beta("phi_deg"), "Гоц (7), (17)", helper=True),
-            Column(
-                "j_m_s2",
-                acceleration(model, "phi_deg", "beta_rad"),
-                "Гоц (6) или точно",
-                helper=True,
-            ),
-            Column("Mopr_Nm", overturning, "Гоц (39)", helper=True),
+            *column_list(f"""
+                helpers:
+                beta_rad = {shape.beta("phi_deg")} | Гоц (7), (17)
+                j_m_s2 = {acceleration(model, "phi_deg", "beta_rad")} | Гоц (6) или точно
+                Mopr_Nm = {overturning} | Гоц (39)
+            """),
         ),
         rows,
     )
@@ -56,24 +57,20 @@ def _shifted(
         f"Силы в цилиндре {number}" + (" в заданных фазах" if forced else ""),
         "Фазы П4.3" if forced else "Цилиндры",
         (
-            Column("phi_deg", None),
-            Column(
-                "phase_deg",
-                f"mod(phi_deg - {offset}, {shape.period})",
-                "угол в цикле",
-                of=f"phase{number}_deg",
-            ),
-            Column("volume_ratio", shape.volume_ratio("phase_deg"), displaced(shape)),
-            Column("p_MPa", own_pressure(model, shape, "phase_deg"), "Гоц, 2.4"),
-            Column("Pg_MPa", "p_MPa - gas_ambient_pressure_mpa", "Гоц (33)"),
+            *column_list(f"""
+                phi_deg
+                phase_deg of phase{number}_deg = mod(phi_deg - {offset}, {shape.period})
+                    | угол в цикле
+                volume_ratio = {shape.volume_ratio("phase_deg")} | {displaced(shape)}
+                p_MPa = {own_pressure(model, shape, "phase_deg")} | Гоц, 2.4
+                Pg_MPa = p_MPa - gas_ambient_pressure_mpa | Гоц (33)
+            """),
             *_chain("phase_deg"),
-            Column("beta_rad", shape.beta("phase_deg"), "Гоц (7), (17)", helper=True),
-            Column(
-                "j_m_s2",
-                acceleration(model, "phase_deg", "beta_rad"),
-                "Гоц (6) или точно",
-                helper=True,
-            ),
+            *column_list(f"""
+                helpers:
+                beta_rad = {shape.beta("phase_deg")} | Гоц (7), (17)
+                j_m_s2 = {acceleration(model, "phase_deg", "beta_rad")} | Гоц (6) или точно
+            """),
             *timing(model, shape, "phase_deg"),
         ),
         rows,
@@ -82,15 +79,15 @@ def _shifted(
 
 
 def _chain(phi: str) -> tuple[Column, ...]:
-    return (
-        Column("Pj_MPa", "to_MPa(-(m_j*j_m_s2)/F_piston)", "Гоц (30)"),
-        Column("Ps_MPa", "Pg_MPa + Pj_MPa", "Гоц, 2.4"),
-        Column("N_MPa", "Ps_MPa*tan(beta_rad)", "Гоц (34)"),
-        Column("S_MPa", "Ps_MPa/cos(beta_rad)", "Гоц (35)"),
-        Column("T_MPa", f"Ps_MPa*sin(rad({phi}) + beta_rad)/cos(beta_rad)", "Гоц (37)"),
-        Column("K_MPa", f"Ps_MPa*cos(rad({phi}) + beta_rad)/cos(beta_rad)", "Гоц (36)"),
-        Column("M_Nm", "of_MPa(T_MPa)*F_piston*r_crank", "Гоц, 2.5"),
-    )
+    return column_list(f"""
+        Pj_MPa = to_MPa(-(m_j*j_m_s2)/F_piston) | Гоц (30)
+        Ps_MPa = Pg_MPa + Pj_MPa | Гоц, 2.4
+        N_MPa = Ps_MPa*tan(beta_rad) | Гоц (34)
+        S_MPa = Ps_MPa/cos(beta_rad) | Гоц (35)
+        T_MPa = Ps_MPa*sin(rad({phi}) + beta_rad)/cos(beta_rad) | Гоц (37)
+        K_MPa = Ps_MPa*cos(rad({phi}) + beta_rad)/cos(beta_rad) | Гоц (36)
+        M_Nm = of_MPa(T_MPa)*F_piston*r_crank | Гоц, 2.5
+    """)
 
 
 def cylinder_table_id(number: int) -> str:

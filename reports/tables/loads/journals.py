@@ -5,6 +5,7 @@ from __future__ import annotations
 from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, TableSpec
 from reports.spec.charts import ChartSpec, Series, columns_of, over_phi, polar
 from reports.spec.extremes import extreme_columns
+from reports.spec.listing import column_list, scalar_list
 from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape, pin_name, rods_table
 from reports.tables.loads.cylinder import cylinder_table_id
@@ -26,15 +27,19 @@ def crankpin_table(shape: Shape, number: int, rows: tuple[float, ...]) -> TableS
         terms = " + ".join(f"{cylinder_table_id(i)}.{axis}_MPa" for i in group)
         columns.append(Column(f"{axis}_MPa", terms, formula if len(group) == 1 else "Гоц, 2.6"))
     columns += [
-        Column("Krod_MPa", f"K_MPa - {centrifugal}", "Гоц (40)"),
-        Column("Rpin_MPa", "sqrt(Krod_MPa**2 + T_MPa**2)", "Гоц (41)"),
-        Column("psi_deg", angle("T_MPa", "Krod_MPa"), "Гоц, 2.6: tgψ = T/(K − Kr ш)"),
+        *column_list(f"""
+            Krod_MPa = K_MPa - {centrifugal} | Гоц (40)
+            Rpin_MPa = sqrt(Krod_MPa**2 + T_MPa**2) | Гоц (41)
+            psi_deg = {angle("T_MPa", "Krod_MPa")} | Гоц, 2.6: tgψ = T/(K − Kr ш)
+        """),
     ]
     if shape.single_rods:
         title = "Удельные нагрузки на шатунную шейку и колено"
         columns += [
-            Column("Ksum_MPa", "Krod_MPa - K_r_throw", "Гоц (42)"),
-            Column("Rthrow_MPa", "sqrt(Ksum_MPa**2 + T_MPa**2)", "Гоц (42)"),
+            *column_list("""
+                Ksum_MPa = Krod_MPa - K_r_throw | Гоц (42)
+                Rthrow_MPa = sqrt(Ksum_MPa**2 + T_MPa**2) | Гоц (42)
+            """),
         ]
     return TableSpec(
         "crankpin" if number == 1 else f"crankpin_{number}",
@@ -92,19 +97,20 @@ def _rods(shape: Shape, throw: int, rows: tuple[float, ...]) -> TableSpec:
         f"К{throw}",
         f"Силы двух шатунов на колене {throw}",
         f"Колено {throw}",
-        (
-            Column("phi_deg", None),
-            Column("Tleft_MPa", f"{left}.T_MPa", source),
-            Column("Kleft_MPa", f"{left}.K_MPa", source),
-            Column("Tright_MPa", turned["T"], source),
-            Column("Kright_MPa", turned["K"], source),
-            Column("T_MPa", "Tleft_MPa + Tright_MPa", "Гоц, 2.6"),
-            Column("K_MPa", "Kleft_MPa + Kright_MPa", "Гоц, 2.6"),
-            Column("Rthrow_MPa", "sqrt(Ksum_MPa**2 + Tsum_MPa**2)", "Гоц (42)"),
-            Column("Mthrow_Nm", f"{left}.M_Nm + {right}.M_Nm", "Гоц, 2.8", of=f"Mthrow{throw}_Nm"),
-            Column("Ksum_MPa", f"K_MPa - {rods} - {throw_force}", "Гоц (42)", helper=True),
-            Column("Tsum_MPa", f"T_MPa{ahead}", "Гоц (42)", helper=True, of="T_MPa"),
-        ),
+        column_list(f"""
+            phi_deg
+            Tleft_MPa = {left}.T_MPa | {source}
+            Kleft_MPa = {left}.K_MPa | {source}
+            Tright_MPa = {turned["T"]} | {source}
+            Kright_MPa = {turned["K"]} | {source}
+            T_MPa = Tleft_MPa + Tright_MPa | Гоц, 2.6
+            K_MPa = Kleft_MPa + Kright_MPa | Гоц, 2.6
+            Rthrow_MPa = sqrt(Ksum_MPa**2 + Tsum_MPa**2) | Гоц (42)
+            Mthrow_Nm of Mthrow{throw}_Nm = {left}.M_Nm + {right}.M_Nm | Гоц, 2.8
+            helpers:
+            Ksum_MPa = K_MPa - {rods} - {throw_force} | Гоц (42)
+            Tsum_MPa of T_MPa = T_MPa{ahead} | Гоц (42)
+        """),
         rows,
         note=(
             f"Левый шатун (ближе к носку) — цилиндра {shape.groups[throw - 1][0]}, правый — "
@@ -275,24 +281,24 @@ def journal_table(shape: Shape, number: int, rows: tuple[float, ...], *, forced:
             constant = f"to_MPa(throw{throw}_R{axis}C{support}/F_piston)"
             name, rods = f"{side}{axis}", _on_support(shape, throw, axis, support, forced=forced)
             columns += [
-                Column(f"{name}_MPa", f"{rods} + {constant}", formula),
-                Column(f"{name}cos_MPa", f"{name}_MPa*cos({gamma})", "Гоц, табл. 10"),
-                Column(f"{name}sin_MPa", f"{name}_MPa*sin({gamma})", "Гоц, табл. 10"),
+                *column_list(f"""
+                    {name}_MPa = {rods} + {constant} | {formula}
+                    {name}cos_MPa = {name}_MPa*cos({gamma}) | Гоц, табл. 10
+                    {name}sin_MPa = {name}_MPa*sin({gamma}) | Гоц, табл. 10
+                """),
             ]
         x_terms += [f"{side}Tcos_MPa", f"-{side}Ksin_MPa"]
         y_terms += [f"{side}Tsin_MPa", f"{side}Kcos_MPa"]
     turn = "rad(phi_deg)"
     columns += [
-        Column("Rx_MPa", " + ".join(x_terms).replace("+ -", "- "), "Гоц (56), (58)"),
-        Column("Ry_MPa", " + ".join(y_terms), "Гоц (57), (58)"),
-        Column("R_MPa", "sqrt(Rx_MPa**2 + Ry_MPa**2)", "Гоц (59)"),
-        Column("psiR_deg", angle("Rx_MPa", "Ry_MPa"), "Гоц (60)"),
-        Column(
-            "block_x_MPa", f"-(Rx_MPa*cos({turn}) - Ry_MPa*sin({turn}))", "нагрузка на подшипник"
-        ),
-        Column(
-            "block_y_MPa", f"-(Rx_MPa*sin({turn}) + Ry_MPa*cos({turn}))", "нагрузка на подшипник"
-        ),
+        *column_list(f"""
+            Rx_MPa = {" + ".join(x_terms).replace("+ -", "- ")} | Гоц (56), (58)
+            Ry_MPa = {" + ".join(y_terms)} | Гоц (57), (58)
+            R_MPa = sqrt(Rx_MPa**2 + Ry_MPa**2) | Гоц (59)
+            psiR_deg = {angle("Rx_MPa", "Ry_MPa")} | Гоц (60)
+            block_x_MPa = -(Rx_MPa*cos({turn}) - Ry_MPa*sin({turn})) | нагрузка на подшипник
+            block_y_MPa = -(Rx_MPa*sin({turn}) + Ry_MPa*cos({turn})) | нагрузка на подшипник
+        """),
         *extreme_columns("R_MPa", f"Rmain{number}"),
     ]
     return TableSpec(
@@ -328,10 +334,10 @@ def _on_support(shape: Shape, throw: int, axis: str, support: str, *, forced: bo
 
 def box(table: str, name: str, sheet: str) -> Grid:
     """Corners that keep both axes of a polar diagram equal whatever the loads become."""
-    cells = (
-        Scalar(f"{name}_box1", f"-{name}_max", "оси диаграммы", of="box"),
-        Scalar(f"{name}_box2", f"{name}_max", "оси диаграммы", of="box"),
-    )
+    cells = scalar_list(f"""
+        {name}_box1 of box = -{name}_max | оси диаграммы
+        {name}_box2 of box = {name}_max | оси диаграммы
+    """)
     return Grid(
         f"{table}_box", "Оси полярной диаграммы", sheet, ("−", "+"), (GridRow("box", cells),)
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from reports.spec.blocks import Column, TableSpec
 from reports.spec.charts import ChartSpec, over_phi
 from reports.spec.extremes import extreme_columns
+from reports.spec.listing import column_list
 from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape, rods_table
 from reports.tables.loads.cylinder import cylinder_table_id
@@ -55,11 +56,10 @@ def _statics(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
     for i in range(1, shape.throws + 1):
         before = f"P4_4.Mmain{i}_Nm + " if i > 1 else ""
         columns.append(
-            Column(
-                f"Mpins{i}_Nm",
-                f"{before}r_crank*({_on_left_support(shape, i)} + throw{i}_RTCL + throw{i}_side)",
-                "статика левой половины колена",
-            )
+            *column_list(f"""
+                Mpins{i}_Nm = {before}r_crank*({_on_left_support(shape, i)} + throw{i}_RTCL
+                    + throw{i}_side) | статика левой половины колена
+            """)
         )
     return TableSpec(
         "P4_5s",

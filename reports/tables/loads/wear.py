@@ -6,6 +6,7 @@ from kshm.nomenclature.quantity import ray_key, roman
 from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, TableSpec
 from reports.spec.charts import ChartSpec, wear_chart
 from reports.spec.extremes import NEVER, TIE
+from reports.spec.listing import scalar_list
 from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape, pin_name
 
@@ -104,10 +105,10 @@ def hole_scalars(name: str, rays: int) -> tuple[Scalar, Scalar]:
     """Least loaded ray and the place of the oil hole opposite to it."""
     key = f"hole_{name}"
     candidates = ", ".join(f"{name}_best{i}" for i in range(1, rays + 1))
-    return (
-        Scalar(f"{key}_ray", f"min({candidates})", "Гоц, рис. 33"),
-        Scalar(f"{key}_deg", f"mod(({key}_ray - 1)*360/{rays} + 180, 360)", "Гоц, 2.6"),
-    )
+    return scalar_list(f"""
+        {key}_ray = min({candidates}) | Гоц, рис. 33
+        {key}_deg = mod(({key}_ray - 1)*360/{rays} + 180, 360) | Гоц, 2.6
+    """)
 
 
 def _charts(shape: Shape) -> tuple[ChartSpec, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, columns_of, over_phi
+from reports.spec.listing import column_list
 from reports.spec.parts import Part, Scope
 from reports.tables.motion.segal import ALPHA, TITLES, J, S, V, filled, rows
 
@@ -40,24 +41,21 @@ def _motion() -> TableSpec:
         columns.append(Column(f"{letter}_series", text, source))
     root = "sqrt(1 - lam**2*sin(rad(alpha_deg))**2)"
     columns += [
-        Column("rod_speed_rel", f"lam*cos(rad(alpha_deg))/{root}", "Нейман (7)"),
-        Column(
-            "rod_acceleration_rel",
-            f"-(lam*(1 - lam**2)*sin(rad(alpha_deg))/{root}**3)",
-            "Нейман (9)",
-        ),
-        Column("rod_on_pin_rel", "1 + rod_speed_rel", "Нейман (12)"),
-        Column("root", f"{root}/lam", "Нейман (14)", helper=True),
+        *column_list(f"""
+            rod_speed_rel = lam*cos(rad(alpha_deg))/{root} | Нейман (7)
+            rod_acceleration_rel = -(lam*(1 - lam**2)*sin(rad(alpha_deg))/{root}**3) | Нейман (9)
+            rod_on_pin_rel = 1 + rod_speed_rel | Нейман (12)
+            helpers:
+            root = {root}/lam | Нейман (14)
+        """),
     ]
     for letter in "svj":
         columns.append(
-            Column(
-                f"{letter}_gap",
-                f"abs({letter}_series - {letter}_exact)",
-                "погрешность ряда",
-                helper=True,
-                of=f"{letter}_series_error",
-            )
+            *column_list(f"""
+                helpers:
+                {letter}_gap of {letter}_series_error = abs({letter}_series - {letter}_exact)
+                    | погрешность ряда
+            """)
         )
     return TableSpec(
         "neiman_motion",

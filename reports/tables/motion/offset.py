@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from reports.spec.blocks import Column, Grid, GridRow, Scalar, TableSpec
+from reports.spec.blocks import Grid, GridRow, Scalar, TableSpec
 from reports.spec.charts import ChartSpec, Series, over_phi
+from reports.spec.listing import column_list
 from reports.spec.parts import Part, Scope
 from reports.tables.motion.mechanism import kinematic_charts
 
@@ -31,26 +32,22 @@ def _piston(rows: tuple[float, ...]) -> TableSpec:
         "П3.1",
         "Перемещение, скорость и ускорение поршня",
         "П3.1",
-        (
-            Column("phi_deg", None),
-            Column("s1_mm", f"to_mm(r_crank*(1 - cos({_PHI})))", "Гоц (14)"),
-            Column("s2_mm", f"to_mm(r_crank*lam/4*(1 - cos(2*{_PHI})))", "Гоц (14)"),
-            Column(
-                "sk_mm",
-                f"to_mm(r_crank*({top} - 1 - 1/lam + lam*k_offset**2/2"
-                f" - lam*k_offset*sin({_PHI})))",
-                "Гоц (14)",
-            ),
-            Column("s_mm", "s1_mm + s2_mm + sk_mm", "Гоц (14)"),
-            Column("v1_m_s", f"r_crank*omega*sin({_PHI})", "Гоц (15)"),
-            Column("v2_m_s", f"r_crank*omega*lam/2*sin(2*{_PHI})", "Гоц (15)"),
-            Column("vk_m_s", f"-(r_crank*omega*lam*k_offset*cos({_PHI}))", "Гоц (15)"),
-            Column("v_m_s", "v1_m_s + v2_m_s + vk_m_s", "Гоц (15)"),
-            Column("j1_m_s2", f"r_crank*omega**2*cos({_PHI})", "Гоц (16)"),
-            Column("j2_m_s2", f"lam*r_crank*omega**2*cos(2*{_PHI})", "Гоц (16)"),
-            Column("jk_m_s2", f"r_crank*omega**2*lam*k_offset*sin({_PHI})", "Гоц (16)"),
-            Column("j_m_s2", "j1_m_s2 + j2_m_s2 + jk_m_s2", "Гоц (16)"),
-        ),
+        column_list(f"""
+            phi_deg
+            s1_mm = to_mm(r_crank*(1 - cos({_PHI}))) | Гоц (14)
+            s2_mm = to_mm(r_crank*lam/4*(1 - cos(2*{_PHI}))) | Гоц (14)
+            sk_mm = to_mm(r_crank*({top} - 1 - 1/lam + lam*k_offset**2/2
+                - lam*k_offset*sin({_PHI}))) | Гоц (14)
+            s_mm = s1_mm + s2_mm + sk_mm | Гоц (14)
+            v1_m_s = r_crank*omega*sin({_PHI}) | Гоц (15)
+            v2_m_s = r_crank*omega*lam/2*sin(2*{_PHI}) | Гоц (15)
+            vk_m_s = -(r_crank*omega*lam*k_offset*cos({_PHI})) | Гоц (15)
+            v_m_s = v1_m_s + v2_m_s + vk_m_s | Гоц (15)
+            j1_m_s2 = r_crank*omega**2*cos({_PHI}) | Гоц (16)
+            j2_m_s2 = lam*r_crank*omega**2*cos(2*{_PHI}) | Гоц (16)
+            jk_m_s2 = r_crank*omega**2*lam*k_offset*sin({_PHI}) | Гоц (16)
+            j_m_s2 = j1_m_s2 + j2_m_s2 + jk_m_s2 | Гоц (16)
+        """),
         rows,
         note=(
             "В (14) высота ВМТ взята точной, поэтому двучленное перемещение в ВМТ чуть "
@@ -70,14 +67,14 @@ def _rod(rows: tuple[float, ...]) -> TableSpec:
         "П3.2",
         "Угловое перемещение, скорость и ускорение шатуна",
         "П3.2",
-        (
-            Column("phi_deg", None),
-            Column("beta_rad", f"asin(lam*{sine})", "Гоц (13), (17)"),
-            Column("omega_rod_exact_1_s", f"lam*omega*cos({_PHI})/{_ROOT}", "Гоц (18)"),
-            Column("omega_rod_approx_1_s", f"lam*omega*cos({_PHI})", "Гоц (18а)"),
-            Column("eps_rod_exact_1_s2", turned, "Гоц (19)"),
-            Column("eps_rod_approx_1_s2", f"-(lam*omega**2*sin({_PHI}))", "Гоц (19а)"),
-        ),
+        column_list(f"""
+            phi_deg
+            beta_rad = asin(lam*{sine}) | Гоц (13), (17)
+            omega_rod_exact_1_s = lam*omega*cos({_PHI})/{_ROOT} | Гоц (18)
+            omega_rod_approx_1_s = lam*omega*cos({_PHI}) | Гоц (18а)
+            eps_rod_exact_1_s2 = {turned} | Гоц (19)
+            eps_rod_approx_1_s2 = -(lam*omega**2*sin({_PHI})) | Гоц (19а)
+        """),
         rows,
         note="В учебнике формула (19а) напечатана без знака минус.",
     )
@@ -91,28 +88,14 @@ def _exact(rows: tuple[float, ...]) -> TableSpec:
         "Д",
         "Точное движение поршня дезаксиального механизма",
         SHEET,
-        (
-            Column("phi_deg", None),
-            Column(
-                "x_exact_mm",
-                f"to_mm(r_crank*({top} - (cos({_PHI}) + cos({beta})/lam)))",
-                "Гоц (12)",
-            ),
-            Column(
-                "v_exact_m_s", f"r_crank*omega*sin({_PHI} + {beta})/cos({beta})", "Гоц (12), d/dt"
-            ),
-            Column(
-                "j_exact_m_s2",
-                f"r_crank*omega**2*(cos({_PHI} + {beta})/cos({beta})"
-                f" + lam*cos({_PHI})**2/cos({beta})**3)",
-                "Гоц (12), d²/dt²",
-            ),
-            Column(
-                "j_central_m_s2",
-                f"r_crank*omega**2*(cos({_PHI}) + lam*cos(2*{_PHI}))",
-                "Гоц (6)",
-            ),
-        ),
+        column_list(f"""
+            phi_deg
+            x_exact_mm = to_mm(r_crank*({top} - (cos({_PHI}) + cos({beta})/lam))) | Гоц (12)
+            v_exact_m_s = r_crank*omega*sin({_PHI} + {beta})/cos({beta}) | Гоц (12), d/dt
+            j_exact_m_s2 = r_crank*omega**2*(cos({_PHI} + {beta})/cos({beta})
+                + lam*cos({_PHI})**2/cos({beta})**3) | Гоц (12), d²/dt²
+            j_central_m_s2 = r_crank*omega**2*(cos({_PHI}) + lam*cos(2*{_PHI})) | Гоц (6)
+        """),
         rows,
     )
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from kshm.results.reference import FIGURE_6
 from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi, polar
+from reports.spec.listing import column_list, scalar_list
 from reports.spec.parts import Part, Scope
 
 MOTION, SPEED, VECTORS, SKETCH = "Рис. 3–10", "Рис. 6", "Рис. 20", "Рис. 5"
@@ -83,19 +84,21 @@ def _motion(rows: tuple[float, ...]) -> TableSpec:
         MOTION,
         (
             INDEX,
-            Column("s1_rel", f"1 - cos({_PHI})", "Гоц (3), рис. 3"),
-            Column("s2_rel", f"lam/4*(1 - cos(2*{_PHI}))", "Гоц (3), рис. 3"),
-            Column("s_rel", "s1_rel + s2_rel", "Гоц (3), рис. 3"),
-            Column("v1_rel", f"sin({_PHI})", "Гоц (4), рис. 4"),
-            Column("v2_rel", f"lam/2*sin(2*{_PHI})", "Гоц (4), рис. 4"),
-            Column("v_rel", "v1_rel + v2_rel", "Гоц (4), рис. 4"),
-            Column("j1_rel", f"cos({_PHI})", "Гоц (6), рис. 7"),
-            Column("j2_rel", f"lam*cos(2*{_PHI})", "Гоц (6), рис. 7"),
-            Column("j_rel", "j1_rel + j2_rel", "Гоц (6), рис. 7"),
-            Column("omega_rod_rel", f"lam*cos({_PHI})/{root}", "Гоц (8), рис. 10"),
-            Column("omega_rod_near_rel", f"lam*cos({_PHI})", "Гоц (8), рис. 10"),
-            Column("eps_rod_rel", f"-(lam*(1 - lam**2)*sin({_PHI})/{root}**3)", "Гоц, рис. 10"),
-            Column("eps_rod_near_rel", f"-(lam*sin({_PHI}))", "Гоц, рис. 10"),
+            *column_list(f"""
+                s1_rel = 1 - cos({_PHI}) | Гоц (3), рис. 3
+                s2_rel = lam/4*(1 - cos(2*{_PHI})) | Гоц (3), рис. 3
+                s_rel = s1_rel + s2_rel | Гоц (3), рис. 3
+                v1_rel = sin({_PHI}) | Гоц (4), рис. 4
+                v2_rel = lam/2*sin(2*{_PHI}) | Гоц (4), рис. 4
+                v_rel = v1_rel + v2_rel | Гоц (4), рис. 4
+                j1_rel = cos({_PHI}) | Гоц (6), рис. 7
+                j2_rel = lam*cos(2*{_PHI}) | Гоц (6), рис. 7
+                j_rel = j1_rel + j2_rel | Гоц (6), рис. 7
+                omega_rod_rel = lam*cos({_PHI})/{root} | Гоц (8), рис. 10
+                omega_rod_near_rel = lam*cos({_PHI}) | Гоц (8), рис. 10
+                eps_rod_rel = -(lam*(1 - lam**2)*sin({_PHI})/{root}**3) | Гоц, рис. 10
+                eps_rod_near_rel = -(lam*sin({_PHI})) | Гоц, рис. 10
+            """),
         ),
         rows,
         note="Перемещение отнесено к r, скорость к rω, ускорение к rω²; у шатуна — к ω и ω².",
@@ -111,17 +114,14 @@ def _figure_6() -> TableSpec:
         "6",
         "Угол наибольшей скорости и отношение скоростей в зависимости от λ",
         SPEED,
-        (
-            Column("lambda_value", None),
-            Column("phi_vmax_deg", f"deg(acos(sqrt(({quarter})**2 + 1/2) - {quarter}))", "Гоц (5)"),
-            Column(
-                "vmax_rel",
-                "sin(rad(phi_vmax_deg)) + lambda_value/2*sin(2*rad(phi_vmax_deg))",
-                "Гоц (4), 1.2",
-            ),
-            Column("v_ratio", "pi/2*vmax_rel", "Гоц, рис. 6"),
-            Column("v1_ratio", "pi/2*(lambda_value/lambda_value)", "Гоц, 1.2: 1,57"),
-        ),
+        column_list(f"""
+            lambda_value
+            phi_vmax_deg = deg(acos(sqrt(({quarter})**2 + 1/2) - {quarter})) | Гоц (5)
+            vmax_rel = sin(rad(phi_vmax_deg)) + lambda_value/2*sin(2*rad(phi_vmax_deg))
+                | Гоц (4), 1.2
+            v_ratio = pi/2*vmax_rel | Гоц, рис. 6
+            v1_ratio = pi/2*(lambda_value/lambda_value) | Гоц, 1.2: 1,57
+        """),
         tuple(round(first + step * i, 6) for i in range(round((last - first) / step) + 1)),
         step=step,
     )
@@ -136,16 +136,18 @@ def _vectors(rows: tuple[float, ...]) -> TableSpec:
         VECTORS,
         (
             INDEX,
-            Column("Pj1_kN", f"to_kN({size}*cos({_PHI}))", "Гоц (31)"),
-            Column("Pj2_kN", f"to_kN(lam*({size})*cos(2*{_PHI}))", "Гоц (31)"),
-            Column("C1_x_kN", f"to_kN({size}*sin({_PHI}))", "Гоц, рис. 20, а"),
-            Column("C1_y_kN", f"to_kN({size}*cos({_PHI}))", "Гоц, рис. 20, а"),
-            Column("C2_x_kN", f"to_kN(lam*({size})*sin(2*{_PHI}))", "Гоц, рис. 20, б"),
-            Column("C2_y_kN", f"to_kN(lam*({size})*cos(2*{_PHI}))", "Гоц, рис. 20, б"),
-            Column("rose1_x_kN", f"Pj1_kN*sin({_PHI})", "Гоц, рис. 20, в"),
-            Column("rose1_y_kN", f"Pj1_kN*cos({_PHI})", "Гоц, рис. 20, в"),
-            Column("rose2_x_kN", f"Pj2_kN*sin({_PHI})", "Гоц, рис. 20, г"),
-            Column("rose2_y_kN", f"Pj2_kN*cos({_PHI})", "Гоц, рис. 20, г"),
+            *column_list(f"""
+                Pj1_kN = to_kN({size}*cos({_PHI})) | Гоц (31)
+                Pj2_kN = to_kN(lam*({size})*cos(2*{_PHI})) | Гоц (31)
+                C1_x_kN = to_kN({size}*sin({_PHI})) | Гоц, рис. 20, а
+                C1_y_kN = to_kN({size}*cos({_PHI})) | Гоц, рис. 20, а
+                C2_x_kN = to_kN(lam*({size})*sin(2*{_PHI})) | Гоц, рис. 20, б
+                C2_y_kN = to_kN(lam*({size})*cos(2*{_PHI})) | Гоц, рис. 20, б
+                rose1_x_kN = Pj1_kN*sin({_PHI}) | Гоц, рис. 20, в
+                rose1_y_kN = Pj1_kN*cos({_PHI}) | Гоц, рис. 20, в
+                rose2_x_kN = Pj2_kN*sin({_PHI}) | Гоц, рис. 20, г
+                rose2_y_kN = Pj2_kN*cos({_PHI}) | Гоц, рис. 20, г
+            """),
         ),
         rows,
         note=(
@@ -162,17 +164,17 @@ def _vector_boxes() -> tuple[Block, ...]:
         "vector_sizes",
         "Длины векторов",
         VECTORS,
-        (
-            Scalar("C_vector", "to_kN(m_j*r_crank*omega**2)", "Гоц (31)"),
-            Scalar("C2_vector", "lam*C_vector", "Гоц (31)"),
-        ),
+        scalar_list("""
+            C_vector = to_kN(m_j*r_crank*omega**2) | Гоц (31)
+            C2_vector = lam*C_vector | Гоц (31)
+        """),
     )
     boxes = []
     for name, scalar in (("vector1", "C_vector"), ("vector2", "C2_vector")):
-        cells = (
-            Scalar(f"{name}_box1", f"-{scalar}", "оси диаграммы", of="box_kN"),
-            Scalar(f"{name}_box2", scalar, "оси диаграммы", of="box_kN"),
-        )
+        cells = scalar_list(f"""
+            {name}_box1 of box_kN = -{scalar} | оси диаграммы
+            {name}_box2 of box_kN = {scalar} | оси диаграммы
+        """)
         row = GridRow("box_kN", cells)
         boxes.append(Grid(f"{name}_box", "Оси диаграммы", VECTORS, ("−", "+"), (row,)))
     return (sizes, *boxes)
@@ -184,17 +186,14 @@ def _sketch() -> ScalarTable:
         "sketch",
         "Графическое определение скорости поршня",
         SKETCH,
-        (
-            Scalar("draw_B_x", f"sin({phi})", "Гоц, рис. 5"),
-            Scalar("draw_B_y", f"cos({phi})", "Гоц, рис. 5"),
-            Scalar("draw_beta_deg", f"deg(asin(lam*sin({phi})))", "Гоц (7)"),
-            Scalar("draw_A_y", "draw_B_y + cos(rad(draw_beta_deg))/lam", "Гоц (1)"),
-            Scalar(
-                "draw_H_x",
-                f"sin({phi} + rad(draw_beta_deg))/cos(rad(draw_beta_deg))",
-                "Гоц, 1.2: vп = rω·OH/OB",
-            ),
-        ),
+        scalar_list(f"""
+            draw_B_x = sin({phi}) | Гоц, рис. 5
+            draw_B_y = cos({phi}) | Гоц, рис. 5
+            draw_beta_deg = deg(asin(lam*sin({phi}))) | Гоц (7)
+            draw_A_y = draw_B_y + cos(rad(draw_beta_deg))/lam | Гоц (1)
+            draw_H_x = sin({phi} + rad(draw_beta_deg))/cos(rad(draw_beta_deg))
+                | Гоц, 1.2: vп = rω·OH/OB
+        """),
         note=(
             "Ось шатуна отсекает на диаметре, перпендикулярном оси цилиндра, отрезок OH; "
             "в масштабе, в котором OB = rω, он равен скорости поршня. Длины — в долях r."
@@ -233,10 +232,10 @@ def _drawing() -> tuple[Grid, ...]:
     ]  # fmt: skip
     labels = tuple(f"{degrees}°" for degrees in steps)
     grids.append(Grid("draw_circle", "Окружность кривошипа", SKETCH, labels, tuple(circle)))
-    box = (
-        Scalar("draw_box1", "-(1 + 1/lam)", "оси", of="draw_x"),
-        Scalar("draw_box2", "1 + 1/lam", "оси", of="draw_x"),
-    )
+    box = scalar_list("""
+        draw_box1 of draw_x = -(1 + 1/lam) | оси
+        draw_box2 of draw_x = 1 + 1/lam | оси
+    """)
     corners = Grid("draw_box", "Оси схемы", SKETCH, ("−", "+"), (GridRow("draw_x", box),))
     return (*grids, corners)
 

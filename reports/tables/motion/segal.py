@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi
+from reports.spec.listing import column_list, scalar_list
 from reports.spec.parts import Part, Scope
 
 SHEET, RESULTS = "Сегаль", "Сегаль, итоги"
@@ -46,13 +47,11 @@ def _errors() -> TableSpec:
         ]
         reached = f"abs(d{letter}) >= d{letter}_max - 0.000000001"
         helpers.append(
-            Column(
-                f"at_{letter}_deg",
-                f"alpha_deg if {reached} else {_NEVER}",
-                "вспомогательный",
-                helper=True,
-                of="at_error_deg",
-            )
+            *column_list(f"""
+                helpers:
+                at_{letter}_deg of at_error_deg = alpha_deg if {reached} else {_NEVER}
+                    | вспомогательный
+            """)
         )
     return TableSpec(
         "segal_errors",
@@ -75,14 +74,14 @@ def _inverse() -> TableSpec:
         "С.о",
         "Угол поворота кривошипа по положению поршня",
         SHEET,
-        (
-            Column("s_given", None),
-            Column("alpha_quadratic_deg", f"deg(acos({quadratic}))", "Сегаль (1.11)"),
-            Column("alpha_small_deg", "deg(sqrt(2*s_given/(1 + lam)))", "Сегаль (1.12)"),
-            Column("alpha_exact_deg", f"deg(acos({triangle}))", "теорема косинусов"),
-            Column("dalpha_quadratic_deg", "alpha_quadratic_deg - alpha_exact_deg", "погрешность"),
-            Column("dalpha_small_deg", "alpha_small_deg - alpha_exact_deg", "погрешность"),
-        ),
+        column_list(f"""
+            s_given
+            alpha_quadratic_deg = deg(acos({quadratic})) | Сегаль (1.11)
+            alpha_small_deg = deg(sqrt(2*s_given/(1 + lam))) | Сегаль (1.12)
+            alpha_exact_deg = deg(acos({triangle})) | теорема косинусов
+            dalpha_quadratic_deg = alpha_quadratic_deg - alpha_exact_deg | погрешность
+            dalpha_small_deg = alpha_small_deg - alpha_exact_deg | погрешность
+        """),
         rows(0.1, 1.9, 0.1),
         step=0.1,
     )
@@ -93,37 +92,33 @@ def _error_scalars() -> ScalarTable:
     scalars = []
     for letter in "svj":
         scalars += [
-            Scalar(
-                f"d{letter}_max",
-                f"max(col_max({table}.d{letter}), -col_min({table}.d{letter}))",
-                "Сегаль, с. 13",
-            ),
-            Scalar(f"alpha_d{letter}_deg", f"col_min({table}.at_{letter}_deg)", "Сегаль, с. 13"),
+            *scalar_list(f"""
+                d{letter}_max = max(col_max({table}.d{letter}), -col_min({table}.d{letter}))
+                    | Сегаль, с. 13
+                alpha_d{letter}_deg = col_min({table}.at_{letter}_deg) | Сегаль, с. 13
+            """),
         ]
     root = "sqrt(1 - lam**2)"
     scalars += [
-        Scalar(
-            "s_error_quarter",
-            f"((1 + lam/2)/(1 + (1 - {root})/lam) - 1)*100",
-            "Сегаль, с. 13",
-        ),
-        Scalar("j_error_quarter", f"({root} - 1)*100", "Сегаль, с. 13"),
+        *scalar_list(f"""
+            s_error_quarter = ((1 + lam/2)/(1 + (1 - {root})/lam) - 1)*100 | Сегаль, с. 13
+            j_error_quarter = ({root} - 1)*100 | Сегаль, с. 13
+        """),
     ]
     return ScalarTable("segal_error_list", "Погрешности приближений", RESULTS, tuple(scalars))
 
 
 def _extremes() -> ScalarTable:
     scalars = [
-        Scalar("j_rel_tdc", "1 + lam", "Сегаль, с. 13: α = 0"),
-        Scalar("j_rel_bdc", "-(1 - lam)", "Сегаль, с. 13: α = 180°, со знаком"),
-        Scalar("j_rel_quarter", "-(lam/sqrt(1 - lam**2))", "Сегаль (1.16), α = 90°"),
-        Scalar("alpha_j_two_term_min_deg", "deg(acos(max(-1, -1/(4*lam))))", "dj′/dα = 0"),
-        Scalar(
-            "j_two_term_min",
-            "cos(rad(alpha_j_two_term_min_deg)) + lam*cos(2*rad(alpha_j_two_term_min_deg))",
-            "Сегаль (1.19)",
-        ),
-        Scalar("cos_j_min_0", "max(-1, -1/(4*lam))", "начальное приближение", of="cos_j_min"),
+        *scalar_list("""
+            j_rel_tdc = 1 + lam | Сегаль, с. 13: α = 0
+            j_rel_bdc = -(1 - lam) | Сегаль, с. 13: α = 180°, со знаком
+            j_rel_quarter = -(lam/sqrt(1 - lam**2)) | Сегаль (1.16), α = 90°
+            alpha_j_two_term_min_deg = deg(acos(max(-1, -1/(4*lam)))) | dj′/dα = 0
+            j_two_term_min = cos(rad(alpha_j_two_term_min_deg))
+                + lam*cos(2*rad(alpha_j_two_term_min_deg)) | Сегаль (1.19)
+            cos_j_min_0 of cos_j_min = max(-1, -1/(4*lam)) | начальное приближение
+        """),
     ]
     for i in range(1, ITERATIONS + 1):
         c = f"cos_j_min_{i - 1}"
@@ -137,12 +132,11 @@ def _extremes() -> ScalarTable:
     last = f"cos_j_min_{ITERATIONS}"
     root = f"sqrt(1/lam**2 - 1 + {last}**2)"
     scalars += [
-        Scalar("alpha_j_exact_min_deg", f"deg(acos({last}))", "dj/dα = 0"),
-        Scalar(
-            "j_exact_min",
-            f"{last} + (2*{last}**2 - 1)/{root} + {last}**2*(1 - {last}**2)/{root}**3",
-            "Сегаль (1.16)",
-        ),
+        *scalar_list(f"""
+            alpha_j_exact_min_deg = deg(acos({last})) | dj/dα = 0
+            j_exact_min = {last} + (2*{last}**2 - 1)/{root} + {last}**2*(1 - {last}**2)/{root}**3
+                | Сегаль (1.16)
+        """),
     ]
     return ScalarTable("segal_extremes", "Крайние значения ускорения", RESULTS, tuple(scalars))
 

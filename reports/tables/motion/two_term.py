@@ -6,6 +6,7 @@ from reports.inputs.sections.input_file import GeometrySection, InputFile
 from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, only, over_phi
 from reports.spec.extremes import NEVER, TIE
+from reports.spec.listing import scalar_list
 from reports.spec.parts import Part, Scope
 
 SHEET = "Погрешность"
@@ -96,8 +97,10 @@ def _list(model: InputFile) -> ScalarTable:
         column = f"two_term.e{name}_{suffix}"
         top = f"max(col_max({column}), -col_min({column}))"
         scalars += [
-            Scalar(f"e{name}_max", top, "погрешность"),
-            Scalar(f"phi_e{name}_deg", f"col_min(two_term.at_e{name})", "погрешность"),
+            *scalar_list(f"""
+                e{name}_max = {top} | погрешность
+                phi_e{name}_deg = col_min(two_term.at_e{name}) | погрешность
+            """),
         ]
         if whole or name == "Pj":
             exact = f"two_term.e{name}_exact_{suffix}"

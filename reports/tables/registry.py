@@ -17,6 +17,7 @@ from reports.tables.gas.cycle_speed import speed
 from reports.tables.gas.indicator import indicator
 from reports.tables.loads.bearings import bearings
 from reports.tables.loads.comparison import comparison
+from reports.tables.loads.continuous import continuous
 from reports.tables.loads.cylinder import cylinders
 from reports.tables.loads.journals import journals
 from reports.tables.loads.regimes import regime_models
@@ -41,7 +42,8 @@ CHAIN: tuple[PartOf, ...] = (
     wear, summary,
 )  # fmt: skip
 AFTER: tuple[PartOf, ...] = (
-    balance, inertia, torque_orders, segal, neiman, reference, bearings, two_term,
+    balance, inertia, torque_orders, segal, neiman, reference, bearings, continuous,
+    two_term,
 )  # fmt: skip
 
 

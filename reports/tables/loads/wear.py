@@ -101,7 +101,7 @@ def _sums(table_id: str, name: str, journal: str, sheet: str, rays: int) -> Grid
     )
 
 
-def hole_scalars(name: str, rays: int) -> tuple[Scalar, Scalar]:
+def hole_scalars(name: str, rays: int) -> tuple[Scalar, ...]:
     """Least loaded ray and the place of the oil hole opposite to it."""
     key = f"hole_{name}"
     candidates = ", ".join(f"{name}_best{i}" for i in range(1, rays + 1))

@@ -38,7 +38,7 @@ def _errors() -> TableSpec:
         "j": (f"cos({alpha}) + lam*cos(2*{alpha})", "Сегаль (1.14)"),
     }
     exact = {"s": (S, "Сегаль (1.17)"), "v": (V, "Сегаль (1.18)"), "j": (J, "Сегаль (1.19)")}
-    columns, helpers = [_INDEX], []
+    columns, helpers = [_INDEX], list[Column]()
     for letter in "svj":
         columns += [
             Column(f"{letter}_exact", filled(exact[letter][0], "lam"), exact[letter][1]),

@@ -158,10 +158,7 @@ class Model:
     @cached_property
     def nodes(self) -> Mapping[str, Scalar | Column]:
         """Scalars by key and columns as ``table.column``."""
-        found: dict[str, Scalar | Column] = dict(self.scalars)
-        for table in self.tables.values():
-            found.update({f"{table.id}.{column.key}": column for column in table.columns})
-        return found
+        return {key: node for block in self.blocks for key, node in nodes_in(block)}
 
     @cached_property
     def grid_runs(self) -> Mapping[str, tuple[str, ...]]:
@@ -185,6 +182,13 @@ class Model:
         for name in ("tables", "scalars", "input_runs", "sheets", "nodes", "grid_runs", "programs"):
             made.__dict__[name] = getattr(self, name)
         return made
+
+
+def nodes_in(block: Block) -> Iterator[tuple[str, Scalar | Column]]:
+    """Columns as ``table.column`` or scalars by key."""
+    if isinstance(block, TableSpec):
+        yield from ((f"{block.id}.{column.key}", column) for column in block.columns)
+    yield from ((scalar.key, scalar) for scalar in scalars_of(block))
 
 
 def scalars_of(block: Block) -> Iterator[Scalar]:

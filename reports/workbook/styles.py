@@ -6,6 +6,8 @@ from openpyxl.cell.cell import Cell
 from openpyxl.styles import Alignment, Border, Font, NamedStyle, PatternFill, Protection, Side
 from openpyxl.workbook import Workbook
 
+from kshm.nomenclature.quantity import Quantity
+
 FONT = "Times New Roman"
 INPUT, STRUCTURE, FORMULA, HELPER = "kshm_input", "kshm_structure", "kshm_formula", "kshm_helper"
 HEADER, NUMBER, TITLE, NOTE, TEXT, LINK = (
@@ -29,6 +31,11 @@ _COLOURS = {
     HEADER: "D9E2F3",
     ANSWER: "E2EFDA",
 }
+
+
+def excel_format(quantity: Quantity) -> str:
+    """Number format of the cells of a quantity."""
+    return quantity.fmt
 
 
 def as_text(cell: Cell) -> Cell:

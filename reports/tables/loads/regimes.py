@@ -14,7 +14,7 @@ from kshm.results.regimes import main_only, regime_key
 from reports.formula.parse import names
 from reports.inputs.fields import Field, iter_fields
 from reports.inputs.sections.input_file import InputFile, Regime
-from reports.spec.blocks import Block, Grid, ScalarTable, TableSpec, scalars_of
+from reports.spec.blocks import Block, Grid, ScalarTable, TableSpec, nodes_in, scalars_of
 from reports.spec.charts import ChartSpec
 from reports.spec.parts import Part
 from reports.spec.rename import copied, copied_chart
@@ -45,7 +45,7 @@ class RegimeModel:
         differing: set[str] = set()
         for block in self.blocks:
             local = {c.key for c in block.columns} if isinstance(block, TableSpec) else set()
-            for name, expr in _nodes(block):
+            for name, expr in _formulas(block).items():
                 if self.main.get(name) != expr or block.id in _WHOLE:
                     differing.add(name)
                 needs[name] = frozenset(
@@ -90,7 +90,7 @@ class RegimeModel:
                 kept = tuple(s for s in block.scalars if s.key in self.dependent)
                 if kept:
                     made.append(replace(block, scalars=kept))
-            elif any(name in self.dependent for name, _ in _nodes(block)):
+            elif any(name in self.dependent for name in _formulas(block)):
                 made.append(block)
         return tuple(made)
 
@@ -142,11 +142,9 @@ class RegimeModel:
         )
 
 
-def _nodes(block: Block) -> list[tuple[str, str]]:
+def _formulas(block: Block) -> dict[str, str]:
     """Name and formula of every node of a block."""
-    if isinstance(block, TableSpec):
-        return [(f"{block.id}.{c.key}", c.expr) for c in block.columns if c.expr is not None]
-    return [(scalar.key, scalar.expr) for scalar in scalars_of(block)]
+    return {key: node.expr for key, node in nodes_in(block) if node.expr is not None}
 
 
 def regime_models(model: InputFile, chain: Callable[[InputFile], Part]) -> tuple[RegimeModel, ...]:
@@ -159,7 +157,7 @@ def regime_models(model: InputFile, chain: Callable[[InputFile], Part]) -> tuple
     if not model.regimes:
         return ()
     made = []
-    main = dict(node for block in chain(model).blocks for node in _nodes(block))
+    main = {k: v for block in chain(model).blocks for k, v in _formulas(block).items()}
     for number, regime in enumerate(model.regimes, 2):
         values = {key: value for key, value in regime if key not in ("gas", "name")}
         alone = model.model_copy(

@@ -62,9 +62,12 @@ def grid_row(
     return GridRow(of, tuple(cells))
 
 
-def corners(grid: str, title: str, sheet: str, box: str, size: str, of: str = "box") -> Grid:
+def corners(
+    grid: str, title: str, sheet: str, box: str, size: str, of: str = "box",
+    source: str = "оси диаграммы",
+) -> Grid:  # fmt: skip
     """Corners that keep both axes of a diagram equal whatever its values become."""
-    row = grid_row(of, (f"-{size}", size), "оси диаграммы", box + "{n}")
+    row = grid_row(of, (f"-{size}", size), source, box + "{n}")
     return Grid(grid, title, sheet, ("−", "+"), (row,))
 
 

@@ -18,9 +18,11 @@ from reports.tables.gas.indicator import indicator
 from reports.tables.loads.bearings import bearings
 from reports.tables.loads.comparison import comparison
 from reports.tables.loads.continuous import continuous
+from reports.tables.loads.crankpins import crankpins
 from reports.tables.loads.cylinder import cylinders
 from reports.tables.loads.journals import journals
 from reports.tables.loads.regimes import regime_models
+from reports.tables.loads.throws import throws
 from reports.tables.loads.torques import torques
 from reports.tables.loads.wear import wear
 from reports.tables.motion.articulated import articulated
@@ -38,7 +40,8 @@ from reports.tables.overview.summary import summary
 BEFORE: tuple[PartOf, ...] = (scheme, processes, results, speed)
 # Chapters 1 and 2: all that speed and gas decide, and more; every regime has them.
 CHAIN: tuple[PartOf, ...] = (
-    dimensions, masses, kinematics, offset, articulated, indicator, cylinders, torques, journals,
+    dimensions, masses, kinematics, offset, articulated, indicator, cylinders, torques,
+    crankpins, throws, journals,
     wear, summary,
 )  # fmt: skip
 AFTER: tuple[PartOf, ...] = (

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
+from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, columns_of, over_phi, polar
-from reports.spec.listing import column_list, scalar_list
+from reports.spec.listing import column_list, corners
 from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape
 from reports.tables.balance.balance_sums import (
@@ -208,16 +208,10 @@ def _boxes(shape: Shape) -> Iterator[Block]:
                  f"{key}right_after_{unit}")  # fmt: skip
         ends = ", ".join(f"col_max(balance.{name}), -(col_min(balance.{name}))" for name in names)
         size = f"balance_{key}_size"
-        cells = scalar_list(f"""
-            balance_{key}_box1 of box = -{size} | оси диаграммы
-            balance_{key}_box2 of box = {size} | оси диаграммы
-        """)
-        title = "Наибольшая составляющая"
         found = Scalar(size, f"max({ends}, {NOTHING})", "оси диаграммы", of="box")
-        yield ScalarTable(f"balance_{key}_sizes", title, RESULTS, (found,))
-        yield Grid(
-            f"balance_{key}_box", "Оси диаграммы", RESULTS, ("−", "+"), (GridRow("box", cells),)
-        )
+        yield ScalarTable(f"balance_{key}_sizes", "Наибольшая составляющая", RESULTS, (found,))
+        box = f"balance_{key}_box"
+        yield corners(box, "Оси диаграммы", RESULTS, box, size)
 
 
 def _charts(shape: Shape) -> tuple[ChartSpec, ...]:

@@ -10,7 +10,8 @@ from kshm.cycle.fuel import FUELS
 from kshm.cycle.heat import SPECIES, TEMPERATURE_PASSES
 from kshm.cycle.processes import N1_PASSES, N1_START, N2_PASSES, N2_START
 from reports.inputs.sections.cycle import CycleSection
-from reports.spec.blocks import Grid, GridRow, Scalar, ScalarTable
+from reports.spec.blocks import Grid, Scalar, ScalarTable
+from reports.spec.listing import grid_row
 from reports.spec.parts import Part, Scope
 from reports.tables.gas.cycle_names import SHEET, SOURCE, R, given, is_boosted, section_of
 
@@ -209,16 +210,7 @@ def passes(name: str, title: str, count: int, rows: dict[str, list[str]]) -> Gri
         title,
         SHEET,
         tuple(f"проход {i}" for i in range(1, count + 1)),
-        tuple(
-            GridRow(
-                of,
-                tuple(
-                    Scalar(cell(of, name, i), expr, SOURCE, of=of)
-                    for i, expr in enumerate(exprs, 1)
-                ),
-            )
-            for of, exprs in rows.items()
-        ),
+        tuple(grid_row(of, exprs, SOURCE, f"{of}_{name}_{{n}}") for of, exprs in rows.items()),
     )
 
 

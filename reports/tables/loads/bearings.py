@@ -6,9 +6,10 @@ from kshm.results.pin_bearing import PLANES
 from reports.spec.blocks import Block, Grid, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, over_phi, polar
 from reports.spec.extremes import NEVER, TIE, extreme_columns, extreme_scalars
-from reports.spec.listing import column_list, corners, grid_row, scalar_list
+from reports.spec.listing import column_list, grid_row, scalar_list
 from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape, rods_table
+from reports.tables.loads.crankpins import polar_box
 
 BEARING, BENDING = "Шатунный подшипник", "Изгиб шейки"
 
@@ -80,7 +81,7 @@ def _bearing_results() -> tuple[Block, ...]:
         ScalarTable(
             "rod_bearing_list", "Нагрузка на шатунный подшипник", BEARING, (*mean, *extremes)
         ),
-        corners("rod_bearing_box", "Оси полярной диаграммы", BEARING, "B_box", "B_max"),
+        polar_box("rod_bearing", "B", BEARING),
     )
 
 

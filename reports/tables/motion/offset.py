@@ -118,7 +118,7 @@ def _sketch() -> Grid:
             Scalar(f"sketch_{key}{n}", f"({text})/{size}", "Гоц, рис. 11", of="sketch")
             for n, text in enumerate(texts, 1)
         )
-        rows.append(GridRow(f"sketch_{key}", (*cells, *(None for _ in range(3 - len(cells))))))
+        rows.append(GridRow(f"sketch_{key}", (*cells, *[None] * (3 - len(cells)))))
     labels = ("O (ось вала)", "B (шатунная шейка)", "A (поршневой палец)")
     return Grid(
         "offset_sketch",

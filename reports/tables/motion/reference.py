@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from kshm.results.reference import FIGURE_6
-from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
+from reports.spec.blocks import Block, Column, Grid, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi, polar
-from reports.spec.listing import column_list, scalar_list
+from reports.spec.listing import column_list, corners, grid_row, scalar_list
 from reports.spec.parts import Part, Scope
 
 MOTION, SPEED, VECTORS, SKETCH = "Рис. 3–10", "Рис. 6", "Рис. 20", "Рис. 5"
@@ -67,12 +69,10 @@ def _table(number: str, count: int, rows: tuple[float, ...]) -> TableSpec:
 
 def _lambdas(sheet: str, count: int) -> Grid:
     key = "kin" if sheet == KINEMATIC else "dyn"
-    cells = tuple(
-        Scalar(f"ref_{key}{i}", f"reference_lambda_{i}_value", "исходные данные", of="lambda_value")
-        for i in range(1, count + 1)
-    )
-    labels = tuple(f"λ{i}" for i in range(1, count + 1))
-    return Grid(f"ref_{key}_list", "Значения λ", sheet, labels, (GridRow("lambda_value", cells),))
+    numbers = range(1, count + 1)
+    texts = (f"reference_lambda_{i}_value" for i in numbers)
+    row = grid_row("lambda_value", texts, "исходные данные", f"ref_{key}{{n}}")
+    return Grid(f"ref_{key}_list", "Значения λ", sheet, tuple(f"λ{i}" for i in numbers), (row,))
 
 
 def _motion(rows: tuple[float, ...]) -> TableSpec:
@@ -169,14 +169,10 @@ def _vector_boxes() -> tuple[Block, ...]:
             C2_vector = lam*C_vector | Гоц (31)
         """),
     )
-    boxes = []
-    for name, scalar in (("vector1", "C_vector"), ("vector2", "C2_vector")):
-        cells = scalar_list(f"""
-            {name}_box1 of box_kN = -{scalar} | оси диаграммы
-            {name}_box2 of box_kN = {scalar} | оси диаграммы
-        """)
-        row = GridRow("box_kN", cells)
-        boxes.append(Grid(f"{name}_box", "Оси диаграммы", VECTORS, ("−", "+"), (row,)))
+    boxes = (
+        corners(f"{name}_box", "Оси диаграммы", VECTORS, f"{name}_box", size, "box_kN")
+        for name, size in (("vector1", "C_vector"), ("vector2", "C2_vector"))
+    )
     return (sizes, *boxes)
 
 
@@ -203,41 +199,27 @@ def _sketch() -> ScalarTable:
 
 def _drawing() -> tuple[Grid, ...]:
     """Polylines of the mechanism: O-B-A, A-H, H-O and the box that keeps the axes equal."""
-    lines = {
-        "links": (("0", "0"), ("draw_B_x", "draw_B_y"), ("0", "draw_A_y")),
-        "cut": (("0", "draw_A_y"), ("draw_H_x", "0"), ("0", "0")),
-    }
-    grids = []
-    for name, points in lines.items():
-        rows = []
-        for axis, index in (("x", 0), ("y", 1)):
-            cells = tuple(
-                Scalar(f"{name}_{axis}{n}", point[index], "Гоц, рис. 5", of=f"draw_{axis}")
-                for n, point in enumerate(points, 1)
-            )
-            rows.append(GridRow(f"draw_{axis}", cells))
-        labels = tuple(str(n) for n in range(1, len(points) + 1))
-        grids.append(Grid(f"draw_{name}", "Точки схемы", SKETCH, labels, tuple(rows)))
-    steps = range(0, 375, 15)
-    circle = [
-        GridRow(
-            f"draw_{axis}",
-            tuple(
-                Scalar(f"circle5_{axis}{n}", f"{turn}(rad({degrees}))", "окружность кривошипа",
-                       of=f"draw_{axis}")
-                for n, degrees in enumerate(steps, 1)
-            ),
+
+    def points(
+        name: str, key: str, title: str, labels: Iterable[str], x: list[str], y: list[str]
+    ) -> Grid:
+        source = "окружность кривошипа" if name == "circle" else "Гоц, рис. 5"
+        rows = (
+            grid_row(f"draw_{axis}", texts, source, f"{key}_{axis}{{n}}")
+            for axis, texts in (("x", x), ("y", y))
         )
-        for axis, turn in (("x", "sin"), ("y", "cos"))
-    ]  # fmt: skip
-    labels = tuple(f"{degrees}°" for degrees in steps)
-    grids.append(Grid("draw_circle", "Окружность кривошипа", SKETCH, labels, tuple(circle)))
-    box = scalar_list("""
-        draw_box1 of draw_x = -(1 + 1/lam) | оси
-        draw_box2 of draw_x = 1 + 1/lam | оси
-    """)
-    corners = Grid("draw_box", "Оси схемы", SKETCH, ("−", "+"), (GridRow("draw_x", box),))
-    return (*grids, corners)
+        return Grid(f"draw_{name}", title, SKETCH, tuple(labels), tuple(rows))
+
+    numbers, steps = ("1", "2", "3"), range(0, 375, 15)
+    return (
+        points("links", "links", "Точки схемы", numbers,
+               ["0", "draw_B_x", "0"], ["0", "draw_B_y", "draw_A_y"]),
+        points("cut", "cut", "Точки схемы", numbers,
+               ["0", "draw_H_x", "0"], ["draw_A_y", "0", "0"]),
+        points("circle", "circle5", "Окружность кривошипа", (f"{d}°" for d in steps),
+               [f"sin(rad({d}))" for d in steps], [f"cos(rad({d}))" for d in steps]),
+        corners("draw_box", "Оси схемы", SKETCH, "draw_box", "(1 + 1/lam)", "draw_x", "оси"),
+    )  # fmt: skip
 
 
 def _vector_charts() -> tuple[ChartSpec, ...]:

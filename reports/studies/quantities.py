@@ -161,4 +161,4 @@ def format_of(name: str) -> str:
     """Number format of a name; the grid's angles may be fractions of a degree."""
     if name.endswith("_deg") and "." in name:
         return "0.##"
-    return excel_format(quantity(name.split(".")[1] if "." in name else name).digits)
+    return excel_format(quantity(name.split(".")[1] if "." in name else name))

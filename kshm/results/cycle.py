@@ -100,7 +100,7 @@ def cycle_scalars(run: CycleRun) -> Scalars:
         paths |= _DESIGN
     if run.cycle.turbo is not None:
         paths |= _TURBO
-    _, torque, idle = run.regimes
+    _, torque, idle = run.points
     return {
         **{key: attrgetter(path)(run) for key, path in paths.items()},
         **{f"bal_{name}_share": share for name, share in run.balance.shares.items()},

@@ -16,6 +16,7 @@ from reports.inputs import units
 from reports.inputs.units import Unit
 
 MAX_TEXT = 300
+_MOST_LISTED = 8  # choices that a message lists one by one
 _REFUSED = {"Cc", "Cs", "Cn", "Zl", "Zp"}
 
 
@@ -52,6 +53,12 @@ class Meta:
     ) -> CoreSchema:
         """Add the limits to the schema of the annotated type."""
         schema: dict[str, Any] = dict(handler(source))
+        if schema["type"] == "nullable":  # a field that may be left out
+            schema["schema"] = self._limited(dict(schema["schema"]))
+            return typing.cast(CoreSchema, schema)
+        return self._limited(schema)
+
+    def _limited(self, schema: dict[str, Any]) -> CoreSchema:
         if schema["type"] in ("float", "int"):
             if self.minimum is not None:
                 schema["ge"] = self.minimum
@@ -73,7 +80,10 @@ class Meta:
         if self.choices is not None and len(self.choices) == 1:
             return "пока поддерживается только " + next(iter(self.choices))
         if self.choices is not None:
-            return "допустимо: " + ", ".join(self.choices)
+            names = list(self.choices)
+            if names == [str(n) for n in range(1, len(names) + 1)] and len(names) > _MOST_LISTED:
+                return f"допустимо от 1 до {names[-1]}"
+            return "допустимо: " + ", ".join(names)
         if self.minimum is None or self.maximum is None:
             return ""
         low = units.number_text(self.minimum)

@@ -79,12 +79,6 @@ class Shape:
         return any(place.axis for place in self.arrangement) or not self.single_rods
 
     @property
-    def basic(self) -> bool:
-        """Four-stroke, in line, central: what the companion sources are about."""
-        in_line = [place.throw for place in self.arrangement] == list(range(self.cylinders))
-        return in_line and not self.banks and self.strokes == 4 and not self.offset
-
-    @property
     def by_orders(self) -> bool:
         """Whether Neiman's series describes all pistons: central, without articulated rods."""
         return not self.offset and not self.articulated

@@ -17,6 +17,7 @@ from kshm.results.forces import force_tables
 from kshm.results.loads import chain_scalars
 from kshm.results.solution import Solution, in_units
 from reports.shared.errors import InputError, Problem, one_line
+from reports.workbook.styles import excel_format
 
 Array = NDArray[np.float64]
 
@@ -160,4 +161,4 @@ def format_of(name: str) -> str:
     """Number format of a name; the grid's angles may be fractions of a degree."""
     if name.endswith("_deg") and "." in name:
         return "0.##"
-    return quantity(name.split(".")[1] if "." in name else name).fmt
+    return excel_format(quantity(name.split(".")[1] if "." in name else name))

@@ -37,9 +37,11 @@ from reports.workbook.layout import (
     NUMBER_ROW,
     SOURCE_COLUMN,
     TITLE_ROW,
+    UNIT_COLUMN,
     VALUE_COLUMN,
     Cell,
     Layout,
+    area,
     check_names,
     quoted,
 )
@@ -50,6 +52,7 @@ _COLUMN_CM = 1.95
 _CHARACTER_CM = 0.25
 _SLOT = 16  # rows that a chart takes, so that pages hold whole charts
 _PORTRAIT_COLUMNS = 9
+_MOST_CHECKS = 40
 _CYCLE_TITLES = {CYCLE_SHEET: "Расчет рабочего цикла"}
 _CYCLE_WIDTHS = {2: 20, 4: 17, SOURCE_COLUMN: 28, 6: 17, 7: 17, 8: 17}
 _RANGE_WIDTHS = {1: 76, 2: 4, 4: 16, SOURCE_COLUMN: 42}
@@ -141,11 +144,14 @@ def _blocks(sheet: Worksheet, model: Model, writer: Writer) -> None:
 
 
 def _colour_checks(sheet: Worksheet, good: str, bad: str) -> None:
-    area = f"{get_column_letter(4)}{HEADER_ROW}:{get_column_letter(4)}{HEADER_ROW + 40}"
+    first, last = (
+        Cell(sheet.title, row, UNIT_COLUMN) for row in (HEADER_ROW, HEADER_ROW + _MOST_CHECKS)
+    )
+    place = area(first, last)
     green, red = PatternFill(bgColor="C6EFCE"), PatternFill(bgColor="FFC7CE")
-    sheet.conditional_formatting.add(area, CellIsRule("equal", [f'"{good}"'], fill=green))
+    sheet.conditional_formatting.add(place, CellIsRule("equal", [f'"{good}"'], fill=green))
     sheet.conditional_formatting.add(
-        area, CellIsRule("equal", [f'"{bad}"'], fill=red, font=Font(bold=True, color="9C0006"))
+        place, CellIsRule("equal", [f'"{bad}"'], fill=red, font=Font(bold=True, color="9C0006"))
     )
 
 
@@ -205,7 +211,7 @@ def _charts(sheet: Worksheet, model: Model, writer: Writer) -> None:
     last = Cell(sheet.title, FIRST_ROW + offset - 1, column + columns)
     sheet.print_area = [
         str(sheet.print_area).replace("$", "").split("!")[-1],
-        layout.area(Cell(sheet.title, FIRST_ROW, column), last),
+        area(Cell(sheet.title, FIRST_ROW, column), last),
     ]
     rows = max(offset, sheet.max_row)
     for row in range(FIRST_ROW - 1 + page.rows, FIRST_ROW + rows, page.rows):

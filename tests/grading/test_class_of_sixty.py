@@ -15,7 +15,8 @@ from reports.grading.judging.items import Assignment
 from reports.grading.judging.marking import Marker
 from reports.grading.reading.submissions import Submission
 from reports.recalculation.by_libreoffice import LibreOffice
-from reports.spec.blocks import ChartSpec, TableSpec
+from reports.spec.blocks import TableSpec
+from reports.spec.charts import ChartSpec
 from reports.spec.evaluation import Values, evaluate_model
 from reports.workbook.layout import Cell, Layout
 from tests.grading.classroom import issue_class

@@ -12,18 +12,17 @@ from reports.inputs.firing import arrangement
 from reports.inputs.sections.articulated import ArticulatedSection
 from reports.inputs.sections.balance import BalanceSection
 from reports.inputs.sections.crankshaft import ArmsSection, CrankshaftSection, WebSection
-from reports.inputs.sections.gas import RoundedGasSection
-from reports.inputs.sections.input_file import (
+from reports.inputs.sections.gas import (
     CycleGasSection,
     GasSection,
-    GeometrySection,
-    InputFile,
     PolytropicGasSection,
-    RegimeSection,
+    RoundedGasSection,
     TableGasSection,
 )
+from reports.inputs.sections.input_file import GeometrySection, InputFile, RegimeSection
 from reports.inputs.to_si.cycle import cycle_run
 from reports.inputs.to_si.gas import rounded_gas
+from reports.inputs.to_si.geometry import crank_radius_mm, rod_length_mm
 from reports.inputs.to_si.masses import to_masses, with_masses
 from reports.inputs.units import DEG, KG, KW, MM, MPA, RPM
 
@@ -145,28 +144,6 @@ def _power(model: InputFile, run: CycleRun | None) -> tuple[float | None, float,
     power = regime.indicated_power_kw
     efficiency, fullness = float(regime.mechanical_efficiency), float(regime.fullness)
     return None if power is None else KW.to_si(power), efficiency, fullness
-
-
-def crank_radius_mm(geometry: GeometrySection) -> float:
-    """Return r [mm] from r, S = 2r, or λ and L."""
-    if geometry.crank_radius_mm is not None:
-        return float(geometry.crank_radius_mm)
-    if geometry.stroke_mm is not None:
-        return geometry.stroke_mm / 2
-    if geometry.lambda_ is None or geometry.rod_length_mm is None:
-        msg = "geometry does not fix the crank radius"
-        raise ValueError(msg)
-    return geometry.lambda_ * geometry.rod_length_mm
-
-
-def rod_length_mm(geometry: GeometrySection) -> float:
-    """Return L [mm] as given, or from r and λ."""
-    if geometry.rod_length_mm is not None:
-        return float(geometry.rod_length_mm)
-    if geometry.lambda_ is None:
-        msg = "geometry does not fix the rod length"
-        raise ValueError(msg)
-    return crank_radius_mm(geometry) / geometry.lambda_
 
 
 def _gas(gas: GasSection, run: CycleRun | None, *, strokes: int) -> Gas:

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from reports.spec.blocks import Block, Column, TableSpec
+from reports.spec.blocks import Column, TableSpec
+from reports.spec.charts import ChartSpec, over_phi
 from reports.spec.extremes import extreme_columns
+from reports.spec.listing import column_list
+from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape, rods_table
 from reports.tables.loads.cylinder import cylinder_table_id
 
 INDEX = Column("phi_deg", None)
 
 
-def torque_tables(shape: Shape, rows: tuple[float, ...]) -> tuple[Block, ...]:
+def torques(scope: Scope) -> Part:
     """Tables П4.2, П4.4 and П4.5 with the torques of the pin sections by statics."""
+    shape, rows = scope.shape, scope.cycle
     numbers = range(1, shape.cylinders + 1)
     each = [Column(f"M{i}_Nm", f"{cylinder_table_id(i)}.M_Nm", "Гоц, 2.5") for i in numbers]
     total = " + ".join(f"M{i}_Nm" for i in numbers)
@@ -23,7 +27,8 @@ def torque_tables(shape: Shape, rows: tuple[float, ...]) -> tuple[Block, ...]:
         (INDEX, *each, Column("Msum_Nm", total, "Гоц, 2.8"), *extreme_columns("Msum_Nm", "M")),
         rows,
     )
-    return torque, _main(shape, rows), _pin(shape, rows), _statics(shape, rows)
+    blocks = (torque, _main(shape, rows), _pin(shape, rows), _statics(shape, rows))
+    return Part(blocks, _charts(shape))
 
 
 def _main(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
@@ -51,11 +56,10 @@ def _statics(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
     for i in range(1, shape.throws + 1):
         before = f"P4_4.Mmain{i}_Nm + " if i > 1 else ""
         columns.append(
-            Column(
-                f"Mpins{i}_Nm",
-                f"{before}r_crank*({_on_left_support(shape, i)} + throw{i}_RTCL + throw{i}_side)",
-                "статика левой половины колена",
-            )
+            *column_list(f"""
+                Mpins{i}_Nm = {before}r_crank*({_on_left_support(shape, i)} + throw{i}_RTCL
+                    + throw{i}_side) | статика левой половины колена
+            """)
         )
     return TableSpec(
         "P4_5s",
@@ -90,3 +94,22 @@ def rod_shares(shape: Shape) -> tuple[str, str]:
     An articulated rod pushes where its master rod does.
     """
     return ("share", "share") if shape.articulated else ("share", "share2")
+
+
+def _charts(shape: Shape) -> tuple[ChartSpec, ...]:
+    """Figures 49, 56 and 57."""
+    y = "M, Н·м"
+    return (
+        over_phi("fig49", "П4.2", "Индикаторный крутящий момент двигателя", y, "P4_2.Msum_Nm",
+                 figure="49", y_tex=r"$M_{\mathrm{кр}}$, Н·м", levels=("M_mean",), extremes=True),
+        *(
+            over_phi(f"fig56_{k}", "П4.4", f"Набегающий момент на коренную шейку {k}", y,
+                     f"P4_4.Mmain{k}_Nm", figure="56")
+            for k in range(2, shape.throws + 2)
+        ),
+        *(
+            over_phi(f"fig57_{i}", "П4.5", f"Набегающий момент на шатунную шейку {i}", y,
+                     f"P4_5.Mpin{i}_Nm", figure="57")
+            for i in range(1, shape.throws + 1)
+        ),
+    )  # fmt: skip

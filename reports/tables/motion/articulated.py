@@ -8,7 +8,10 @@ written in the frame of its own cylinder, velocities and accelerations follow li
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
+from reports.spec.blocks import Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, over_phi
+from reports.spec.listing import column_list, scalar_list
+from reports.spec.parts import Part, Scope
 from reports.spec.shape import TIMING, Shape
 from reports.tables.gas.pressure import WORK, Corners, pressure
 
@@ -88,11 +91,12 @@ def _height(shape: Shape, phi: str) -> str:
     return f"r_crank*cos(rad({phi})) + {_RHO}*cos({chi}) + sqrt({_LENGTH}**2 - {across}**2)"
 
 
-def hung_blocks(model: InputFile, rows: tuple[float, ...]) -> tuple[Block, ...]:
+def articulated(scope: Scope) -> Part:
     """Dead centres, volumes and motion of the articulated rod."""
-    shape = Shape.of(model)
-    turn = tuple(angle for angle in rows if angle <= 360)
-    return _centres(shape), _sizes(), _motion(shape, turn)
+    shape = scope.shape
+    if not shape.articulated:
+        return Part()
+    return Part((_centres(shape), _sizes(), _motion(shape, scope.turn)), _charts())
 
 
 def _centres(shape: Shape) -> Grid:
@@ -132,14 +136,14 @@ def _sizes() -> ScalarTable:
         "articulated_sizes",
         "Ход и объёмы цилиндра с прицепным шатуном",
         "Массы",
-        (
-            Scalar("phi_tdc_art_deg", f"hung_tdc_phi_{last}", SOURCE),
-            Scalar("phi_bdc_art_deg", f"hung_bdc_phi_{last}", SOURCE),
-            Scalar("y_tdc_art", f"hung_tdc_y_{last}", SOURCE),
-            Scalar("S_art", f"y_tdc_art - hung_bdc_y_{last}", SOURCE),
-            Scalar("V_h_art", "to_dm3(F_piston*S_art)", "Гоц, введение"),
-            Scalar("V_c_art", "V_h_art/(geometry_compression_ratio - 1)", "Гоц, введение"),
-        ),
+        scalar_list(f"""
+            phi_tdc_art_deg = hung_tdc_phi_{last} | {SOURCE}
+            phi_bdc_art_deg = hung_bdc_phi_{last} | {SOURCE}
+            y_tdc_art = hung_tdc_y_{last} | {SOURCE}
+            S_art = y_tdc_art - hung_bdc_y_{last} | {SOURCE}
+            V_h_art = to_dm3(F_piston*S_art) | Гоц, введение
+            V_c_art = V_h_art/(geometry_compression_ratio - 1) | Гоц, введение
+        """),
     )
 
 
@@ -155,14 +159,16 @@ def _motion(shape: Shape, turn: tuple[float, ...]) -> TableSpec:
     shown = {"beta_master_rad", "beta_rad"}
     links = _links(shape, "phi_deg")
     columns = [
-        Column("phi_deg", None),
-        Column("beta_master_rad", links["beta_master_rad"], "Гоц (13), (17)"),
-        Column("across_mm", "to_mm(q_x)", SOURCE),
-        Column("along_mm", "to_mm(q_y)", SOURCE),
-        Column("beta_rad", links["beta_rad"], SOURCE),
-        Column("x_exact_mm", "to_mm(y_tdc_art - y)", SOURCE),
-        Column("v_exact_m_s", "-(omega*y_1)", SOURCE),
-        Column("j_exact_m_s2", "-(omega**2*y_2)", SOURCE),
+        *column_list(f"""
+            phi_deg
+            beta_master_rad = {links["beta_master_rad"]} | Гоц (13), (17)
+            across_mm = to_mm(q_x) | {SOURCE}
+            along_mm = to_mm(q_y) | {SOURCE}
+            beta_rad = {links["beta_rad"]} | {SOURCE}
+            x_exact_mm = to_mm(y_tdc_art - y) | {SOURCE}
+            v_exact_m_s = -(omega*y_1) | {SOURCE}
+            j_exact_m_s2 = -(omega**2*y_2) | {SOURCE}
+        """),
         *_helpers(shape, "phi_deg", tuple(shown)),
     ]
     return TableSpec(
@@ -188,38 +194,40 @@ def hung_table(model: InputFile, rows: tuple[float, ...], number: int) -> TableS
     unit = "articulated_big_end_kg*omega**2"
     phi = "rad(phase_deg)"
     columns = [
-        Column("phi_deg", None),
-        Column(
-            "phase_deg",
-            f"mod(phi_deg - firing_offset_{number}_deg, {period})",
-            "угол в цикле",
-            of=f"phase{number}_deg",
-        ),
-        Column("volume_ratio", _ratio("y"), SOURCE),
-        Column("p_MPa", pressure(model, TIMING, "volume_ratio", corners), "Гоц, 2.4"),
-        Column("Pg_MPa", "p_MPa - gas_ambient_pressure_mpa", "Гоц (33)"),
-        Column("Pj_MPa", "to_MPa(articulated_reciprocating_kg*omega**2*y_2/F_piston)", "Гоц (30)"),
-        Column("Ps_MPa", "Pg_MPa + Pj_MPa", "Гоц, 2.4"),
-        Column("N_MPa", "Ps_MPa*tan(beta_rad)", "Гоц (34)"),
-        Column("S_MPa", "Ps_MPa/cos(beta_rad)", "Гоц (35)"),
-        Column("T_MPa", f"to_x*cos({phi}) - to_y*sin({phi})", "статика шатунов"),
-        Column("K_MPa", f"-(to_x*sin({phi})) - to_y*cos({phi})", "статика шатунов"),
-        Column("M_Nm", "of_MPa(T_MPa)*F_piston*r_crank", "Гоц, 2.5"),
-        Column("Nadd_MPa", "bend/(L_rod*cos(beta_master_rad))", "статика главного шатуна"),
-        Column("Mrod_Nm", "of_MPa(bend)*F_piston", "статика главного шатуна"),
+        *column_list(f"""
+            phi_deg
+            phase_deg of phase{number}_deg = mod(phi_deg - firing_offset_{number}_deg, {period})
+                | угол в цикле
+            volume_ratio = {_ratio('y')} | {SOURCE}
+            p_MPa = {pressure(model, TIMING, 'volume_ratio', corners)} | Гоц, 2.4
+            Pg_MPa = p_MPa - gas_ambient_pressure_mpa | Гоц (33)
+            Pj_MPa = to_MPa(articulated_reciprocating_kg*omega**2*y_2/F_piston) | Гоц (30)
+            Ps_MPa = Pg_MPa + Pj_MPa | Гоц, 2.4
+            N_MPa = Ps_MPa*tan(beta_rad) | Гоц (34)
+            S_MPa = Ps_MPa/cos(beta_rad) | Гоц (35)
+            T_MPa = to_x*cos({phi}) - to_y*sin({phi}) | статика шатунов
+            K_MPa = -(to_x*sin({phi})) - to_y*cos({phi}) | статика шатунов
+            M_Nm = of_MPa(T_MPa)*F_piston*r_crank | Гоц, 2.5
+            Nadd_MPa = bend/(L_rod*cos(beta_master_rad)) | статика главного шатуна
+            Mrod_Nm = of_MPa(bend)*F_piston | статика главного шатуна
+        """),
         *_helpers(shape, "phase_deg"),
         Column(TIMING, timing, "угол от ВМТ", helper=True, of="phase_deg"),
         _force("push_x", f"N_MPa - to_MPa({unit}*q_x2/F_piston)"),
         _force("push_y", f"-Ps_MPa - to_MPa({unit}*q_y2/F_piston)"),
-        Column(
-            "bend", f"{_RHO}*(push_y*sin(chi_rad) - push_x*cos(chi_rad))",
-            "момент относительно шейки", helper=True, of="hung_bend",
-        ),
+        *column_list(f"""
+            helpers:
+            bend of hung_bend = {_RHO}*(push_y*sin(chi_rad) - push_x*cos(chi_rad))
+                | момент относительно шейки
+        """),
         # The master piston's wall answers across the master cylinder, turned by the bank angle.
         _force("to_x", f"push_x + Nadd_MPa*cos({_BANK})"),
         _force("to_y", f"push_y + Nadd_MPa*sin({_BANK})"),
-        Column("volume_dm3", "V_c_art*volume_ratio", "Гоц, 1.1", helper=True),
-        Column("work_J", WORK, "∫p dV", helper=True),
+        *column_list(f"""
+            helpers:
+            volume_dm3 = V_c_art*volume_ratio | Гоц, 1.1
+            work_J = {WORK} | ∫p dV
+        """),
     ]  # fmt: skip
     return TableSpec(
         f"cylinder_{number}",
@@ -237,3 +245,12 @@ def hung_table(model: InputFile, rows: tuple[float, ...], number: int) -> TableS
 
 def _force(key: str, text: str) -> Column:
     return Column(key, text, "статика шатунов", helper=True, of=f"hung_{key}")
+
+
+def _charts() -> tuple[ChartSpec, ...]:
+    """Motion of the articulated rod's piston, in the report alone."""
+    of = "поршня прицепного шатуна"
+    return (
+        over_phi("articulated_s", "", f"Перемещение {of}", "s, мм", "articulated.x_exact_mm"),
+        over_phi("articulated_j", "", f"Ускорение {of}", "j, м/с²", "articulated.j_exact_m_s2"),
+    )

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import GeometrySection, InputFile
-from reports.spec.blocks import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
+from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, only, over_phi
 from reports.spec.extremes import NEVER, TIE
+from reports.spec.listing import scalar_list
+from reports.spec.parts import Part, Scope
 
 SHEET = "Погрешность"
 _PHI = "rad(phi_deg)"
@@ -14,9 +17,9 @@ _ERRORS = (
 )  # fmt: skip
 
 
-def two_term_blocks(model: InputFile, rows: tuple[float, ...]) -> tuple[Block, ...]:
+def two_term(scope: Scope) -> Part:
     """Table over a turn and the list of the greatest errors."""
-    return _table(rows), _list(model)
+    return Part((_table(scope.turn), _list(scope.input)), _charts())
 
 
 def _offset(model: InputFile) -> str:
@@ -94,8 +97,10 @@ def _list(model: InputFile) -> ScalarTable:
         column = f"two_term.e{name}_{suffix}"
         top = f"max(col_max({column}), -col_min({column}))"
         scalars += [
-            Scalar(f"e{name}_max", top, "погрешность"),
-            Scalar(f"phi_e{name}_deg", f"col_min(two_term.at_e{name})", "погрешность"),
+            *scalar_list(f"""
+                e{name}_max = {top} | погрешность
+                phi_e{name}_deg = col_min(two_term.at_e{name}) | погрешность
+            """),
         ]
         if whole or name == "Pj":
             exact = f"two_term.e{name}_exact_{suffix}"
@@ -107,17 +112,13 @@ def _list(model: InputFile) -> ScalarTable:
     return ScalarTable("two_term_list", title, f"{SHEET}, итоги", tuple(scalars))
 
 
-def two_term_charts() -> tuple[ChartSpec, ...]:
+def _charts() -> tuple[ChartSpec, ...]:
     """Errors of motion and of the forces over the angle."""
-    x = "two_term.phi_deg"
-
-    def over(chart: str, title: str, y: str, *keys: str) -> ChartSpec:
-        series = tuple(Series(x, f"two_term.{key}") for key in keys)
-        return ChartSpec(chart, SHEET, title, "line", series, "φ, ° ПКВ", y)
-
+    t = "two_term"
     return (
-        over("two_term_s", "Погрешность перемещения поршня", "Δs, мм", "es_mm"),
-        over("two_term_v", "Погрешность скорости поршня", "Δv, м/с", "ev_m_s"),
-        over("two_term_j", "Погрешность ускорения поршня", "Δj, м/с²", "ej_m_s2"),
-        over("two_term_P", "Погрешность удельных сил", "МПа", "ePj_MPa", "eN_MPa", "eT_MPa"),
-    )
+        over_phi("two_term_s", SHEET, "Погрешность перемещения поршня", "Δs, мм", f"{t}.es_mm"),
+        over_phi("two_term_v", SHEET, "Погрешность скорости поршня", "Δv, м/с", f"{t}.ev_m_s"),
+        over_phi("two_term_j", SHEET, "Погрешность ускорения поршня", "Δj, м/с²", f"{t}.ej_m_s2"),
+        over_phi("two_term_P", SHEET, "Погрешность удельных сил", "МПа", f"{t}.ePj_MPa",
+                 *only("workbook", f"{t}.eN_MPa"), f"{t}.eT_MPa"),
+    )  # fmt: skip

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Block, Scalar, ScalarTable
+from reports.spec.blocks import Scalar, ScalarTable
 from reports.spec.extremes import extreme_scalars, first_number
+from reports.spec.listing import scalar_list
+from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape, pin_name
 from reports.tables.gas.cycle_names import section_of
 from reports.tables.gas.cycle_speed import cycle_checks
@@ -14,12 +16,13 @@ SHEET = "Итоги"
 YES, NO = "да", "НЕТ"
 
 
-def summary_blocks(model: InputFile, shape: Shape) -> tuple[Block, ...]:
+def summary(scope: Scope) -> Part:
     """Torque, crankpin, journals, running-on torques, checks."""
+    model, shape = scope.input, scope.shape
     throws, pins = shape.throws, len(shape.pins)
     journals = throws + 1
     rays = model.calculation.wear_rays
-    return (
+    blocks = (
         _torque(model, shape),
         *(_pin(number, pins, rays) for number in range(1, pins + 1)),
         *(_journal(k, rays) for k in range(1, journals + 1)),
@@ -27,6 +30,7 @@ def summary_blocks(model: InputFile, shape: Shape) -> tuple[Block, ...]:
         _loads(journals, pins),
         checks(model, shape),
     )
+    return Part(blocks)
 
 
 def _torque(model: InputFile, shape: Shape) -> ScalarTable:
@@ -40,11 +44,13 @@ def _torque(model: InputFile, shape: Shape) -> ScalarTable:
     scalars = [
         Scalar("M_mean", "col_mean(P4_2.Msum_Nm)", "Гоц, 2.8"),
         *extreme_scalars("P4_2", "Msum_Nm", "M", "Гоц, 2.9"),
-        Scalar("M_e", f"M_mean*{efficiency}", "Гоц (59), 2.8"),
-        Scalar("N_i_calc", "to_kW(M_mean*omega)", "Гоц, 2.8"),
-        Scalar("p_i_calc", f"to_MPa(M_mean*{shape.turn}/of_dm3(V_engine))", "Гоц, 2.8"),
-        Scalar("T_mean", "to_MPa(M_mean/(F_piston*r_crank))", "Гоц, 2.8"),
-        Scalar("W_cycle", "col_sum(gas.work_J)", "∫p dV"),
+        *scalar_list(f"""
+            M_e = M_mean*{efficiency} | Гоц (59), 2.8
+            N_i_calc = to_kW(M_mean*omega) | Гоц, 2.8
+            p_i_calc = to_MPa(M_mean*{shape.turn}/of_dm3(V_engine)) | Гоц, 2.8
+            T_mean = to_MPa(M_mean/(F_piston*r_crank)) | Гоц, 2.8
+            W_cycle = col_sum(gas.work_J) | ∫p dV
+        """),
         *(_hung_work(shape) if shape.articulated else ()),
         Scalar(
             "W_torque",
@@ -56,8 +62,10 @@ def _torque(model: InputFile, shape: Shape) -> ScalarTable:
     if _power_is_known(model):
         reference = f"30/pi*of_kW({power})/(regime_speed_rpm*r_crank*F_piston*{fullness})"
         scalars += [
-            Scalar("T_ref", f"to_MPa({reference})", "Гоц, 2.8"),
-            Scalar("T_error", "(T_mean/T_ref - 1)*100", "Гоц, 2.8"),
+            *scalar_list(f"""
+                T_ref = to_MPa({reference}) | Гоц, 2.8
+                T_error = (T_mean/T_ref - 1)*100 | Гоц, 2.8
+            """),
         ]
     return ScalarTable("summary_torque", "Крутящий момент двигателя", SHEET, tuple(scalars))
 
@@ -82,10 +90,12 @@ def _pin(number: int, pins: int, rays: int) -> ScalarTable:
         (
             Scalar(f"{name}_mean", f"col_mean({table}.Rpin_MPa)", "Гоц, 2.6"),
             *extreme_scalars(table, "Rpin_MPa", name, "Гоц, 2.6"),
-            Scalar(f"{name}_max_kN", f"to_kN(of_MPa({name}_max)*F_piston)", "Гоц, 2.9"),
-            Scalar(f"{name}_min_kN", f"to_kN(of_MPa({name}_min)*F_piston)", "Гоц, 2.9"),
-            Scalar(f"q_pin{n}_mean", f"{name}_mean*F_piston/{projected}", "Гоц, 2.6"),
-            Scalar(f"q_pin{n}_max", f"{name}_max*F_piston/{projected}", "Гоц, 2.6"),
+            *scalar_list(f"""
+                {name}_max_kN = to_kN(of_MPa({name}_max)*F_piston) | Гоц, 2.9
+                {name}_min_kN = to_kN(of_MPa({name}_min)*F_piston) | Гоц, 2.9
+                q_pin{n}_mean = {name}_mean*F_piston/{projected} | Гоц, 2.6
+                q_pin{n}_max = {name}_max*F_piston/{projected} | Гоц, 2.6
+            """),
             *hole_scalars(f"pin{n}", rays),
         ),
     )
@@ -101,9 +111,11 @@ def _journal(k: int, rays: int) -> ScalarTable:
         (
             Scalar(f"{name}_mean", f"col_mean({table}.R_MPa)", "Гоц, 2.9"),
             *extreme_scalars(table, "R_MPa", name, "Гоц, 2.9"),
-            Scalar(f"{name}_max_kN", f"to_kN(of_MPa({name}_max)*F_piston)", "Гоц, 2.9"),
-            Scalar(f"q_main{k}_mean", f"{name}_mean*F_piston/{projected}", "Гоц, 2.6"),
-            Scalar(f"q_main{k}_max", f"{name}_max*F_piston/{projected}", "Гоц, 2.6"),
+            *scalar_list(f"""
+                {name}_max_kN = to_kN(of_MPa({name}_max)*F_piston) | Гоц, 2.9
+                q_main{k}_mean = {name}_mean*F_piston/{projected} | Гоц, 2.6
+                q_main{k}_max = {name}_max*F_piston/{projected} | Гоц, 2.6
+            """),
             *hole_scalars(f"main{k}", rays),
         ),
     )
@@ -120,8 +132,10 @@ def _running(throws: int) -> ScalarTable:
     main = [(k, f"dM_main{k}") for k in range(2, throws + 2)]
     pin = [(i, f"dM_pin{i}") for i in range(1, throws + 1)]
     scalars += [
-        Scalar("worst_main_torque", _worst(main), "Гоц, 2.8"),
-        Scalar("worst_pin_torque", _worst(pin), "Гоц, 2.8"),
+        *scalar_list(f"""
+            worst_main_torque = {_worst(main)} | Гоц, 2.8
+            worst_pin_torque = {_worst(pin)} | Гоц, 2.8
+        """),
     ]
     return ScalarTable("summary_running", "Размах набегающих моментов", SHEET, tuple(scalars))
 

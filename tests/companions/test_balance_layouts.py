@@ -33,9 +33,9 @@ def test_orders_add_up_to_the_inertia_forces_of_all_pistons(name: str) -> None:
         moment += place * direction * thrown
     scale = m_j * float(r) * engine.omega**2
     for which, direct in enumerate((force, moment)):
-        for side, key in enumerate(("up", "right")):
+        for side in (0, 1):
             total = sum(
-                np.real(getattr(part[which], key) * wave)
+                np.real(part[which][side] * wave)
                 for part, wave in zip(parts, waves.values(), strict=True)
             )
             assert np.abs(total - direct[side]).max() < 1e-6 * scale

@@ -73,13 +73,18 @@ class Scalar:
 
 @dataclass(frozen=True, slots=True)
 class ScalarTable:
-    """A list of scalars, one below the other."""
+    """A list of scalars, one below the other.
+
+    ``verdicts``, the good word and the bad one, says that every value is followed by its
+    verdict, which stands in the same row.
+    """
 
     id: str
     title: str
     sheet: str
     scalars: tuple[Scalar, ...]
     note: str = ""
+    verdicts: tuple[str, str] | None = None
 
 
 @dataclass(frozen=True, slots=True)

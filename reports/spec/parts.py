@@ -61,3 +61,8 @@ def joined(scope: Scope, parts: tuple[PartOf, ...]) -> Part:
         tuple(block for part in made for block in part.blocks),
         tuple(chart for part in made for chart in part.charts),
     )
+
+
+def stepped(first: float, last: float, step: float) -> tuple[float, ...]:
+    """Rows of a table on a grid of its own."""
+    return tuple(round(first + step * i, 6) for i in range(round((last - first) / step) + 1))

@@ -132,14 +132,14 @@ class Shape:
                 f"(sqrt((1/lam + 1)**2 - k_offset**2) - (cos(rad({phi}))"
                 f" + sqrt(1 - lam**2*(sin(rad({phi})) - k_offset)**2)/lam))"
             )
-        return f"((1 - cos(rad({phi}))) + (1 - sqrt(1 - lam**2*sin(rad({phi}))**2))/lam)"
+        return _central(phi)
 
     def volume_ratio(self, phi: str) -> str:
         """V/V_c from the exact displacement."""
         if self.offset:
             scale = "(geometry_compression_ratio - 1)*r_crank/S_stroke"
             return f"1 + {scale}*{self.displacement(phi)}"
-        return f"1 + (geometry_compression_ratio - 1)/2*{self.displacement(phi)}"
+        return central_volume_ratio(phi)
 
     def axis(self, cylinder: int) -> str:
         """Angle of the cylinder's axis from that of cylinder 1 [deg]."""
@@ -148,6 +148,15 @@ class Shape:
 
 def _numbered(groups: tuple[tuple[int, ...], ...]) -> tuple[tuple[int, ...], ...]:
     return tuple(tuple(i + 1 for i in group) for group in groups)
+
+
+def _central(phi: str) -> str:
+    return f"((1 - cos(rad({phi}))) + (1 - sqrt(1 - lam**2*sin(rad({phi}))**2))/lam)"
+
+
+def central_volume_ratio(phi: str) -> str:
+    """V/V_c of a central mechanism from the exact displacement, Gots (1)."""
+    return f"1 + (geometry_compression_ratio - 1)/2*{_central(phi)}"
 
 
 def rods_table(throw: int) -> str:

@@ -139,26 +139,15 @@ class Layout:
         row = HEADER_ROW if beside_table else self.next_row.get(block.sheet, HEADER_ROW)
         column = self.next_column.get(block.sheet, 1) if beside_table else 1
         self.places[block.id] = Cell(block.sheet, row, column)
-        offset = 1
-        if block.id in ("checks", "cycle_ranges"):
-            self._checks(block, row)
-            return
-        for scalar in block.scalars:
-            self.cells[scalar.key] = Cell(block.sheet, row + offset, column + VALUE_COLUMN - 1)
+        in_row = 1 if block.verdicts is None else 2  # a verdict beside its value
+        for index, scalar in enumerate(block.scalars):
+            at = column + VALUE_COLUMN - 1 + index % in_row
+            self.cells[scalar.key] = Cell(block.sheet, row + 1 + index // in_row, at)
             self.named.add(scalar.key)
-            offset += 1
         if beside_table:
             self.next_column[block.sheet] = column + 6
         else:
-            self.next_row[block.sheet] = row + offset + 1
-
-    def _checks(self, block: ScalarTable, row: int) -> None:
-        """Value and verdict of a check stand in one row."""
-        for index, scalar in enumerate(block.scalars):
-            column = VALUE_COLUMN if scalar.of == "check_value" else UNIT_COLUMN
-            self.cells[scalar.key] = Cell(block.sheet, row + 1 + index // 2, column)
-            self.named.add(scalar.key)
-        self.next_row[block.sheet] = row + len(block.scalars) // 2 + 2
+            self.next_row[block.sheet] = row + len(block.scalars) // in_row + 2
 
     def _grid(self, grid: Grid, *, below_table: bool) -> None:
         row = self.next_row.get(grid.sheet, HEADER_ROW)

@@ -23,7 +23,7 @@ from reports.shared.files import temporary_failure
 from reports.spec.blocks import Grid, Model, ScalarTable, TableSpec
 from reports.spec.evaluation import Values, evaluate_model
 from reports.tables.gas.cycle_names import SHEET as CYCLE_SHEET
-from reports.tables.gas.cycle_speed import INSIDE, OUTSIDE, RANGE_SHEET
+from reports.tables.gas.cycle_speed import RANGE_SHEET
 from reports.workbook import styles
 from reports.workbook.caches import finish
 from reports.workbook.charts import make_chart, ranges_of, size
@@ -133,17 +133,15 @@ def _blocks(sheet: Worksheet, model: Model, writer: Writer) -> None:
             writer.table(sheet, block)
         elif isinstance(block, ScalarTable):
             writer.list(sheet, block)
+            if block.verdicts is not None:
+                _colour_verdicts(sheet, *block.verdicts)
         elif isinstance(block, Grid):
             writer.grid(sheet, block)
     if notes:
         _note(sheet, " ".join(dict.fromkeys(notes)))
-    if sheet.title == "Проверки":
-        _colour_checks(sheet, "да", "НЕТ")
-    elif sheet.title == RANGE_SHEET:
-        _colour_checks(sheet, INSIDE, OUTSIDE)
 
 
-def _colour_checks(sheet: Worksheet, good: str, bad: str) -> None:
+def _colour_verdicts(sheet: Worksheet, good: str, bad: str) -> None:
     first, last = (
         Cell(sheet.title, row, UNIT_COLUMN) for row in (HEADER_ROW, HEADER_ROW + _MOST_CHECKS)
     )

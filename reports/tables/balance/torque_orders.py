@@ -7,11 +7,10 @@ from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi
 from reports.spec.listing import column_list, scalar_list
-from reports.spec.parts import Part, Scope
+from reports.spec.parts import Part, Scope, stepped
 from reports.spec.shape import Shape
 from reports.tables.gas.cycle_names import section_of
 from reports.tables.gas.diagram import is_smooth, smooth_pressure
-from reports.tables.motion.segal import rows
 
 SHEET, SHAFTS, RESULTS = "Гармоники момента", "Гашение 2-го порядка", "Чудаков, итоги"
 LAST_ORDER = 8.0
@@ -96,7 +95,7 @@ def _orders(model: InputFile, cylinders: int) -> TableSpec:
         "Гармоники удельной тангенциальной силы и момента двигателя",
         SHEET,
         tuple(columns),
-        rows(step, last, step),
+        stepped(step, last, step),
         note=(
             f"Гармоника порядка k есть A·sin(kφ + γ), φ от ВМТ {start}: {turns}. "
             "Двигатель: амплитуда цилиндра, умноженная на векторную сумму."
@@ -184,7 +183,7 @@ def _suppression() -> TableSpec:
             psi_best_idle = max(0, 1 - t_gas2_idle/t_j2_MPa) | Чудаков, рис. 5
             h_best_mm = to_mm(psi_best*L_rod) | Чудаков (8)
         """),
-        rows(0.3, 1.2, 0.1),
+        stepped(0.3, 1.2, 0.1),
         step=0.1,
     )
 

@@ -200,6 +200,7 @@ def _ranges(section: CycleSection) -> ScalarTable:
         RANGE_SHEET,
         tuple(scalars),
         note="Пределы не взяты из учебника: у каждого указано, откуда он.",
+        verdicts=(INSIDE, OUTSIDE),
     )
 
 

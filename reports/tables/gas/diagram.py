@@ -7,19 +7,12 @@ from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.gas import places
 from reports.spec.blocks import Block, Grid, GridRow, Scalar, ScalarTable, TableSpec
 from reports.spec.listing import column_list, scalar_list
+from reports.spec.shape import central_volume_ratio
 
 SHEET, POINTS = "Газы", "Точки диаграммы"
 EDGE = "0.0000001"
 _EPS = "geometry_compression_ratio"
 NODES = ("r", "a′", "a", "c′", "c″", "zд", "j", "b′", "b″", "r′", "r")
-
-
-def volume_ratio(phi: str) -> str:
-    """V/V_c of the central mechanism, Gots (1); the rounded diagram has no other."""
-    return (
-        f"1 + (geometry_compression_ratio - 1)/2*((1 - cos(rad({phi})))"
-        f" + (1 - sqrt(1 - lam**2*sin(rad({phi}))**2))/lam)"
-    )
 
 
 def diagram_blocks(model: InputFile) -> tuple[Block, ...]:
@@ -81,9 +74,6 @@ def _scalars(gas: RoundedGasSection) -> ScalarTable:
         )
     ]
 
-    def at(angle: str) -> str:
-        return volume_ratio(angle)
-
     figure = "Гоц, рис. 22"
     start = "360 - gas_injection_advance_deg + gas_ignition_delay_deg"
     return ScalarTable(
@@ -97,12 +87,12 @@ def _scalars(gas: RoundedGasSection) -> ScalarTable:
             phi_open_deg = 540 - gas_exhaust_start_before_bdc_deg | {figure}, b′
             phi_close_deg = 540 + gas_exhaust_end_after_bdc_deg | {figure}, r′
             peak_share = {names[0]} | pzд/pz
-            x_start = {at('phi_c_deg')} | Гоц (1)
+            x_start = {central_volume_ratio('phi_c_deg')} | Гоц (1)
             p_start = {_compression('x_start')} | политропа сжатия
             p_c_end = gas_intake_pressure_mpa*{_EPS}**gas_compression_exponent | политропа сжатия
-            x_open = {at('phi_open_deg')} | Гоц (1)
+            x_open = {central_volume_ratio('phi_open_deg')} | Гоц (1)
             p_open = {_expansion('x_open')} | политропа расширения
-            p_b = {_expansion(at('540'))} | политропа расширения, b
+            p_b = {_expansion(central_volume_ratio('540'))} | политропа расширения, b
         """),
         note=(
             "c′ — видимое начало сгорания, c″ — ВМТ, zд — действительная точка конца сгорания, "
@@ -115,10 +105,10 @@ def _scalars(gas: RoundedGasSection) -> ScalarTable:
 
 def _nodes() -> Grid:
     def squeezed(angle: str) -> str:
-        return _compression(volume_ratio(angle))
+        return _compression(central_volume_ratio(angle))
 
     def expanded(angle: str) -> str:
-        return _expansion(volume_ratio(angle))
+        return _expansion(central_volume_ratio(angle))
 
     last = len(NODES)
     angles = (

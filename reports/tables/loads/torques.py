@@ -27,28 +27,27 @@ def torques(scope: Scope) -> Part:
         (INDEX, *each, Column("Msum_Nm", total, "Гоц, 2.8"), *extreme_columns("Msum_Nm", "M")),
         rows,
     )
-    blocks = (torque, _main(shape, rows), _pin(shape, rows), _statics(shape, rows))
+    blocks = (torque, *_running(shape, rows), _statics(shape, rows))
     return Part(blocks, _charts(shape))
 
 
-def _main(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
-    columns = [INDEX, Column("Mmain2_Nm", shape.throw_torque(1)[1], "Гоц, 2.8")]
+def _running(shape: Shape, rows: tuple[float, ...]) -> tuple[TableSpec, TableSpec]:
+    """Torques before and at every crankpin, which carries half of its throw's own."""
+    source = "Гоц, 2.8"
+    own = shape.throw_torque(1)[1]
+    main = [f"Mmain2_Nm = {own} | {source}"]
+    pin = [f"Mpin1_Nm = 0.5*{own} | {source}"]
     for i in range(2, shape.throws + 1):
         key, own = shape.throw_torque(i)
-        columns.append(Column(key, own, "П4.2"))
-        columns.append(Column(f"Mmain{i + 1}_Nm", f"Mmain{i}_Nm + {key}", "Гоц, 2.8"))
-    title = "Набегающие моменты на коренные шейки"
-    return TableSpec("P4_4", "П4.4", title, "П4.4", tuple(columns), rows)
-
-
-def _pin(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
-    columns = [INDEX, Column("Mpin1_Nm", f"0.5*{shape.throw_torque(1)[1]}", "Гоц, 2.8")]
-    for i in range(2, shape.throws + 1):
-        key, own = shape.throw_torque(i)
-        columns.append(Column(key, own, "П4.2"))
-        columns.append(Column(f"Mpin{i}_Nm", f"P4_4.Mmain{i}_Nm + 0.5*{key}", "Гоц, 2.8"))
-    title = "Набегающие моменты на шатунные шейки"
-    return TableSpec("P4_5", "П4.5", title, "П4.5", tuple(columns), rows)
+        main += [f"{key} = {own} | П4.2", f"Mmain{i + 1}_Nm = Mmain{i}_Nm + {key} | {source}"]
+        pin += [f"{key} = {own} | П4.2", f"Mpin{i}_Nm = P4_4.Mmain{i}_Nm + 0.5*{key} | {source}"]
+    title = "Набегающие моменты на {} шейки"
+    return (
+        TableSpec("P4_4", "П4.4", title.format("коренные"), "П4.4",
+                  column_list("phi_deg", *main), rows),
+        TableSpec("P4_5", "П4.5", title.format("шатунные"), "П4.5",
+                  column_list("phi_deg", *pin), rows),
+    )  # fmt: skip
 
 
 def _statics(shape: Shape, rows: tuple[float, ...]) -> TableSpec:

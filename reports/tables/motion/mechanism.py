@@ -40,10 +40,13 @@ def _sizes(model: InputFile) -> ScalarTable:
         length = "of_mm(geometry_rod_length_mm)"
     else:
         length = "r_crank/geometry_lambda"
-    return _geometry(shape, radius, length, bore, _offset_sum(given))
+    return _geometry(shape, radius, length, bore, offset_sum(given))
 
 
-def _offset_sum(given: GeometrySection) -> str:
+def offset_sum(given: GeometrySection | DesignGeometrySection) -> str:
+    """Offset of the cylinder's axis and of the pin [m], empty for a central mechanism."""
+    if isinstance(given, DesignGeometrySection):
+        return ""
     keys = ("crank_offset_mm", "pin_offset_mm")
     return " + ".join(f"of_mm(geometry_{key})" for key in keys if getattr(given, key) is not None)
 
@@ -101,18 +104,12 @@ def _dead_centres(offset: str) -> tuple[Scalar, ...]:
 
 
 def _offset_extremes() -> tuple[Scalar, ...]:
-    def acceleration(phi: str) -> str:
-        return (
-            f"r_crank*omega**2*(cos(rad({phi})) + lam*cos(2*rad({phi}))"
-            f" + lam*k_offset*sin(rad({phi})))"
-        )
-
     return scalar_list(f"""
         S_ratio = S_stroke/r_crank | Гоц, 1.4
         c_down = S_stroke*omega/rad(phi_down_deg) | Гоц, 1.4
         c_up = S_stroke*omega/rad(phi_up_deg) | Гоц, 1.4
-        j_tdc = {acceleration("phi_tdc_deg")} | Гоц (16) в ВМТ
-        j_bdc = {acceleration("phi_bdc_deg")} | Гоц (16) в НМТ
+        j_tdc = {OFFSET_TWO_TERM.format(phi="phi_tdc_deg")} | Гоц (16) в ВМТ
+        j_bdc = {OFFSET_TWO_TERM.format(phi="phi_bdc_deg")} | Гоц (16) в НМТ
         beta_90_deg = deg(asin(lam - k_offset*lam)) | Гоц (17), φ = 90°
         beta_270_deg = deg(asin(-lam - k_offset*lam)) | Гоц (17), φ = 270°
         beta_max_deg = max(abs(beta_90_deg), abs(beta_270_deg)) | Гоц (17)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, columns_of, over_phi
 from reports.spec.listing import column_list
-from reports.spec.parts import Part, Scope
-from reports.tables.motion.segal import ALPHA, TITLES, J, S, V, filled, rows
+from reports.spec.parts import Part, Scope, stepped
+from reports.tables.motion.segal import ALPHA, TITLES, J, S, V, filled
 
 SHEET, RESULTS = "Нейман", "Нейман, ряд"
 SHOWN = (1, 2, 4, 6)
@@ -63,7 +63,7 @@ def _motion() -> TableSpec:
         "Гармоники движения поршня и точные кривые",
         SHEET,
         tuple(columns),
-        rows(0, 360, 5),
+        stepped(0, 360, 5),
         note=(
             "Перемещение отнесено к R, скорость к ωR, ускорение к ω²R; λ — двигателя. "
             "Знаки гармоник 4 и 8 в напечатанной формуле (28) пропущены."

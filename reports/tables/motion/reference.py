@@ -8,7 +8,7 @@ from kshm.results.reference import FIGURE_6
 from reports.spec.blocks import Block, Column, Grid, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi, polar
 from reports.spec.listing import column_list, corners, grid_row, scalar_list
-from reports.spec.parts import Part, Scope
+from reports.spec.parts import Part, Scope, stepped
 
 MOTION, SPEED, VECTORS, SKETCH = "Рис. 3–10", "Рис. 6", "Рис. 20", "Рис. 5"
 KINEMATIC, FORCES = "Табл. 1–3", "Табл. 5–8"
@@ -38,8 +38,7 @@ def reference(scope: Scope) -> Part:
     if asked is None:
         return Part(tuple(blocks), _vector_charts())
     count = len(asked.lambdas)
-    half = tuple(float(angle) for angle in range(0, 190, 10))
-    whole = tuple(float(angle) for angle in range(0, 370, 10))
+    half, whole = stepped(0, 180, 10), stepped(0, 360, 10)
     for number in TABLES:
         blocks.append(_table(number, count, half))
     blocks += [_lambdas(sheet, count) for sheet in (KINEMATIC, FORCES)]
@@ -122,7 +121,7 @@ def _figure_6() -> TableSpec:
             v_ratio = pi/2*vmax_rel | Гоц, рис. 6
             v1_ratio = pi/2*(lambda_value/lambda_value) | Гоц, 1.2: 1,57
         """),
-        tuple(round(first + step * i, 6) for i in range(round((last - first) / step) + 1)),
+        stepped(first, last, step),
         step=step,
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi
 from reports.spec.listing import column_list, scalar_list
-from reports.spec.parts import Part, Scope
+from reports.spec.parts import Part, Scope, stepped
 
 SHEET, RESULTS = "Сегаль", "Сегаль, итоги"
 ITERATIONS = 9
@@ -18,11 +18,6 @@ ALPHA = ("alpha_deg", "α, °")
 TITLES = {"s": "Перемещение", "v": "Скорость", "j": "Ускорение"}
 _INDEX = Column("alpha_deg", None)
 _NEVER = "9999"
-
-
-def rows(first: float, last: float, step: float) -> tuple[float, ...]:
-    """Rows of a table on its own grid."""
-    return tuple(round(first + step * i, 6) for i in range(round((last - first) / step) + 1))
 
 
 def filled(text: str, lam: str) -> str:
@@ -59,7 +54,7 @@ def _errors() -> TableSpec:
         "Точные и приближённые перемещение, скорость и ускорение поршня",
         SHEET,
         (*columns, *helpers),
-        rows(0, 180, 2),
+        stepped(0, 180, 2),
         note="Перемещение отнесено к R, скорость к ωR, ускорение к ω²R; λ — двигателя.",
         step=2.0,
     )
@@ -82,7 +77,7 @@ def _inverse() -> TableSpec:
             dalpha_quadratic_deg = alpha_quadratic_deg - alpha_exact_deg | погрешность
             dalpha_small_deg = alpha_small_deg - alpha_exact_deg | погрешность
         """),
-        rows(0.1, 1.9, 0.1),
+        stepped(0.1, 1.9, 0.1),
         step=0.1,
     )
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from reports.inputs.sections.input_file import GeometrySection, InputFile
+from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, only, over_phi
 from reports.spec.extremes import NEVER, TIE
 from reports.spec.listing import scalar_list
 from reports.spec.parts import Part, Scope
+from reports.tables.motion.mechanism import offset_sum
 
 SHEET = "Погрешность"
 _PHI = "rad(phi_deg)"
@@ -20,19 +21,6 @@ _ERRORS = (
 def two_term(scope: Scope) -> Part:
     """Table over a turn and the list of the greatest errors."""
     return Part((_table(scope.turn), _list(scope.input)), _charts())
-
-
-def _offset(model: InputFile) -> str:
-    """Relative offset k = e/r; zero for a central mechanism."""
-    given = model.geometry
-    if not isinstance(given, GeometrySection):
-        return "0"
-    names = [
-        f"of_mm(geometry_{key})"
-        for key in ("crank_offset_mm", "pin_offset_mm")
-        if getattr(given, key) is not None
-    ]
-    return f"({' + '.join(names)})/r_crank" if names else "0"
 
 
 def _table(rows: tuple[float, ...]) -> TableSpec:
@@ -92,7 +80,8 @@ def _table(rows: tuple[float, ...]) -> TableSpec:
 
 
 def _list(model: InputFile) -> ScalarTable:
-    scalars = [Scalar("k_two_term", _offset(model), "Гоц, 1.4")]
+    offset = offset_sum(model.geometry)
+    scalars = [Scalar("k_two_term", f"({offset})/r_crank" if offset else "0", "Гоц, 1.4")]
     for name, suffix, whole in _ERRORS:
         column = f"two_term.e{name}_{suffix}"
         top = f"max(col_max({column}), -col_min({column}))"

@@ -193,7 +193,7 @@ def checks(model: InputFile, shape: Shape) -> ScalarTable:
         scalars.append(
             Scalar(f"check_{key}", f'"{YES}" if {verdict} else "{NO}"', note=title, of="check")
         )
-    return ScalarTable("checks", "Проверки", "Проверки", tuple(scalars))
+    return ScalarTable("checks", "Проверки", "Проверки", tuple(scalars), verdicts=(YES, NO))
 
 
 def _phase(shape: Shape, i: int) -> str:

@@ -12,7 +12,7 @@ from reports.spec.charts import ChartSpec
 
 Names = Callable[[str], str]
 Node = TypeVar("Node", Scalar, Column)
-_TOKEN = re.compile(r'"[^"]*"|[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)?')
+_TOKEN = re.compile(r'"[^"]*"|(?<![\w.])[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)?')
 
 
 def renamed(expr: str, names: Names) -> str:

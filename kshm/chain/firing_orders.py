@@ -46,16 +46,14 @@ def offsets_table(starts: Array) -> Array:
     count = len(base)
     variants = np.arange(2 ** (count - 1))[:, None]
     turn = np.where(np.arange(count) == 0, 0, variants >> np.maximum(np.arange(count) - 1, 0) & 1)
-    table: Array = base + 2 * np.pi * turn
-    return table
+    return base + 2 * np.pi * turn
 
 
 def intervals(offsets: Array) -> Array:
     """Intervals between power strokes [rad], shape of the offsets, four-stroke, Gots 2.8."""
     ordered = np.sort(offsets, axis=-1)
     following = np.concatenate([ordered[..., 1:], ordered[..., :1] + 4 * np.pi], axis=-1)
-    gaps: Array = following - ordered
-    return gaps
+    return following - ordered
 
 
 def unevenness(offsets: Array) -> Array:

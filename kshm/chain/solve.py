@@ -192,5 +192,4 @@ def solve_stacked(batch: Batch) -> ChainArrays:
 
 def _length(x: Array, y: Array) -> Array:
     """Length of vectors of moderate size: faster than hypot, which guards against overflow."""
-    length: Array = np.sqrt(x**2 + y**2)
-    return length
+    return np.sqrt(x**2 + y**2)

@@ -57,8 +57,7 @@ def angle_two_term(s: Array, lam: Array) -> Array:
 
 def angle_small(s: Array, lam: Array) -> Array:
     """Crank angle [rad] at a small displacement s < 0.15, elementwise, Segal (1.12)."""
-    angle: Array = np.sqrt(2 * s / (1 + lam))
-    return angle
+    return np.sqrt(2 * s / (1 + lam))
 
 
 def angle_exact(s: Array, lam: Array) -> Array:

@@ -219,5 +219,4 @@ def side_forces_left_of_pin(throws: ThrowArrays, unit: Array) -> Array:
     """
     web = throws.web_mass[..., 0] * np.sin(throws.web_angle[..., 0])
     weight = throws.counterweight_mass[..., 0] * np.sin(throws.counterweight_angle[..., 0])
-    side: Array = unit * (web + weight) + end_loads(throws, unit)[0].left
-    return side
+    return unit * (web + weight) + end_loads(throws, unit)[0].left

@@ -73,8 +73,7 @@ def dead_centres(lam: Array, k: Array) -> tuple[Array, Array]:
 
 def volume_ratio(displacement: Array, stroke: Array, eps: Array) -> Array:
     """V/V_c [-] at a displacement [m], elementwise; V_c from the piston's own stroke, Gots 2.1."""
-    ratio: Array = 1 + displacement * ((eps - 1) / stroke)
-    return ratio
+    return 1 + displacement * ((eps - 1) / stroke)
 
 
 def stroke_of(r: Array, lam: Array, k: Array, stroke: Array, eps: Array) -> Stroke:
@@ -102,8 +101,7 @@ def displacement_at(at: Position, r: Array, lam: Array, k: Array = CENTRAL) -> A
     rod = r / lam
     top = np.where(k == 0, r + rod, np.sqrt((r + rod) ** 2 - (k * r) ** 2))
     # Less the distance of the piston pin from the crank axis, straight from the triangle.
-    displacement: Array = top - (r * at.cos + rod * at.cos_beta)
-    return displacement
+    return top - (r * at.cos + rod * at.cos_beta)
 
 
 def displacement_orders(phi: Array, r: Array, lam: Array) -> tuple[Array, Array]:
@@ -118,15 +116,13 @@ def displacement_offset(phi: Array, r: Array, lam: Array, k: Array) -> Array:
     """
     rod = 1 / lam
     top = np.sqrt((rod + 1) ** 2 - k**2) - (rod + 1)
-    added: Array = r * (top + lam * k * (k / 2 - np.sin(phi)))
-    return added
+    return r * (top + lam * k * (k / 2 - np.sin(phi)))
 
 
 def velocity_exact(phi: Array, r: Array, lam: Array, omega: Array, k: Array = CENTRAL) -> Array:
     """Piston velocity [m/s], exact, elementwise, Gots 1.2 (instant centre of the rod)."""
     at = Position.at(phi, lam, k)
-    velocity: Array = r * omega * (at.sin + at.sin_beta / at.cos_beta * at.cos)
-    return velocity
+    return r * omega * (at.sin + at.sin_beta / at.cos_beta * at.cos)
 
 
 def velocity_orders(phi: Array, r: Array, lam: Array, omega: Array) -> tuple[Array, Array]:
@@ -136,8 +132,7 @@ def velocity_orders(phi: Array, r: Array, lam: Array, omega: Array) -> tuple[Arr
 
 def velocity_offset(phi: Array, r: Array, lam: Array, omega: Array, k: Array) -> Array:
     """What an offset adds to the two-term velocity [m/s], elementwise, Gots (15) less (4)."""
-    added: Array = -r * omega * lam * k * np.cos(phi)
-    return added
+    return -r * omega * lam * k * np.cos(phi)
 
 
 def acceleration_exact(phi: Array, r: Array, lam: Array, omega: Array, k: Array = CENTRAL) -> Array:
@@ -149,8 +144,7 @@ def acceleration_exact_at(at: Position, r: Array, lam: Array, omega: Array) -> A
     """Exact acceleration [m/s²] in a known position, elementwise, from Gots (1), (12)."""
     # cos(φ + β)/cos β, and what the turning of the rod adds.
     shape = at.cos - at.sin * at.sin_beta / at.cos_beta + lam * at.cos**2 / at.cos_beta**3
-    acceleration: Array = r * omega**2 * shape
-    return acceleration
+    return r * omega**2 * shape
 
 
 def acceleration_orders(phi: Array, r: Array, lam: Array, omega: Array) -> tuple[Array, Array]:
@@ -164,8 +158,7 @@ def _orders(cos: Array, centripetal: Array, lam: Array) -> tuple[Array, Array]:
 
 def acceleration_offset(phi: Array, r: Array, lam: Array, omega: Array, k: Array) -> Array:
     """What an offset adds to the two-term acceleration [m/s²], elementwise, Gots (16) less (6)."""
-    added: Array = r * omega**2 * lam * k * np.sin(phi)
-    return added
+    return r * omega**2 * lam * k * np.sin(phi)
 
 
 def acceleration_two_term_at(

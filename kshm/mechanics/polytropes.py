@@ -77,8 +77,7 @@ class _Timing:
 
     def compression(self, ratio: Array, begin: Array, where: Mask = EVERYWHERE) -> Array:
         """Polytrope n_1 from p_a at the ratio ``begin``; p_a where it is not asked for."""
-        pressure: Array = self.gas.p_intake * _power(begin / ratio, self.gas.n_compression, where)
-        return pressure
+        return self.gas.p_intake * _power(begin / ratio, self.gas.n_compression, where)
 
     def rise(self, angle: Array, begin: Array) -> Array:
         """Straight rise from the start of combustion, at most to p_z."""
@@ -91,14 +90,12 @@ class _Timing:
         """Isobar to ρV_c and polytrope n_2; p_z where it is not asked for."""
         gas = self.gas
         fall = _power(gas.rho / ratio, gas.n_expansion, where & (ratio > gas.rho))
-        pressure: Array = gas.p_max * fall
-        return pressure
+        return gas.p_max * fall
 
     def line(self, begin: Array, from_: Array, end: Array, to: Array) -> Array:
         """Straight line of the pressure over the angle."""
         fraction = (self.angle - begin) / (end - begin)
-        pressure: Array = from_ + (to - from_) * fraction
-        return pressure
+        return from_ + (to - from_) * fraction
 
 
 def _four_stroke(t: _Timing) -> Array:

@@ -129,8 +129,7 @@ def approximate(phi: Array, parts: Parts) -> Array:
     rod = parts.rod_mass * (parts.radius * (share * cosine**2 - 1)) ** 2
     turning = parts.rod_inertia * (lam * cosine) ** 2
     piston = parts.piston_mass * (parts.radius * np.sin(phi) * (1 + lam * cosine)) ** 2
-    result: Array = parts.crank_inertia + rod + turning + piston
-    return result
+    return parts.crank_inertia + rod + turning + piston
 
 
 def counterweight_inertia(engine: Engine) -> float:

@@ -86,8 +86,7 @@ def speed_of(t_gas: float, d_j: float) -> float:
 
 def residual(t_gas: Array, t_inertia: Array, psi: float) -> Array:
     """|t_г2 − (1 − ψ)·t_j2| [Pa] with shafts that suppress ψ, elementwise, Chudakov (6)."""
-    left: Array = np.abs(t_gas - (1 - psi) * t_inertia)
-    return left
+    return np.abs(t_gas - (1 - psi) * t_inertia)
 
 
 def residual_vector(t_gas: Array, gamma: float, t_inertia: Array, psi: float) -> Array:
@@ -98,8 +97,7 @@ def residual_vector(t_gas: Array, gamma: float, t_inertia: Array, psi: float) ->
 
 def best_suppression(t_gas: Array, t_inertia: Array) -> Array:
     """ψ_опт [-] that makes Chudakov (6) zero, elementwise; none where it would be negative."""
-    best: Array = np.maximum(0.0, 1 - t_gas / t_inertia)
-    return best
+    return np.maximum(0.0, 1 - t_gas / t_inertia)
 
 
 def shaft_offset(psi: float, rod_length: float) -> float:

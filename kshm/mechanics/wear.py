@@ -57,8 +57,7 @@ def ray_sums(up: Array, against: Array, size: Array, rays: int) -> Array:
     once[..., -1] = 0
     sector = row + _sectors(up, against, size, rays).astype(np.int64)
     by_sector = np.bincount(sector.ravel(), weights=once.ravel(), minlength=count * row.size)
-    sums: Array = by_sector.reshape(*size.shape[:-1], count) @ _counted_at(rays)
-    return sums
+    return by_sector.reshape(*size.shape[:-1], count) @ _counted_at(rays)
 
 
 def _sectors(up: Array, against: Array, size: Array, rays: int) -> NDArray[np.int8]:
@@ -69,17 +68,17 @@ def _sectors(up: Array, against: Array, size: Array, rays: int) -> NDArray[np.in
     """
     along, across = np.abs(up), np.abs(against)
     slack = size * (EDGE / np.sin(HALF_WINDOW))  # the edge of ``ray_loads`` as an angle
-    found: NDArray[np.int8] = (across > slack).view(np.int8)
+    sector: NDArray[np.int8] = (across > slack).view(np.int8)
     least, most = across - slack, across + slack
     for angle in ray_angles(rays)[1 : (rays + 3) // 4]:
         edge = along * np.tan(angle)
-        found += (least > edge).view(np.int8)
-        found += (most >= edge).view(np.int8)
+        sector += (least > edge).view(np.int8)
+        sector += (most >= edge).view(np.int8)
     if rays % 4 == 0:  # a ray stands at 90°
-        found += (along <= slack).view(np.int8)
-    found += (up < 0).view(np.int8) * (np.int8(rays) - 2 * found)
-    found += (against < 0).view(np.int8) * (np.int8(2 * rays) - 2 * found)
-    return found
+        sector += (along <= slack).view(np.int8)
+    sector += (up < 0).view(np.int8) * (np.int8(rays) - 2 * sector)
+    sector += (against < 0).view(np.int8) * (np.int8(2 * rays) - 2 * sector)
+    return sector
 
 
 def _counted_at(rays: int) -> Array:

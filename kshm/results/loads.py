@@ -43,8 +43,7 @@ class Engines:
         else:
             own = self.first.cylinders - hung.stroke.shape[1]
             strokes = self.stroke * own + hung.stroke[self.at, :, 0].sum(axis=1)
-        volume: Array = self.area * strokes
-        return volume
+        return self.area * strokes
 
 
 def chain_scalars(raw: ChainArrays, at: slice = slice(None)) -> Numbers:

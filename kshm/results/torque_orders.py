@@ -8,6 +8,7 @@ from kshm.arrays import Array, Columns, Results, Scalars
 from kshm.engine.gas import TabulatedGas
 from kshm.mechanics import torque_harmonics
 from kshm.mechanics.kinematics import Position
+from kshm.mechanics.masses import point_masses
 from kshm.results.case import Case
 
 LAST_ORDER = 8.0
@@ -94,7 +95,9 @@ def _coefficients(case: Case, curves: Columns) -> Scalars:
     # all of p_i goes into friction.
     idle = cold + (gas - cold) * (1 - engine.mechanical_efficiency)
     unit = case.inertia_unit / geometry.piston_area
-    d_j, t_j = unit / engine.omega**2, unit / 2
+    m_j, _ = point_masses(engine.masses, geometry.rod_length)
+    d_j = torque_harmonics.specific_imbalance(m_j, geometry.crank_radius, geometry.piston_area)
+    t_j = float(torque_harmonics.inertia_second(d_j, case.omega))
     bounds = sorted(torque_harmonics.speed_of(t_gas, d_j) for t_gas in (idle, gas))
     best = float(torque_harmonics.best_suppression(np.array(gas), np.array(t_j)))
     psi, rod = engine.balancing.suppression, geometry.rod_length

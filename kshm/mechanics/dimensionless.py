@@ -32,20 +32,13 @@ class Motion:
 
 def exact(alpha: Array, lam: Array) -> Motion:
     """Exact s, v = ds/dα, j = d²s/dα² [-], elementwise, Segal (1.17)-(1.19)."""
-    return Motion(
-        kinematics.displacement_exact(alpha, _ONE, lam),
-        kinematics.velocity_exact(alpha, _ONE, lam, _ONE),
-        kinematics.acceleration_exact(alpha, _ONE, lam, _ONE),
-    )
+    return Motion(**kinematics.exact_motion(alpha, _ONE, lam, _ONE))
 
 
 def two_term(alpha: Array, lam: Array) -> Motion:
     """Approximate s, v, j [-], elementwise, Segal (1.8), (1.14)."""
-    return Motion(
-        np.add(*kinematics.displacement_orders(alpha, _ONE, lam)),
-        np.add(*kinematics.velocity_orders(alpha, _ONE, lam, _ONE)),
-        np.add(*kinematics.acceleration_orders(alpha, _ONE, lam, _ONE)),
-    )
+    parts = kinematics.two_term_motion(alpha, _ONE, lam, _ONE)
+    return Motion(**{letter: first + second for letter, (first, second, _) in parts.items()})
 
 
 def angle_two_term(s: Array, lam: Array) -> Array:

@@ -171,6 +171,31 @@ def acceleration_two_term_at(
     return both + centripetal * lam * k * at.sin if np.any(k) else both
 
 
+def exact_motion(
+    phi: Array, r: Array, lam: Array, omega: Array, k: Array = CENTRAL
+) -> dict[str, Array]:
+    """Exact s [m], v [m/s] and j [m/s²] by their letters, elementwise, Gots (1), (12)."""
+    return {
+        "s": displacement_exact(phi, r, lam, k),
+        "v": velocity_exact(phi, r, lam, omega, k),
+        "j": acceleration_exact(phi, r, lam, omega, k),
+    }
+
+
+def two_term_motion(
+    phi: Array, r: Array, lam: Array, omega: Array, k: Array = CENTRAL
+) -> dict[str, tuple[Array, Array, Array]]:
+    """Orders 1 and 2 and an offset's part of s [m], v [m/s], j [m/s²], elementwise, Gots (3)-(16).
+
+    By their letters; the two-term motion is the sum.
+    """
+    return {
+        "s": (*displacement_orders(phi, r, lam), displacement_offset(phi, r, lam, k)),
+        "v": (*velocity_orders(phi, r, lam, omega), velocity_offset(phi, r, lam, omega, k)),
+        "j": (*acceleration_orders(phi, r, lam, omega), acceleration_offset(phi, r, lam, omega, k)),
+    }
+
+
 def rod_angular_velocity(
     phi: Array, lam: Array, omega: Array, k: Array = CENTRAL
 ) -> tuple[Array, Array]:

@@ -8,6 +8,8 @@ from kshm.arrays import Array, Columns, Scalars, Tables
 from kshm.mechanics import articulated, kinematics
 from kshm.results.case import Case
 
+UNITS = ("mm", "m_s", "m_s2")  # how the keys of s, v and j end
+
 
 def motion_tables(case: Case) -> Tables:
     """Motion over one turn in SI units."""
@@ -21,25 +23,15 @@ def layout_motion_tables(case: Case) -> Tables:
 
 
 def _piston(case: Case) -> Columns:
-    phi, omega, (r, lam, k) = case.turn, case.omega, case.sizes
-    orders = {
-        "s#_mm": kinematics.displacement_orders(phi, r, lam),
-        "v#_m_s": kinematics.velocity_orders(phi, r, lam, omega),
-        "j#_m_s2": kinematics.acceleration_orders(phi, r, lam, omega),
-    }
-    added = (
-        kinematics.displacement_offset(phi, r, lam, k),
-        kinematics.velocity_offset(phi, r, lam, omega, k),
-        kinematics.acceleration_offset(phi, r, lam, omega, k),
-    )
-    columns = {"phi_deg": phi}
-    for (family, (first, second)), further in zip(orders.items(), added, strict=True):
-        columns |= {family.replace("#", "1"): first, family.replace("#", "2"): second}
+    parts = kinematics.two_term_motion(case.turn, *case.sizes[:2], case.omega, case.sizes[2])
+    columns = {"phi_deg": case.turn}
+    for (letter, (first, second, offset)), unit in zip(parts.items(), UNITS, strict=True):
+        columns |= {f"{letter}1_{unit}": first, f"{letter}2_{unit}": second}
         total = first + second
         if not case.engine.geometry.is_central:
-            columns[family.replace("#", "k")] = further
-            total = total + further
-        columns[family.replace("#", "")] = total
+            columns[f"{letter}k_{unit}"] = offset
+            total = total + offset
+        columns[f"{letter}_{unit}"] = total
     return columns
 
 
@@ -58,13 +50,12 @@ def _rod(case: Case) -> Columns:
 def _offset(case: Case) -> Columns:
     """Exact motion beside the two-term one of П3.1, and the central one, Gots figure 12."""
     phi, omega, (r, lam, k) = case.turn, case.omega, case.sizes
+    exact = kinematics.exact_motion(phi, r, lam, omega, k)
     return {
         "phi_deg": phi,
-        "x_exact_mm": kinematics.displacement_exact(phi, r, lam, k),
-        "v_exact_m_s": kinematics.velocity_exact(phi, r, lam, omega, k),
-        "j_exact_m_s2": kinematics.acceleration_exact(phi, r, lam, omega, k),
+        "x_exact_mm": exact["s"], "v_exact_m_s": exact["v"], "j_exact_m_s2": exact["j"],
         "j_central_m_s2": np.sum(kinematics.acceleration_orders(phi, r, lam, omega), axis=0),
-    }
+    }  # fmt: skip
 
 
 def _articulated(case: Case) -> Tables:

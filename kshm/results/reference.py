@@ -46,13 +46,9 @@ def reference_results(case: Case) -> Results:
 
 
 def _motion(phi: Array, lam: Array) -> Columns:
-    orders = {
-        "s": kinematics.displacement_orders(phi, _ONE, lam),
-        "v": kinematics.velocity_orders(phi, _ONE, lam, _ONE),
-        "j": kinematics.acceleration_orders(phi, _ONE, lam, _ONE),
-    }
     columns: Columns = {"phi_deg": phi}
-    for letter, (first, second) in orders.items():
+    parts = kinematics.two_term_motion(phi, _ONE, lam, _ONE)
+    for letter, (first, second, _) in parts.items():
         columns |= {
             f"{letter}1_rel": first, f"{letter}2_rel": second, f"{letter}_rel": first + second,
         }  # fmt: skip

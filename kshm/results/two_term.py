@@ -9,34 +9,25 @@ from kshm.mechanics import kinematics
 from kshm.nomenclature.quantity import quantity
 from kshm.results.case import Case
 from kshm.results.extremes import first_extreme
+from kshm.results.motion import UNITS
 
 
 def two_term_errors(case: Case) -> Results:
     """Exact and two-term motion and force over a turn, their differences and the greatest, SI."""
     geometry, phi, omega, (r, lam, k) = case.engine.geometry, case.turn, case.omega, case.sizes
     area = geometry.piston_area
-    exact = {
-        "s#_mm": kinematics.displacement_exact(phi, r, lam, k),
-        "v#_m_s": kinematics.velocity_exact(phi, r, lam, omega, k),
-        "j#_m_s2": kinematics.acceleration_exact(phi, r, lam, omega, k),
-    }
-    near = {
-        "s#_mm": sum(kinematics.displacement_orders(phi, r, lam))
-        + kinematics.displacement_offset(phi, r, lam, k),
-        "v#_m_s": sum(kinematics.velocity_orders(phi, r, lam, omega))
-        + kinematics.velocity_offset(phi, r, lam, omega, k),
-        "j#_m_s2": sum(kinematics.acceleration_orders(phi, r, lam, omega))
-        + kinematics.acceleration_offset(phi, r, lam, omega, k),
-    }
+    exact = kinematics.exact_motion(phi, r, lam, omega, k)
+    parts = kinematics.two_term_motion(phi, r, lam, omega, k)
+    near = {letter: first + second + offset for letter, (first, second, offset) in parts.items()}
     mass = case.inertia_unit / float(r * omega**2)
     for curves in (exact, near):
-        curves["Pj#_MPa"] = -mass * curves["j#_m_s2"] / area
+        curves["Pj"] = -mass * curves["j"] / area
     table, whole = {"phi_deg": phi}, {}
-    for family, values in exact.items():
-        table["e" + family.replace("#", "_exact")] = values
-        table["e" + family.replace("#", "_two")] = near[family]
-        table["e" + family.replace("#", "")] = near[family] - values
-        whole["e" + family.replace("#", "")] = float(np.abs(values).max())
+    for (letter, values), unit in zip(exact.items(), (*UNITS, "MPa"), strict=True):
+        table[f"e{letter}_exact_{unit}"] = values
+        table[f"e{letter}_two_{unit}"] = near[letter]
+        table[f"e{letter}_{unit}"] = near[letter] - values
+        whole[f"e{letter}_{unit}"] = float(np.abs(values).max())
     beta = kinematics.rod_angle(phi, lam, k)
     tangential = table["ePj_MPa"] * (np.sin(phi) + np.cos(phi) * np.tan(beta))
     table |= {

@@ -6,11 +6,12 @@ table are told by the angles in its first column.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from reports.grading.issuing.handout import anchor_name, cell_name
-from reports.recalculation.by_columns import Engine, Grid, UnknownFormula
+from reports.recalculation.evaluate import NUMBER, Engine
+from reports.recalculation.grid import Grid
+from reports.recalculation.language import UnknownFormula
 from reports.spec.blocks import Model, TableSpec
 from reports.workbook.layout import KEY_COLUMN, SYMBOL_COLUMN, TITLE_COLUMN, VALUE_COLUMN, Layout
 from reports.workbook.sheets import capital
@@ -150,10 +151,10 @@ def _calculated(grid: Grid, sheet: str, header: int, column: int) -> dict[int, f
     first, last = header + 2, header + _SEARCH_ROWS
     try:
         values, kinds = Engine(grid).values(sheet, column, first, last)
-    except (UnknownFormula, RecursionError):
+    except UnknownFormula:
         return {}
     numbers = zip(values.tolist(), kinds, strict=True)
-    return {first + i: value for i, (value, kind) in enumerate(numbers) if kind == "n"}
+    return {first + i: value for i, (value, kind) in enumerate(numbers) if kind == NUMBER}
 
 
 def _report_sheets(model: Model, layout: Layout, found: Placement) -> None:
@@ -240,10 +241,3 @@ class _Search:
 
 def _plain(text: str) -> str:
     return " ".join(text.split()).casefold()
-
-
-def nodes_at(placement: Placement) -> Iterator[tuple[str, int, int, str]]:
-    """Sheet, column, row and node of every placed cell of a scalar or input."""
-    for node, place in placement.places.items():
-        if len(place.rows) == 1 and place.rows[0] is not None:
-            yield place.sheet, place.column, place.rows[0], node

@@ -124,14 +124,17 @@ class Grid:
             return Area(cell[0], cell[1], cell[1], cell[2], cell[2])
         return self.areas.get(name)
 
+    def columns_of(self, area: Area) -> list[int]:
+        """Numbers of the columns of a rectangle that hold anything."""
+        columns = self.sheets.get(area.sheet, {})
+        if area.last_column - area.first_column < len(columns):
+            return [n for n in range(area.first_column, area.last_column + 1) if n in columns]
+        return [n for n in columns if area.first_column <= n <= area.last_column]
+
     def runs_of(self, area: Area) -> Iterator[Run]:
         """The runs with cells in a rectangle."""
-        columns = self.sheets.get(area.sheet, {})
-        wide = area.last_column - area.first_column >= len(columns)
-        numbers = columns if wide else range(area.first_column, area.last_column + 1)
-        for number in numbers:
-            if area.first_column <= number <= area.last_column and number in columns:
-                yield from columns[number].runs_in(area.first_row, area.last_row)
+        for number in self.columns_of(area):
+            yield from self.sheets[area.sheet][number].runs_in(area.first_row, area.last_row)
 
     def precedents(self, run: Run) -> Iterator[Area]:
         """All rectangles that a run refers to, over all its rows."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from math import isfinite, nan
 
 from lxml import etree
@@ -44,6 +45,8 @@ def parse_xml(data: bytes) -> etree._Element:
 
 def rich_text(item: etree._Element) -> str:
     """Text of a string item; phonetic hints are no text."""
+    if len(item) == 1 and not len(item[0]):  # no runs of different looks
+        return item[0].text or ""
     parts = []
     for text in item.iter("{*}t"):
         parent = text.getparent()
@@ -71,7 +74,7 @@ def read_sheet(grid: Grid, title: str, data: bytes, strings: list[str]) -> None:
             if address is None:
                 column += 1
             else:
-                row, column = _place(address, title)
+                row, column = _place(address)
             kind, text, about = cell.get("t", "n"), None, None
             for part in cell:
                 if part.tag == _VALUE:
@@ -91,10 +94,11 @@ def read_sheet(grid: Grid, title: str, data: bytes, strings: list[str]) -> None:
     sheet.finish()
 
 
-def _place(address: str, title: str) -> tuple[int, int]:
+@lru_cache(maxsize=50_000)  # most books of a class have the same cells
+def _place(address: str) -> tuple[int, int]:
     match = _ADDRESS.fullmatch(address)
     if match is None:
-        msg = f"на листе «{title}» ячейка с неверным адресом"
+        msg = f"в книге есть ячейка с неверным адресом «{address[:20]}»"
         raise BadBook(msg)
     return int(match[2]), column_number(match[1])
 
@@ -203,7 +207,7 @@ class _Sheet:
 
     def _array(self, known: Column, row: int, column: int, text: str, extent: str) -> None:
         first, _, last = extent.partition(":")
-        ends = [_place(cell, self.title) for cell in (first, last or first)]
+        ends = [_place(cell) for cell in (first, last or first)]
         (top, left), (bottom, right) = ends
         inside = top == row <= bottom <= MAX_ROW and left == column <= right <= MAX_COLUMN
         if not inside or (bottom - top + 1) * (right - left + 1) > MAX_ROW:

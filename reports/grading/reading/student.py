@@ -230,10 +230,14 @@ class Student:
                 if first <= area.last_row and last >= area.first_row:
                     nodes.add(node)
                     taken.setdefault(number, []).append((first, last, place))
-        for run in self.grid.runs_of(area):
-            low, high = max(run.first, area.first_row), min(run.last, area.last_row)
-            if not _covered(low, high, taken.get(run.column, [])):
-                helpers.append(run)
+        for number in self.grid.columns_of(area):
+            known = taken.get(number, [])
+            if _covered(area.first_row, area.last_row, known):
+                continue
+            for run in self.grid.column(area.sheet, number).runs_in(area.first_row, area.last_row):
+                low, high = max(run.first, area.first_row), min(run.last, area.last_row)
+                if not _covered(low, high, known):
+                    helpers.append(run)
         return nodes, helpers
 
     # --- what would have been -----------------------------------------------------------

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from openpyxl import Workbook
 
-from reports.grading.judging.items import Assignment
+from reports.grading.issuing.assignment import Assignment
 from reports.spec.evaluation import Values
 from reports.workbook.layout import Layout
 from tests.grading.fill import Formula

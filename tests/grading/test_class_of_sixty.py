@@ -9,9 +9,9 @@ from tempfile import mkdtemp
 import pytest
 
 from reports.grading.issuing import handout
+from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
-from reports.grading.judging.items import Assignment
 from reports.grading.judging.marking import Marker
 from reports.grading.reading.submissions import Submission
 from reports.recalculation.by_libreoffice import LibreOffice

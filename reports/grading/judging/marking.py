@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
+from reports.grading.issuing.assignment import Assignment, Item
 from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
+from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.causes import Causes, OtherVariant
-from reports.grading.judging.items import Assignment, Item
-from reports.grading.judging.rubric import Rubric
 from reports.grading.judging.verdicts import (
     BROKEN,
     CARRIED,

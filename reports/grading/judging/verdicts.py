@@ -9,7 +9,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.grading.judging.items import Item
+from reports.grading.issuing.assignment import Item
 from reports.grading.reading.student import LOST, Answer, Student, known_values
 from reports.recalculation.evaluate import BLANK, ERROR, NUMBER, TEXT
 from reports.recalculation.language import UnknownFormula

@@ -8,7 +8,7 @@ from typing import Any
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from reports.grading.judging.rubric import Rubric
+from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.verdicts import WORDS
 from reports.grading.pages.chart import line_chart
 from reports.shared.resources import templates_dir

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.grading.judging.items import Assignment
+from reports.grading.issuing.assignment import Assignment
 from reports.grading.reading.placement import Place, Placement, find_places
 from reports.recalculation.evaluate import BLANK, ERROR, Engine
 from reports.recalculation.grid import Area, Column, Grid, Run

@@ -8,12 +8,11 @@ from pathlib import Path
 import numpy as np
 
 from reports.formula.excel import compile_formula
-from reports.grading.batch.grade import checked_register
-from reports.grading.issuing.register import FILE
+from reports.grading.issuing.assignment import Item
+from reports.grading.issuing.register import FILE, checked_register
+from reports.grading.issuing.rubric import load_rubric
 from reports.grading.judging.causes import Causes
-from reports.grading.judging.items import Item
 from reports.grading.judging.marking import Marker
-from reports.grading.judging.rubric import load_rubric
 from reports.grading.judging.verdicts import WORDS, WRONG, Judgement, judge, tolerance
 from reports.grading.pages.pages import number, rows
 from reports.grading.reading.matching import find_owner

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from kshm.cycle.dizdn_listing import Listing, listing_cycle
-from kshm.cycle.errors import CycleError, ru
+from kshm.cycle.errors import CycleError, Remark
 from kshm.cycle.figures import effective, indicate, theoretical_pressure
 from kshm.cycle.fuel import Mixture, burn
 from kshm.cycle.heat import ZERO_C, mixture_heat
@@ -63,8 +63,7 @@ def thermodynamics(inputs: CycleInputs) -> Thermodynamics:
     compression = compress(charge, eps)
     combustion = ignite(inputs, mixture, charge, compression, products)
     if combustion.t_z > TOO_HOT:
-        msg = f"T_z = {ru(combustion.t_z)} К неправдоподобно; уменьшите ξ_z или H_u"
-        raise CycleError(msg, "xi_z")
+        raise CycleError("too_hot", "xi_z", t_z=combustion.t_z)
     expansion = expand(combustion, inputs.xi_z, inputs.xi_b)
     p_theory = theoretical_pressure(eps, compression, combustion, expansion, charge.t_a)
     indicated = indicate(inputs, mixture, charge, p_theory)
@@ -83,7 +82,7 @@ def cycle(inputs: CycleInputs, listing: Listing | None = None) -> Cycle:
         All stages, the effective figures, the turbocharger balance and warnings.
 
     Raises:
-        CycleError: one Russian line: which input, which way to change it.
+        CycleError: no cycle follows from the inputs.
     """
     if listing is not None:
         return listing_cycle(inputs, listing)
@@ -109,32 +108,27 @@ def cycle(inputs: CycleInputs, listing: Listing | None = None) -> Cycle:
     )
 
 
-def _residual_warning(inputs: CycleInputs, thermo: Thermodynamics) -> tuple[str, ...]:
+def _residual_warning(inputs: CycleInputs, thermo: Thermodynamics) -> tuple[Remark, ...]:
     check = residual_temperature(thermo.expansion, thermo.charge.p_r)
     gap = (check - inputs.t_residual) / inputs.t_residual
     if abs(gap) <= RESIDUAL_TOLERANCE:
         return ()
-    return (
-        f"T_r = {ru(inputs.t_residual)} К расходится с проверкой "
-        f"T_b/(p_b/p_r)^(1/3) = {ru(check)} К на {ru(100 * gap, 2)} %; "
-        f"задайте T_r ближе к {ru(check, 3)} К",
-    )
+    numbers = {"given": inputs.t_residual, "check": check, "gap": gap}
+    return (Remark("residual_temperature_off", "t_residual", numbers),)
 
 
-def _heat_warning(thermo: Thermodynamics) -> tuple[str, ...]:
+def _heat_warning(thermo: Thermodynamics) -> tuple[Remark, ...]:
     if thermo.combustion.t_z - ZERO_C <= HOT:
         return ()
-    return (
-        f"T_z = {ru(thermo.combustion.t_z)} К выше 2800 °C: формулы теплоёмкостей "
-        "продолжены за свой предел",
-    )
+    return (Remark("heat_capacity_extended", "xi_z", {"t_z": thermo.combustion.t_z}),)
 
 
-def _turbo(turbo: Turbo | None) -> tuple[str, ...]:
+def _turbo(turbo: Turbo | None) -> tuple[Remark, ...]:
     if turbo is None or turbo.turbine_power >= turbo.compressor_power:
         return ()
-    return (
-        f"мощность турбины {ru(turbo.turbine_power / 1e3, 3)} кВт меньше мощности "
-        f"компрессора {ru(turbo.compressor_power / 1e3, 3)} кВт; увеличьте C2 "
-        f"примерно до {ru(turbo.c2_balance, 3)} или КПД агрегата",
-    )
+    numbers = {
+        "turbine": turbo.turbine_power,
+        "compressor": turbo.compressor_power,
+        "balance": turbo.c2_balance,
+    }
+    return (Remark("turbine_too_weak", "exhaust_factor", numbers),)

@@ -8,7 +8,7 @@ from typing import Literal
 
 from kshm.cycle.cycle import Listing, cycle, thermodynamics
 from kshm.cycle.dizdn_listing import POWER_FACTOR
-from kshm.cycle.errors import CycleError, ru
+from kshm.cycle.errors import CycleError
 from kshm.cycle.figures import friction_pressure
 from kshm.cycle.inputs import CycleInputs, check_range
 from kshm.cycle.result import Cycle
@@ -65,17 +65,12 @@ def exact_stroke(
         speed = stroke * inputs.omega / math.pi
         p_e = p_i - friction_pressure(inputs.mechanical, p_i, speed)
         if not p_e > 0:
-            msg = (
-                "механические потери больше индикаторной работы при "
-                f"c_m = {ru(speed, 3)} м/с; уменьшите частоту вращения, S/D или потери"
-            )
-            raise CycleError(msg, "mechanical")
+            raise CycleError("friction_eats_all_sizes", "mechanical", speed=speed)
         swept = power / (factor * p_e * inputs.speed_rpm * inputs.cylinders)
         previous, stroke = stroke, stroke_bore * bore_for(swept, stroke_bore)
         if abs(stroke - previous) <= 1e-13 * stroke:
             return stroke
-    msg = "S: подбор хода не сходится; уменьшите мощность на цилиндр или частоту вращения"
-    raise CycleError(msg, "power")
+    raise CycleError("stroke_not_found", "power")
 
 
 def design(
@@ -105,9 +100,8 @@ def design(
     Raises:
         CycleError: no bore in the range gives this power, or no cycle follows.
     """
-    check_range("power", power, (0.5, 50000, "N_e", "кВт", 1e3))
-    check_range("stroke_bore", stroke_bore, (0.5, 2.5, "S/D", "", 1))
-    check_range("step", step, (1e-4, 20, "шаг ряда", "мм", 1e-3))
+    for field, value in (("power", power), ("stroke_bore", stroke_bore), ("step", step)):
+        check_range(field, value)
     if listing is None:
         p_i, factor = thermodynamics(inputs).indicated.p_i, 1 / (30 * inputs.strokes)
     else:
@@ -117,17 +111,9 @@ def design(
     stroke = exact_stroke(inputs, p_i, power, stroke_bore, factor)
     bore = stroke / stroke_bore
     if not bore_range[0] <= bore <= bore_range[1]:
-        way = (
-            "увеличьте мощность или уменьшите число цилиндров"
-            if bore < bore_range[0]
-            else "увеличьте число цилиндров, частоту вращения или наддув"
-        )
-        low, high = (ru(1e3 * limit) for limit in bore_range)
-        msg = (
-            f"N_e = {ru(power / 1e3)} кВт требует D = {ru(1e3 * bore)} мм, "
-            f"допускается от {low} до {high} мм; {way}"
-        )
-        raise CycleError(msg, "power")
+        key = "bore_too_small" if bore < bore_range[0] else "bore_too_large"
+        low, high = bore_range
+        raise CycleError(key, "power", power=power, bore=bore, low=low, high=high)
     sizes = [round_to_series(size, step, rounding) for size in (bore, stroke)]
     result = cycle(replace(inputs, bore=sizes[0], stroke=sizes[1]), listing)
     error = result.effective.power_e / power - 1

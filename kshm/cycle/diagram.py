@@ -60,8 +60,7 @@ def _points(cycle: Cycle, phi: Array, radians: Array, rising: int, z: float) -> 
     """
     stroke, eps = cycle.inputs.stroke, cycle.inputs.compression_ratio
     if stroke is None:
-        msg = "S: для индикаторной диаграммы задайте ход поршня"
-        raise CycleError(msg, "stroke")
+        raise CycleError("diagram_needs_stroke", "stroke")
     r, lam = np.asarray(stroke / 2), np.asarray(cycle.inputs.lam)
     clearance = cycle.effective.displacement / (eps - 1)
     s = displacement_exact(radians, r, lam)
@@ -99,8 +98,7 @@ def indicator_diagram(cycle: Cycle, step_deg: int = 1) -> IndicatorDiagram:
         degrees = np.concatenate(parts).astype(np.float64)
         return _points(cycle, np.radians(degrees), degrees * DEGREE, parts[0].size, end * DEGREE)
     if step_deg < 1 or 180 % step_deg:
-        msg = f"шаг диаграммы {step_deg}°: задайте делитель числа 180"
-        raise CycleError(msg, "step_deg")
+        raise CycleError("step_must_divide", "step_deg", step=step_deg)
     z = isobar_angle(cycle)
     up = np.radians(np.arange(180, 361, step_deg))
     grid = np.radians(np.arange(360 + step_deg, 541, step_deg))

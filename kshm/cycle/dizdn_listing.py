@@ -113,8 +113,7 @@ def listing_cycle(inputs: CycleInputs, listing: Listing) -> Cycle:
     check_inputs(inputs)
     boost = inputs.boost
     if inputs.kind != "diesel" or boost is None:
-        msg = "режим распечатки воспроизводит только дизель с турбонаддувом; отключите его"
-        raise CycleError(msg, "kind")
+        raise CycleError("listing_is_for_turbo_diesels", "kind")
     mixture = burn(inputs.fuel, inputs.excess_air, external=False)
     eps = inputs.compression_ratio
     charge = fill(inputs, listing.psi)

@@ -1,25 +1,29 @@
-"""The error of the cycle calculation and the number format of its messages."""
+"""What the cycle calculation says of its inputs: a key and numbers, for others to word."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass
 
-class CycleError(ValueError):
-    """An input from which no cycle can be calculated.
 
-    The text is one Russian line: which input and which way to change it.
-    ``field`` is the name of that input in the dataclasses of the cycle, so that
-    the caller can point to the place in the file.
+@dataclass(frozen=True, slots=True)
+class Remark:
+    """``key`` of what is wrong or odd, the input ``field`` it is about, its numbers in SI.
+
+    ``field`` is the name of the input in the dataclasses of the cycle, such as
+    ``boost.pressure_ratio``.
     """
 
-    def __init__(self, message: str, field: str) -> None:
-        """Keep the one-line message and the input it is about."""
-        super().__init__(message)
-        self.field = field
+    key: str
+    field: str
+    numbers: Mapping[str, float]
 
 
-def ru(value: float, digits: int = 4) -> str:
-    """Number with a decimal comma and ``digits`` significant digits, never as 2e+04."""
-    text = f"{value:.{digits}g}"
-    if "e" in text:
-        text = f"{float(text):.12f}".rstrip("0").rstrip(".")
-    return text.replace(".", ",")
+class CycleError(ValueError):
+    """An input from which no cycle can be calculated; ``remark`` says which and why."""
+
+    def __init__(self, key: str, field: str, **numbers: float) -> None:
+        """Keep the remark; the text of the error is for developers."""
+        shown = ", ".join(f"{name} = {value:.6g}" for name, value in numbers.items())
+        super().__init__(f"{field}: {key}" + (f" ({shown})" if shown else ""))
+        self.remark = Remark(key, field, numbers)

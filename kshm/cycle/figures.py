@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from kshm.cycle.errors import CycleError, ru
+from kshm.cycle.errors import CycleError
 from kshm.cycle.fuel import Mixture
 from kshm.cycle.heat import R_GAS
 from kshm.cycle.inputs import CycleInputs, FrictionLaw
@@ -42,8 +42,7 @@ def indicate(
     if inputs.subtract_pumping:
         p_i -= charge.p_r - charge.p_a
     if not p_i > 0:
-        msg = f"p_i = {ru(p_i / 1e6)} МПа: цикл не даёт работы; увеличьте ξ_z или уменьшите α"
-        raise CycleError(msg, "xi_z")
+        raise CycleError("no_work", "xi_z", p_i=p_i)
     density = charge.eta_v * charge.p_k / (1e3 * r_gas * charge.t_k)  # kmol/m³
     g_i = density / (mixture.fresh * p_i)
     return Indicated(p_theory, p_i, g_i, 1 / (g_i * inputs.fuel.heating_value))
@@ -79,18 +78,13 @@ def effective(
     """
     bore, stroke = inputs.bore, inputs.stroke
     if bore is None or stroke is None:
-        msg = "D и S: задайте диаметр и ход или мощность для подбора размеров"
-        raise CycleError(msg, "bore" if bore is None else "stroke")
+        raise CycleError("sizes_missing", "bore" if bore is None else "stroke")
     area = math.pi * bore**2 / 4
     speed = stroke * inputs.omega / math.pi
     p_m = friction_pressure(inputs.mechanical, indicated.p_i, speed)
     p_e = indicated.p_i - p_m
     if not p_e > 0:
-        msg = (
-            f"p_м = {ru(p_m / 1e6)} МПа не меньше p_i = {ru(indicated.p_i / 1e6)} МПа: "
-            "двигатель не даёт мощности; уменьшите механические потери или частоту вращения"
-        )
-        raise CycleError(msg, "mechanical")
+        raise CycleError("friction_eats_all", "mechanical", p_m=p_m, p_i=indicated.p_i)
     eta_m = p_e / indicated.p_i
     factor = 1 / (30 * inputs.strokes) if power_factor is None else power_factor
     swept = area * stroke * inputs.cylinders * inputs.speed_rpm * factor

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from kshm.cycle.errors import CycleError, ru
+from kshm.cycle.errors import CycleError
 
 OXYGEN_SHARE = 0.208
 AIR_MOLAR_MASS = 28.96  # kg/kmol
@@ -30,7 +30,6 @@ class Fuel:
     oxygen: float
     heating_value: float
     vapour_molar_mass: float
-    name: str = ""
     source: str = ""
 
     @property
@@ -45,10 +44,10 @@ class Fuel:
 
 
 FUELS: dict[str, Fuel] = {
-    "diesel": Fuel(0.870, 0.126, 0.004, 42.50e6, 190.0, "дизельное топливо", "listing"),
-    "petrol": Fuel(0.855, 0.145, 0.000, 43.93e6, 115.0, "бензин", "memory"),
-    "ethanol": Fuel(0.5214, 0.1313, 0.3473, 26.80e6, 46.07, "этанол", "stoichiometry"),
-    "methane": Fuel(0.7487, 0.2513, 0.0000, 50.00e6, 16.04, "метан", "stoichiometry"),
+    "diesel": Fuel(0.870, 0.126, 0.004, 42.50e6, 190.0, "listing"),
+    "petrol": Fuel(0.855, 0.145, 0.000, 43.93e6, 115.0, "memory"),
+    "ethanol": Fuel(0.5214, 0.1313, 0.3473, 26.80e6, 46.07, "stoichiometry"),
+    "methane": Fuel(0.7487, 0.2513, 0.0000, 50.00e6, 16.04, "stoichiometry"),
 }
 
 
@@ -108,23 +107,15 @@ def check_fuel(fuel: Fuel) -> None:
     """
     total = fuel.carbon + fuel.hydrogen + fuel.oxygen
     if not (0 <= fuel.carbon <= 1 and 0 < fuel.hydrogen <= 1 and 0 <= fuel.oxygen < 1):
-        msg = "состав топлива: доли C, H, O должны лежать от 0 до 1; исправьте доли"
-        raise CycleError(msg, "fuel")
+        raise CycleError("fuel_shares", "fuel")
     if not abs(total - 1) <= 0.005:
-        msg = f"состав топлива: C + H + O = {ru(total)}, а должно быть 1; исправьте доли"
-        raise CycleError(msg, "fuel")
+        raise CycleError("fuel_total", "fuel", total=total)
     if not fuel.stoichiometric_air > 0:
-        msg = "состав топлива: кислорода хватает без воздуха; уменьшите долю O"
-        raise CycleError(msg, "fuel")
+        raise CycleError("fuel_oxygen", "fuel")
     if not 5e6 <= fuel.heating_value <= 130e6:
-        msg = (
-            f"H_u = {ru(fuel.heating_value / 1e6)} МДж/кг: допускается от 5 до 130; "
-            "проверьте единицы"
-        )
-        raise CycleError(msg, "fuel")
+        raise CycleError("fuel_heat", "fuel", value=fuel.heating_value)
     if not 2 <= fuel.vapour_molar_mass <= 1000:
-        msg = f"m_т = {ru(fuel.vapour_molar_mass)} кг/кмоль: допускается от 2 до 1000"
-        raise CycleError(msg, "fuel")
+        raise CycleError("fuel_molar_mass", "fuel", value=fuel.vapour_molar_mass)
 
 
 def burn(fuel: Fuel, alpha: float, *, external: bool, h2_co: float = 0.5) -> Mixture:
@@ -150,8 +141,7 @@ def burn(fuel: Fuel, alpha: float, *, external: bool, h2_co: float = 0.5) -> Mix
     co = 2 * missing / (1 + h2_co)
     h2 = h2_co * co
     if co > fuel.carbon / 12 or h2 > fuel.hydrogen / 2:
-        msg = f"α = {ru(alpha)}: воздуха не хватает даже на неполное сгорание; увеличьте α"
-        raise CycleError(msg, "excess_air")
+        raise CycleError("air_too_little", "excess_air", value=alpha)
     return Mixture(
         air=air,
         vapour=vapour,

@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from kshm.cycle.errors import CycleError, ru
+from kshm.cycle.errors import CycleError
 from kshm.cycle.fuel import Fuel, check_fuel
 
 Kind = Literal["diesel", "petrol"]
@@ -94,79 +94,65 @@ class CycleInputs:
         return self.omega * 30 / math.pi
 
 
-# field: (lowest, highest, symbol, unit, SI per unit)
-_Limit = tuple[float, float, str, str, float]
-_LIMITS: dict[str, _Limit] = {
-    "omega": (50, 20000, "n", "мин⁻¹", math.pi / 30),
-    "cylinders": (1, 24, "i", "", 1),
-    "charge_heating": (-60, 120, "ΔT", "К", 1),
-    "t_residual": (450, 1500, "T_r", "К", 1),
-    "intake_factor": (0.5, 1.1, "C1", "", 1),
-    "exhaust_factor": (0.5, 2.0, "C2", "", 1),
-    "xi_z": (0.0, 1.0, "ξ_z", "", 1),
-    "xi_b": (0.3, 1.0, "ξ_b", "", 1),
-    "fullness": (0.8, 1.0, "φ_д", "", 1),
-    "p_ambient": (0.03, 0.2, "p_0", "МПа", 1e6),
-    "t_ambient": (220, 340, "T_0", "К", 1),
-    "recharge": (0.8, 1.3, "φ_доз", "", 1),
-    "scavenging": (0.0, 1.0, "φ_оч", "", 1),
-    "h2_co": (0.3, 0.6, "H2/CO", "", 1),
-    "lam": (0.1, 0.6, "λ", "", 1),
-    "bore": (20, 1200, "D", "мм", 1e-3),
-    "stroke": (20, 3500, "S", "мм", 1e-3),
-    "p_max": (1, 40, "p_z", "МПа", 1e6),
+_RPM = math.pi / 30
+# Lowest and highest value of an input in SI units; the file's door takes its limits from here.
+LIMITS: dict[str, tuple[float, float]] = {
+    "omega": (50 * _RPM, 20000 * _RPM),
+    "cylinders": (1, 24),
+    "charge_heating": (-60, 120),
+    "t_residual": (450, 1500),
+    "intake_factor": (0.5, 1.1),
+    "exhaust_factor": (0.5, 2.0),
+    "xi_z": (0.0, 1.0),
+    "xi_b": (0.3, 1.0),
+    "fullness": (0.8, 1.0),
+    "p_ambient": (0.03e6, 0.2e6),
+    "t_ambient": (220, 340),
+    "recharge": (0.8, 1.3),
+    "scavenging": (0.0, 1.0),
+    "h2_co": (0.3, 0.6),
+    "lam": (0.1, 0.6),
+    "bore": (0.02, 1.2),
+    "stroke": (0.02, 3.5),
+    "p_max": (1e6, 40e6),
+    "boost.pressure_ratio": (1.0, 6.0),
+    "boost.compressor_efficiency": (0.3, 0.95),
+    "boost.turbine_efficiency": (0.3, 0.95),
+    "boost.cooler_pressure_loss": (0.0, 0.1e6),
+    "boost.cooler_temperature_drop": (0.0, 250),
+    "boost.outlet_pressure_ratio": (1.0, 1.5),
+    "boost.exhaust_cp": (1.0e3, 1.4e3),
+    "mechanical": (0.3, 1.0),
+    "mechanical.a": (0.0, 0.4e6),
+    "mechanical.b": (0.0, 0.04e6),
+    "power": (0.5e3, 50e6),
+    "stroke_bore": (0.5, 2.5),
+    "step": (1e-4, 0.02),
 }
-_KIND_LIMITS: dict[Kind, dict[str, _Limit]] = {
-    "diesel": {
-        "compression_ratio": (10, 26, "ε", "", 1),
-        "excess_air": (1.0, 8.0, "α", "", 1),
-    },
-    "petrol": {
-        "compression_ratio": (4, 16, "ε", "", 1),
-        "excess_air": (0.6, 1.6, "α", "", 1),
-    },
+_KIND_LIMITS: dict[Kind, dict[str, tuple[float, float]]] = {
+    "diesel": {"compression_ratio": (10, 26), "excess_air": (1.0, 8.0)},
+    "petrol": {"compression_ratio": (4, 16), "excess_air": (0.6, 1.6)},
 }
-_BOOST_LIMITS: dict[str, _Limit] = {
-    "pressure_ratio": (1.0, 6.0, "π_k", "", 1),
-    "compressor_efficiency": (0.3, 0.95, "η_k", "", 1),
-    "turbine_efficiency": (0.3, 0.95, "η_т", "", 1),
-    "cooler_pressure_loss": (0.0, 0.1, "Δp_охл", "МПа", 1e6),
-    "cooler_temperature_drop": (0.0, 250, "ΔT_охл", "К", 1),
-    "outlet_pressure_ratio": (1.0, 1.5, "p_вых/p_0", "", 1),
-    "exhaust_cp": (1.0, 1.4, "c_pг", "кДж/(кг·К)", 1e3),
-}
-_FRICTION_LIMITS: dict[str, _Limit] = {
-    "a": (0.0, 0.4, "A", "МПа", 1e6),
-    "b": (0.0, 0.04, "B", "МПа·с/м", 1e6),
-}
-# What to do when an input leaves its range, where it is more than "change it"
-_ADVICE = {
-    ("excess_air", "diesel", True): "дизель при α < 1 дымит и этим методом не считается",
-    ("compression_ratio", "petrol", False): "бензиновый двигатель с такой ε детонирует",
+# Why an input may not leave its range, where it is more than a number out of hand
+_REASONS = {
+    ("excess_air", "diesel", True): "diesel_smokes",
+    ("compression_ratio", "petrol", False): "petrol_knocks",
 }
 
 
-def check_range(field: str, value: float, limit: _Limit, advice: str = "") -> None:
-    """Refuse a number outside its range.
+def check_range(
+    field: str, value: float, limits: tuple[float, float] | None = None, kind: str = ""
+) -> None:
+    """Refuse a number outside its range, by default that of ``LIMITS``.
 
     Raises:
-        CycleError: names the input, the range and the direction.
+        CycleError: names the input and the range.
     """
-    low, high, symbol, unit, scale = limit
-    shown = value / scale
+    low, high = limits or LIMITS[field]
     slack = 1e-9 * max(abs(low), abs(high))
-    if math.isfinite(shown) and low - slack <= shown <= high + slack:
-        return
-    verb = "увеличьте" if shown < low else "уменьшите"
-    if not math.isfinite(shown):
-        verb = "задайте число:"
-    tail = f" ({advice})" if advice else ""
-    label = f" {unit}" if unit else ""
-    msg = (
-        f"{symbol} = {ru(shown)}{label}: допускается от {ru(low)} до {ru(high)}; "
-        f"{verb} {symbol}{tail}"
-    )
-    raise CycleError(msg, field)
+    if not (math.isfinite(value) and low - slack <= value <= high + slack):
+        key = _REASONS.get((field, kind, value < low), "out_of_range")
+        raise CycleError(key, field, value=value, low=low, high=high)
 
 
 def check_inputs(inputs: CycleInputs) -> None:
@@ -176,42 +162,31 @@ def check_inputs(inputs: CycleInputs) -> None:
         CycleError: the first input that is missing, superfluous or out of range.
     """
     if inputs.kind not in ("diesel", "petrol"):
-        msg = f"kind = «{inputs.kind}»: выберите diesel или petrol"
-        raise CycleError(msg, "kind")
+        raise CycleError("kind_unknown", "kind")
     if inputs.strokes != 4:
-        msg = f"τ = {inputs.strokes}: рассчитывается только четырёхтактный цикл; задайте τ = 4"
-        raise CycleError(msg, "strokes")
+        raise CycleError("four_strokes_only", "strokes", strokes=inputs.strokes)
     if inputs.offset != 0:
-        msg = "дезаксаж: цикл рассчитывается для центрального механизма; задайте 0"
-        raise CycleError(msg, "offset")
+        raise CycleError("central_only", "offset")
     if int(inputs.cylinders) != inputs.cylinders:
-        msg = f"i = {ru(inputs.cylinders)}: число цилиндров целое; исправьте i"
-        raise CycleError(msg, "cylinders")
+        raise CycleError("cylinders_not_whole", "cylinders", cylinders=inputs.cylinders)
     check_fuel(inputs.fuel)
-    for field, limit in {**_LIMITS, **_KIND_LIMITS[inputs.kind]}.items():
+    kind_limits = _KIND_LIMITS[inputs.kind]
+    for field in (*(name for name in LIMITS if hasattr(inputs, name)), *kind_limits):
         value = getattr(inputs, field)
-        if value is not None:
-            advice = _ADVICE.get((field, inputs.kind, value / limit[4] < limit[0]), "")
-            check_range(field, value, limit, advice)
-    _check_p_max(inputs)
-    _check_mechanical(inputs.mechanical)
-    if inputs.boost is not None:
-        for field, limit in _BOOST_LIMITS.items():
-            check_range(f"boost.{field}", getattr(inputs.boost, field), limit)
-
-
-def _check_p_max(inputs: CycleInputs) -> None:
+        if value is not None and field != "mechanical":
+            check_range(field, value, kind_limits.get(field), inputs.kind)
     if inputs.kind == "diesel" and inputs.p_max is None:
-        msg = "p_z: для дизеля задайте максимальное давление цикла"
-        raise CycleError(msg, "p_max")
+        raise CycleError("diesel_needs_p_max", "p_max")
     if inputs.kind == "petrol" and inputs.p_max is not None:
-        msg = "p_z: у бензинового двигателя давление p_z получается из расчёта; уберите его"
-        raise CycleError(msg, "p_max")
-
-
-def _check_mechanical(mechanical: float | FrictionLaw) -> None:
-    if isinstance(mechanical, FrictionLaw):
-        for field, limit in _FRICTION_LIMITS.items():
-            check_range(f"mechanical.{field}", getattr(mechanical, field), limit)
+        raise CycleError("petrol_has_no_p_max", "p_max")
+    if isinstance(inputs.mechanical, FrictionLaw):
+        _check_parts("mechanical", inputs.mechanical)
     else:
-        check_range("mechanical", mechanical, (0.3, 1.0, "η_м", "", 1))
+        check_range("mechanical", inputs.mechanical)
+    if inputs.boost is not None:
+        _check_parts("boost", inputs.boost)
+
+
+def _check_parts(owner: str, part: FrictionLaw | Boost) -> None:
+    for field in (name for name in LIMITS if name.startswith(owner + ".")):
+        check_range(field, getattr(part, field.partition(".")[2]))

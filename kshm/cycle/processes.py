@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from kshm.cycle.errors import CycleError, ru
+from kshm.cycle.errors import CycleError
 from kshm.cycle.fuel import Mixture
 from kshm.cycle.heat import AIR, R_GAS, ZERO_C, HeatCapacity, temperature_of
 from kshm.cycle.inputs import CycleInputs
@@ -115,17 +115,14 @@ def fill(inputs: CycleInputs, psi: float | None = None) -> Charge:
         t_k = t_compressor - boost.cooler_temperature_drop
         p_k = inputs.p_ambient * boost.pressure_ratio - boost.cooler_pressure_loss
         if t_k < 220:
-            msg = f"ΔT_охл: за охладителем T_k = {ru(t_k)} К; уменьшите ΔT_охл"
-            raise CycleError(msg, "boost.cooler_temperature_drop")
+            raise CycleError("cooled_too_far", "boost.cooler_temperature_drop", t_k=t_k)
         if p_k < 0.5 * inputs.p_ambient:
-            msg = f"Δp_охл: за охладителем p_k = {ru(p_k / 1e6)} МПа; уменьшите Δp_охл"
-            raise CycleError(msg, "boost.cooler_pressure_loss")
+            raise CycleError("cooler_loss_too_large", "boost.cooler_pressure_loss", p_k=p_k)
     heated = t_k + inputs.charge_heating
     p_a, p_r = inputs.intake_factor * p_k, inputs.exhaust_factor * p_k
     eta_v = inputs.recharge * (eps * p_a - p_r) / ((eps - 1) * p_k) * t_k / heated
     if not eta_v > 0.2:
-        msg = f"η_v = {ru(eta_v)}: цилиндр почти не наполняется; увеличьте C1 или уменьшите C2"
-        raise CycleError(msg, "exhaust_factor")
+        raise CycleError("hardly_filled", "exhaust_factor", eta_v=eta_v)
     gamma = inputs.scavenging * p_r * t_k / ((eps - 1) * p_k * inputs.t_residual * eta_v)
     if psi is None:
         psi = molar_cp_ratio(inputs.excess_air, inputs.t_residual, heated)
@@ -161,8 +158,7 @@ def compress(charge: Charge, eps: float) -> Compression:
     for _ in range(N1_PASSES):
         previous, x = x, compression_pass(x, charge.t_a, eps)
     if not abs(x - previous) <= CONVERGED * x:
-        msg = "n_1: расчёт показателя сжатия не сходится; уменьшите ε или ΔT"
-        raise CycleError(msg, "compression_ratio")
+        raise CycleError("n1_not_found", "compression_ratio")
     return Compression(1 + x, charge.p_a * eps ** (1 + x), charge.t_a * eps**x)
 
 
@@ -211,24 +207,15 @@ def ignite(
         return Combustion(mu, heat, products, limit, limit * p_c, t_v, 1.0, eps)
     ratio = inputs.p_max / p_c
     if ratio <= 1:
-        msg = (
-            f"p_z = {ru(inputs.p_max / 1e6)} МПа не выше давления конца сжатия "
-            f"p_c = {ru(p_c / 1e6)} МПа; увеличьте p_z или уменьшите ε"
-        )
-        raise CycleError(msg, "p_max")
+        raise CycleError("p_max_below_compression", "p_max", p_max=inputs.p_max, p_c=p_c)
     if ratio > limit:
-        msg = (
-            f"p_z = {ru(inputs.p_max / 1e6)} МПа слишком велико (ρ < 1); уменьшите p_z, "
-            f"наибольшее возможное {ru(limit * p_c / 1e6)} МПа, или уменьшите α"
-        )
-        raise CycleError(msg, "p_max")
+        raise CycleError("p_max_too_high", "p_max", p_max=inputs.p_max, largest=limit * p_c)
     t_c = compression.t_c - ZERO_C
     content = inputs.xi_z * heat + start + R_GAS * (ratio * t_c + ZERO_C * (ratio - mu))
     t_z = temperature_of(products, content, mu, R_GAS) + ZERO_C
     rho = mu * t_z / (ratio * compression.t_c)
     if rho > eps / 3:
-        msg = f"ρ = {ru(rho)}: сгорание занимает треть хода и больше; увеличьте p_z или α"
-        raise CycleError(msg, "p_max")
+        raise CycleError("burning_too_long", "p_max", rho=rho)
     return Combustion(mu, heat, products, ratio, inputs.p_max, t_z, rho, eps / rho)
 
 
@@ -271,9 +258,8 @@ def expand(combustion: Combustion, xi_z: float, xi_b: float) -> Expansion:
             break
     low, high = N2_RANGE
     if not (low < 1 + x < high and abs(x - previous) <= CONVERGED * x):
-        way = "увеличьте ξ_b или уменьшите ξ_z" if xi_b < xi_z else "уменьшите ξ_b"
-        msg = f"n_2: показатель расширения не сходится к числу от {ru(low)} до {ru(high)}; {way}"
-        raise CycleError(msg, "xi_b")
+        key = "n2_not_found_heat_lost" if xi_b < xi_z else "n2_not_found_heat_added"
+        raise CycleError(key, "xi_b", low=low, high=high)
     p_b = combustion.p_z / combustion.delta ** (1 + x)
     return Expansion(1 + x, p_b, combustion.t_z / combustion.delta**x)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from kshm.cycle.errors import Remark
 from kshm.cycle.fuel import Mixture
 from kshm.cycle.inputs import CycleInputs
 from kshm.cycle.processes import Charge, Combustion, Compression, Expansion
@@ -66,7 +67,7 @@ class Turbo:
 class Cycle:
     """A calculated cycle: inputs, stages in their order, and what needs a look.
 
-    ``warnings`` are Russian one-line remarks; the numbers stand all the same.
+    ``warnings`` are remarks; the numbers stand all the same.
     ``listing`` tells whether the peculiarities of the program were switched on.
     """
 
@@ -80,5 +81,5 @@ class Cycle:
     effective: Effective
     turbo: Turbo | None
     t_residual_check: float
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[Remark, ...] = ()
     listing: bool = False

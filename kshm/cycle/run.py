@@ -9,7 +9,7 @@ from kshm.cycle.design import Design, Rounding, design
 from kshm.cycle.heat_balance import HeatBalance, heat_balance
 from kshm.cycle.inputs import CycleInputs
 from kshm.cycle.result import Cycle
-from kshm.cycle.speed_characteristic import Leiderman, Regime, regimes
+from kshm.cycle.speed_characteristic import Leiderman, SpeedPoint, speed_points
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +30,7 @@ class CycleRun:
     design: Design | None
     balance: HeatBalance
     law: Leiderman
-    regimes: tuple[Regime, Regime, Regime]
+    points: tuple[SpeedPoint, SpeedPoint, SpeedPoint]
 
     @property
     def gas_power(self) -> float:
@@ -63,22 +63,22 @@ def run_cycle(
         omega_idle: idle speed [rad/s], when given.
 
     Raises:
-        CycleError: which input, which way to change it.
+        CycleError: no cycle follows from the inputs.
     """
-    found = None
+    sizes = None
     if wanted is None:
         result = cycle(inputs)
     else:
-        found = design(
+        sizes = design(
             inputs,
             wanted.power,
             wanted.stroke_bore,
             step=wanted.step,
             rounding=wanted.rounding,
         )
-        result = found.cycle
+        result = sizes.cycle
     figures = result.effective
-    derived = regimes(
+    points = speed_points(
         figures.power_e,
         inputs.omega,
         law,
@@ -86,4 +86,4 @@ def run_cycle(
         omega_torque=omega_torque,
         omega_idle=omega_idle,
     )
-    return CycleRun(result, found, heat_balance(result), law, derived)
+    return CycleRun(result, sizes, heat_balance(result), law, points)

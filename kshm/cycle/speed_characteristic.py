@@ -6,13 +6,12 @@ a + b − c = 1, and g_e = g_N (a' + b' x + c' x²) with a' + b' + c' = 1.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from kshm.cycle.errors import CycleError, ru
+from kshm.cycle.errors import CycleError
 
 Array = NDArray[np.float64]
 
@@ -29,7 +28,6 @@ class Leiderman:
     c: float
     fuel: tuple[float, float, float]
     source: str
-    reference: str = ""
 
     @property
     def x_torque(self) -> float:
@@ -45,12 +43,11 @@ class Leiderman:
 
 _DIESEL_FUEL = (1.55, -1.55, 1.0)
 _PETROL_FUEL = (1.2, -1.2, 1.0)
-_MEMORY = "по памяти, с книгой не сверено"
 LEIDERMAN: dict[str, Leiderman] = {
-    "petrol": Leiderman(1.0, 1.0, 1.0, _PETROL_FUEL, "memory", _MEMORY),
-    "diesel": Leiderman(0.87, 1.13, 1.0, _DIESEL_FUEL, "memory", _MEMORY),
-    "diesel_prechamber": Leiderman(0.60, 1.40, 1.0, _DIESEL_FUEL, "memory", _MEMORY),
-    "diesel_swirl": Leiderman(0.70, 1.30, 1.0, _DIESEL_FUEL, "memory", _MEMORY),
+    "petrol": Leiderman(1.0, 1.0, 1.0, _PETROL_FUEL, "memory"),
+    "diesel": Leiderman(0.87, 1.13, 1.0, _DIESEL_FUEL, "memory"),
+    "diesel_prechamber": Leiderman(0.60, 1.40, 1.0, _DIESEL_FUEL, "memory"),
+    "diesel_swirl": Leiderman(0.70, 1.30, 1.0, _DIESEL_FUEL, "memory"),
 }
 
 
@@ -63,20 +60,14 @@ def from_adaptability(k: float, k_c: float, base: Leiderman) -> Leiderman:
         CycleError: K not above 1, K_c outside 0.3…0.95, or torque would turn negative.
     """
     if not 1.0 < k <= 2.0:
-        msg = f"K = {ru(k)}: допускается больше 1 и до 2; исправьте K"
-        raise CycleError(msg, "adaptability")
+        raise CycleError("adaptability_off", "adaptability", k=k)
     if not 0.3 <= k_c <= 0.95:
-        msg = f"K_c = {ru(k_c)}: допускается от 0,3 до 0,95; исправьте частоту n_M"
-        raise CycleError(msg, "speed_ratio")
+        raise CycleError("speed_ratio_off", "speed_ratio", k_c=k_c)
     c = (k - 1) / (1 - k_c) ** 2
     a = k - c * k_c**2
     if a < 0.2:
-        msg = (
-            f"K = {ru(k)} и K_c = {ru(k_c)}: момент на малых частотах вращения исчезает; "
-            "уменьшите K или K_c"
-        )
-        raise CycleError(msg, "adaptability")
-    return Leiderman(a, 2 * c * k_c, c, base.fuel, "derived", "по заданным K и K_c")
+        raise CycleError("torque_vanishes", "adaptability", k=k, k_c=k_c)
+    return Leiderman(a, 2 * c * k_c, c, base.fuel, "derived")
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,19 +88,17 @@ class SpeedCharacteristic:
 
 
 @dataclass(frozen=True, slots=True)
-class Regime:
-    """A regime: speed [rad/s], torque [N·m], power [W]; ``derived`` if not given.
+class SpeedPoint:
+    """A point of the characteristic: speed [rad/s], torque [N·m], power [W].
 
-    ``source`` says what a derived regime was derived from.
+    ``derived`` if its speed was not given.
     """
 
     key: str
-    title: str
     omega: float
     torque: float
     power: float
     derived: bool
-    source: str
 
 
 def curve(
@@ -136,19 +125,11 @@ def curve(
     return SpeedCharacteristic(omegas, powers, torque, g_e, flow, law.adaptability, law.x_torque)
 
 
-def speed_grid(low: float, high: float, step_rpm: float = 200.0) -> Array:
-    """Speeds [rad/s] on whole steps between ``low`` and ``high``, both ends included."""
-    step = step_rpm * math.pi / 30
-    first, last = math.floor(low / step + 1e-9) + 1, math.ceil(high / step - 1e-9)
-    inner = np.arange(first, last) * step
-    return np.concatenate([[low], inner, [high]])
-
-
 # Idle speed as a share of the rated one, used only when it is not given
 IDLE_SHARE = {"petrol": 0.16, "diesel": 0.20}
 
 
-def regimes(
+def speed_points(
     power: float,
     omega: float,
     law: Leiderman,
@@ -156,7 +137,7 @@ def regimes(
     kind: str,
     omega_torque: float | None = None,
     omega_idle: float | None = None,
-) -> tuple[Regime, Regime, Regime]:
+) -> tuple[SpeedPoint, SpeedPoint, SpeedPoint]:
     """Rated power, maximum torque and idle; what is not given is derived and marked.
 
     Args:
@@ -173,35 +154,12 @@ def regimes(
     middle = law.x_torque * omega if omega_torque is None else omega_torque
     idle = IDLE_SHARE[kind] * omega if omega_idle is None else omega_idle
     if not 0 < idle < middle <= omega * (1 + 1e-12):
-        msg = (
-            f"частоты вращения: холостой ход {ru(idle * 30 / math.pi)}, наибольший момент "
-            f"{ru(middle * 30 / math.pi)}, номинал {ru(omega * 30 / math.pi)} мин⁻¹ должны "
-            "возрастать; исправьте их"
-        )
-        raise CycleError(msg, "omega_torque" if omega_torque is not None else "omega_idle")
+        field = "omega_torque" if omega_torque is not None else "omega_idle"
+        raise CycleError("speeds_do_not_rise", field, idle=idle, torque=middle, rated=omega)
     x = middle / omega
     torque = power / omega * (law.a + law.b * x - law.c * x * x)
-    given = "задано"
     return (
-        Regime("power", "наибольшая мощность", omega, power / omega, power, False, given),
-        Regime(
-            "torque",
-            "наибольший крутящий момент",
-            middle,
-            torque,
-            torque * middle,
-            omega_torque is None,
-            "вершина кривой момента K_c = b/(2c)" if omega_torque is None else given,
-        ),
-        Regime(
-            "idle",
-            "холостой ход",
-            idle,
-            0.0,
-            0.0,
-            omega_idle is None,
-            f"{ru(IDLE_SHARE[kind])} номинальной частоты, {_MEMORY}"
-            if omega_idle is None
-            else given,
-        ),
+        SpeedPoint("power", omega, power / omega, power, derived=False),
+        SpeedPoint("torque", middle, torque, torque * middle, derived=omega_torque is None),
+        SpeedPoint("idle", idle, 0.0, 0.0, derived=omega_idle is None),
     )

@@ -1,4 +1,4 @@
-"""Usual ranges of the results, as data with their source, and the check against them.
+"""Usual ranges of the results, as data with their source.
 
 None of these ranges is printed in Gots.  ``source`` tells whether a range was seen
 on a public page ("web") or is common knowledge that nobody checked against a book
@@ -11,34 +11,19 @@ from dataclasses import dataclass
 from typing import Literal
 
 from kshm.cycle.inputs import Kind
-from kshm.cycle.names import value_of
-from kshm.cycle.result import Cycle
 
 Source = Literal["memory", "web"]
 Group = Literal["petrol", "diesel_na", "diesel_turbo"]
 
-_MEMORY = "обычные значения, с книгой не сверены"
-_SLACK = 1e-9
-
 
 @dataclass(frozen=True, slots=True)
 class Range:
-    """Usual range of a result in the unit of its `Quantity`; ends included."""
+    """Usual range of a result in the unit of its `ListedNumber`; ends included."""
 
     low: float
     high: float
     source: Source = "memory"
-    reference: str = _MEMORY
-
-
-@dataclass(frozen=True, slots=True)
-class Assessment:
-    """A result beside its usual range; the value is in the unit of the range."""
-
-    key: str
-    value: float
-    usual: Range
-    inside: bool
+    reference: str = ""
 
 
 def _table(
@@ -58,7 +43,7 @@ def _web(low: float, high: float, page: str) -> Range:
     return Range(low, high, "web", page)
 
 
-# Keys are paths in `Cycle`; units are those of the listing (MPa, K), see cycle_names.
+# Keys are paths in `Cycle`; units are those of the listing (MPa, K).
 RANGES: dict[str, dict[Group, Range]] = {
     "inputs.excess_air": _table((0.85, 1.05), (1.4, 1.8), (1.35, 2.0)),
     "inputs.charge_heating": _table((0, 25), (10, 40), (-5, 10)),
@@ -108,15 +93,3 @@ def usual_ranges(kind: Kind, *, boosted: bool) -> dict[str, Range]:
         for key, table in RANGES.items()
         if group in table and not (group == "petrol" and boosted and key in _BOOST_CHANGES)
     }
-
-
-def assess(cycle: Cycle) -> tuple[Assessment, ...]:
-    """Every result that has a usual range for this kind of engine, inside or outside."""
-    found = []
-    ranges = usual_ranges(cycle.inputs.kind, boosted=cycle.inputs.boost is not None)
-    for key, usual in ranges.items():
-        value = value_of(cycle, key)
-        slack = _SLACK * max(1.0, abs(usual.high))
-        inside = usual.low - slack <= value <= usual.high + slack
-        found.append(Assessment(key, value, usual, inside))
-    return tuple(found)

@@ -111,7 +111,7 @@ def _turbo(run: CycleRun) -> dict[str, float]:
 
 def _speed(run: CycleRun) -> dict[str, float]:
     law = run.law
-    _, torque, idle = run.regimes
+    _, torque, idle = run.points
     return {
         "spd_a": law.a,
         "spd_b": law.b,

@@ -112,13 +112,13 @@ def solve(source: Path, folder: Path | None, target: str | None, verbose: bool) 
 
 def _print_summary(scalars: dict[str, float]) -> None:
     from kshm.nomenclature.quantity import quantity
+    from reports.shared.russian import written
 
     for key, value in scalars.items():
         if key.startswith("throw"):
             continue
         about = quantity(key)
-        digits = len(about.fmt.split(".")[1]) if "." in about.fmt else 0
-        text = f"{value:.{digits}f}".replace(".", ",").replace("-", "−")
+        text = written(value, about.digits)
         click.echo(f"{about.title}: {about.symbol} = {text} {about.unit_label}".rstrip())
 
 

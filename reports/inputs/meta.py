@@ -52,6 +52,12 @@ class Meta:
     ) -> CoreSchema:
         """Add the limits to the schema of the annotated type."""
         schema: dict[str, Any] = dict(handler(source))
+        if schema["type"] == "nullable":  # a field that may be left out
+            schema["schema"] = self._limited(dict(schema["schema"]))
+            return typing.cast(CoreSchema, schema)
+        return self._limited(schema)
+
+    def _limited(self, schema: dict[str, Any]) -> CoreSchema:
         if schema["type"] in ("float", "int"):
             if self.minimum is not None:
                 schema["ge"] = self.minimum

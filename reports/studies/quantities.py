@@ -15,6 +15,7 @@ from kshm.results.forces import force_tables
 from kshm.results.solution import Solution
 from kshm.results.summary import chain_scalars, first_extremes
 from reports.shared.errors import InputError, Problem, one_line
+from reports.workbook.styles import excel_format
 
 Array = NDArray[np.float64]
 
@@ -145,4 +146,4 @@ def format_of(name: str) -> str:
     """Number format of a name; the grid's angles may be fractions of a degree."""
     if name.endswith("_deg") and "." in name:
         return "0.##"
-    return quantity(name.split(".")[1] if "." in name else name).fmt
+    return excel_format(quantity(name.split(".")[1] if "." in name else name).digits)

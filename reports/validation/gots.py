@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from kshm.cycle.diagram import indicator_diagram
-from kshm.cycle.names import value_of
 from kshm.mechanics.wear import ray_angles, ray_loads, ray_sums
+from kshm.nomenclature.dizdn_listing import value_of
 from kshm.results.solution import reference_tables
 from reports.validation.checks import Lookup, Ours
 from reports.validation.printed import rows_of

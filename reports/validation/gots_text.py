@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from kshm import solve
-from kshm.cycle.names import value_of
 from kshm.engine.engine import Geometry
 from kshm.mechanics import kinematics
+from kshm.nomenclature.dizdn_listing import value_of
 from kshm.results.solution import Solution
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_toml

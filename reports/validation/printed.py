@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
-from kshm.cycle.names import OUTPUTS
+from kshm.nomenclature.dizdn_listing import OUTPUTS
 from reports.shared.resources import validation_dir
 
 _MINUTES = re.compile(r"(\d+) (\d\d)")

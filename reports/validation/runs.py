@@ -13,8 +13,8 @@ from kshm import solve
 from kshm.cycle.cycle import Listing, cycle
 from kshm.cycle.fuel import FUELS
 from kshm.cycle.inputs import Boost, CycleInputs
-from kshm.cycle.names import INPUTS
 from kshm.cycle.result import Cycle
+from kshm.nomenclature.dizdn_listing import INPUTS
 from kshm.results.solution import Solution
 from reports.inputs.load import load_toml
 from reports.inputs.to_si.engine import to_engine

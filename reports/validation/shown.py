@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from kshm.nomenclature.quantity import quantity
-from reports.document.text.numbers import MINUS, fixed
+from reports.shared.russian import MINUS, fixed
 from reports.validation.book import WORDS
 from reports.validation.checks import UNKNOWN, Check, Verdict
 from reports.validation.printed import Number, rows_of

@@ -6,6 +6,8 @@ from openpyxl.cell.cell import Cell
 from openpyxl.styles import Alignment, Border, Font, NamedStyle, PatternFill, Protection, Side
 from openpyxl.workbook import Workbook
 
+from kshm.nomenclature.digits import Digits
+
 FONT = "Times New Roman"
 INPUT, STRUCTURE, FORMULA, HELPER = "kshm_input", "kshm_structure", "kshm_formula", "kshm_helper"
 HEADER, NUMBER, TITLE, NOTE, TEXT, LINK = (
@@ -29,6 +31,14 @@ _COLOURS = {
     HEADER: "D9E2F3",
     ANSWER: "E2EFDA",
 }
+
+
+def excel_format(digits: Digits) -> str:
+    """Number format of the cells of a quantity."""
+    plain = "0." + "0" * digits.decimals if digits.decimals else "0"
+    if digits.kind != "fixed":
+        return {"scientific": plain + "E+00", "minutes": '0"°"00"′"', "text": "@"}[digits.kind]
+    return {"": plain, "zeros": f"{plain};-{plain};", "unused": f'[>9000]"";{plain}'}[digits.hides]
 
 
 def as_text(cell: Cell) -> Cell:

@@ -9,7 +9,8 @@ import pytest
 from kshm.cycle.cycle import Listing, cycle
 from kshm.cycle.diagram import indicator_diagram
 from kshm.cycle.heat import AIR, R_GAS, SPECIES, ZERO_C, mixture_heat, temperature_of
-from kshm.cycle.heat_balance import cycle_energy, heat_balance
+from kshm.cycle.heat_balance import heat_balance
+from tests.cycle.energy import cycle_energy
 
 
 def test_heat_in_is_work_and_heat_out(engine):

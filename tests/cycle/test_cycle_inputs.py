@@ -137,7 +137,7 @@ def test_a_doubtful_residual_temperature_is_a_warning() -> None:
 def test_speed_law_by_adaptability() -> None:
     run = cycle_run(loaded("cycle-tractor-diesel"))
     assert run.law.adaptability == pytest.approx(1.15)
-    assert run.regimes[1].omega == pytest.approx(1400 * math.pi / 30)
-    assert not run.regimes[1].derived
-    derived = cycle_run(loaded(DIESEL)).regimes
+    assert run.points[1].omega == pytest.approx(1400 * math.pi / 30)
+    assert not run.points[1].derived
+    derived = cycle_run(loaded(DIESEL)).points
     assert derived[1].derived and derived[2].derived

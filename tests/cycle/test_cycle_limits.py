@@ -5,10 +5,11 @@ from dataclasses import replace
 
 import pytest
 
-from kshm.cycle.cycle import CycleError, cycle
+from kshm.cycle.cycle import cycle
 from kshm.cycle.fuel import FUELS, burn
 from kshm.cycle.heat import AIR, ZERO_C, mixture_heat
 from kshm.cycle.processes import compress, fill, ignite
+from tests.cycle.refusals import refused
 
 ALPHAS = [10.0, 100.0, 1e4, 1e6]
 
@@ -62,7 +63,7 @@ def test_no_heat_used_means_no_combustion_rise(gasoline):
 
 
 def test_no_heat_used_raises_no_pressure_in_a_diesel(diesel):
-    with pytest.raises(CycleError, match="ρ < 1"):
+    with refused("ρ < 1"):
         cycle(replace(diesel, xi_z=0.0))
 
 
@@ -166,5 +167,5 @@ def test_too_little_air_even_for_incomplete_combustion(h2_co):
         2 * 0.208 * fuel.stoichiometric_air
     )
     assert burn(fuel, limit + 1e-6, external=True, h2_co=h2_co)
-    with pytest.raises(CycleError, match="увеличьте α"):
+    with refused("увеличьте α"):
         burn(fuel, limit - 1e-6, external=True, h2_co=h2_co)

@@ -12,9 +12,11 @@ from kshm.cycle.cycle import CycleError, cycle
 from kshm.cycle.design import design
 from kshm.cycle.diagram import indicator_diagram, tabulated_gas
 from kshm.cycle.fuel import FUELS
-from kshm.cycle.heat_balance import cycle_energy, heat_balance
+from kshm.cycle.heat_balance import heat_balance
 from kshm.cycle.inputs import Boost
 from kshm.cycle.processes import compress, fill
+from reports.inputs.cycle_texts import text_of
+from tests.cycle.energy import cycle_energy
 
 
 def within(low, high):
@@ -73,8 +75,8 @@ def test_sound_or_refused(engine):
     try:
         r = cycle(engine)
     except CycleError as error:
-        assert error.field in ("p_max", "xi_b", "xi_z")
-        assert "\n" not in str(error)
+        assert error.remark.field in ("p_max", "xi_b", "xi_z")
+        assert "\n" not in text_of(error.remark)
         return
     assert all(math.isfinite(x) for x in numbers(r))
     assert abs(cycle_energy(r).gap) < 1e-11

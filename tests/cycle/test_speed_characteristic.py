@@ -11,9 +11,10 @@ from kshm.cycle.speed_characteristic import (
     Leiderman,
     curve,
     from_adaptability,
-    regimes,
-    speed_grid,
+    speed_points,
 )
+from reports.inputs.cycle_texts import text_of
+from tests.cycle.refusals import refused
 
 RATED = 4400 * math.pi / 30
 POWER, G_E = 70e3, 263 / 3.6e9
@@ -65,12 +66,12 @@ def test_from_adaptability_inverts():
 def test_impossible_k(k, k_c, field):
     with pytest.raises(CycleError) as caught:
         from_adaptability(k, k_c, LEIDERMAN["diesel"])
-    assert caught.value.field == field
+    assert caught.value.remark.field == field
 
 
 def test_regimes_are_derived_and_marked():
     law = LEIDERMAN["diesel"]
-    rated, torque, idle = regimes(POWER, RATED, law, kind="diesel")
+    rated, torque, idle = speed_points(POWER, RATED, law, kind="diesel")
     assert not rated.derived
     assert torque.derived
     assert idle.derived
@@ -78,33 +79,23 @@ def test_regimes_are_derived_and_marked():
     assert torque.torque == pytest.approx(law.adaptability * rated.torque, rel=1e-12)
     assert torque.power == pytest.approx(torque.torque * torque.omega)
     assert idle.torque == 0
-    assert "по памяти" in idle.source
 
 
 def test_given_regimes_are_kept():
     n_m, n_i = 2400 * math.pi / 30, 800 * math.pi / 30
-    _, torque, idle = regimes(
+    _, torque, idle = speed_points(
         POWER, RATED, LEIDERMAN["diesel"], kind="diesel", omega_torque=n_m, omega_idle=n_i
     )
     assert (torque.omega, idle.omega) == (n_m, n_i)
     assert not torque.derived
     assert not idle.derived
-    assert torque.source == idle.source == "задано"
 
 
 def test_regimes_out_of_order():
-    with pytest.raises(CycleError, match="возрастать"):
-        regimes(POWER, RATED, LEIDERMAN["diesel"], kind="diesel", omega_torque=2 * RATED)
-    with pytest.raises(CycleError, match="возрастать"):
-        regimes(POWER, RATED, LEIDERMAN["diesel"], kind="diesel", omega_idle=0.9 * RATED)
-
-
-def test_grid_has_both_ends_and_whole_steps():
-    grid = speed_grid(850 * math.pi / 30, RATED, 200.0) * 30 / math.pi
-    assert list(np.round(grid[:3])) == [850, 1000, 1200]
-    assert grid[-1] == pytest.approx(4400)
-    assert grid[-2] == pytest.approx(4200)
-    assert np.all(np.diff(grid) > 1)
+    with refused("возрастать"):
+        speed_points(POWER, RATED, LEIDERMAN["diesel"], kind="diesel", omega_torque=2 * RATED)
+    with refused("возрастать"):
+        speed_points(POWER, RATED, LEIDERMAN["diesel"], kind="diesel", omega_idle=0.9 * RATED)
 
 
 def test_curves_are_read_only():
@@ -129,18 +120,13 @@ def test_torque_that_still_rises_at_the_rated_speed():
     assert (law.x_torque, law.adaptability) == (1.0, pytest.approx(1.0))
 
 
-def test_grid_does_not_repeat_an_end_on_a_step():
-    grid = speed_grid(800 * math.pi / 30, 4400 * math.pi / 30, 200.0) * 30 / math.pi
-    assert list(np.round(grid, 6)) == list(range(800, 4401, 200))
-
-
 @pytest.mark.parametrize(("kind", "share"), [("diesel", 0.20), ("petrol", 0.16)])
 def test_idle_is_a_share_of_the_rated_speed(kind, share):
-    _, _, idle = regimes(POWER, RATED, LEIDERMAN[kind], kind=kind)
+    _, _, idle = speed_points(POWER, RATED, LEIDERMAN[kind], kind=kind)
     assert idle.omega == pytest.approx(share * RATED)
 
 
 def test_message_names_the_three_speeds():
     with pytest.raises(CycleError) as caught:
-        regimes(POWER, RATED, LEIDERMAN["diesel"], kind="diesel", omega_torque=2 * RATED)
-    assert "880, наибольший момент 8800, номинал 4400 мин⁻¹" in str(caught.value)
+        speed_points(POWER, RATED, LEIDERMAN["diesel"], kind="diesel", omega_torque=2 * RATED)
+    assert "880, наибольший момент 8800, номинал 4400 мин⁻¹" in text_of(caught.value.remark)

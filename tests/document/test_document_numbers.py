@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from reports.document.text import numbers
-from reports.document.text.numbers import MINUS, NBSP
+from reports.shared.russian import MINUS, NBSP, fixed
 
 
 @pytest.mark.parametrize(
@@ -24,19 +24,19 @@ from reports.document.text.numbers import MINUS, NBSP
     ],
 )
 def test_fixed(value, digits, text):
-    assert numbers.fixed(value, digits) == text
+    assert fixed(value, digits) == text
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
 def test_not_finite_is_refused(value):
-    for write in (numbers.fixed, numbers.significant, numbers.power_html, numbers.auto_tex):
+    for write in (fixed, numbers.significant, numbers.power_html, numbers.auto_tex):
         with pytest.raises(ValueError, match="не конечно"):
             write(value)
 
 
 def test_negative_digits_are_refused():
     with pytest.raises(ValueError, match="отрицательно"):
-        numbers.fixed(1.0, -1)
+        fixed(1.0, -1)
 
 
 def test_significant():
@@ -86,7 +86,7 @@ def _value(text: str) -> float:
 
 @given(st.floats(-1e12, 1e12), st.integers(0, 6))
 def test_fixed_says_the_number(value, digits):
-    text = numbers.fixed(value, digits)
+    text = fixed(value, digits)
     assert "." not in text and "-" not in text
     assert _value(text) == pytest.approx(value, abs=0.5000001 * 10**-digits, rel=1e-12)
 

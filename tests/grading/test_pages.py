@@ -29,9 +29,9 @@ def test_hints_do_not_draw_the_right_curve():
     assert "правильные значения" not in html
     assert "значения и правильные" not in html
     # No point of the right curve, as a number or as a place on the page.
-    shown = {number(cell["own"], item["fmt"]) for cell in item["cells"]}
+    shown = {number(cell["own"], item["digits"]) for cell in item["cells"]}
     for cell in item["cells"]:
-        right = number(cell["right"], item["fmt"])
+        right = number(cell["right"], item["digits"])
         assert right in shown or f">{right}<" not in html
 
 
@@ -40,4 +40,4 @@ def test_full_feedback_draws_both_curves():
     chart = item["chart"]
     assert line_chart(chart["x"], chart["own"], chart["right"]) in html
     assert html.count('class="right"') == 2  # the curve and its sample in the legend
-    assert all(f">{number(cell['right'], item['fmt'])}<" in html for cell in item["cells"])
+    assert all(f">{number(cell['right'], item['digits'])}<" in html for cell in item["cells"])

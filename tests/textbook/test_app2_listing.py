@@ -13,7 +13,7 @@ import pytest
 from kshm.cycle.cycle import Listing, cycle
 from kshm.cycle.design import design
 from kshm.cycle.diagram import indicator_diagram
-from kshm.cycle.names import INPUTS, OUTPUTS, value_of
+from kshm.nomenclature.dizdn_listing import INPUTS, OUTPUTS, value_of
 from reports.validation.checks import Verdict
 from reports.validation.runs import printed_inputs
 from tests.textbook.book import beyond, checks, ours, recorded, rows_of, tolerance_of

@@ -12,8 +12,8 @@ from reports.document.chapters.torque import worst
 from reports.document.page.blocks import Column, TableBlock, table_block
 from reports.document.page.spec_tables import angle_table
 from reports.document.page.writer import TablePlan
-from reports.document.text.numbers import fixed
 from reports.document.text.terms import Terms
+from reports.shared.russian import fixed
 from reports.spec.shape import Shape, rods_table
 from reports.tables.overview.summary import NO, YES
 

@@ -15,9 +15,9 @@ from reports.document.figures import Level, line_chart, polar_path
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.page.spec_tables import angle_table, scalar_table
 from reports.document.page.writer import Figure, TablePlan
-from reports.document.text.numbers import fixed
 from reports.document.text.terms import Terms
 from reports.inputs.to_si.engine import to_engine
+from reports.shared.russian import fixed
 
 _MOST_ORDERS = 8
 _NOTHING = 1e-6  # N·m: rounding noise of balanced moments

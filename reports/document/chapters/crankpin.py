@@ -12,8 +12,8 @@ from reports.document.chapters.plots import extreme_marks, over_phi, phi
 from reports.document.figures import Level, Pole, polar_path, roman, wear_diagram
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.page.writer import Figure, TablePlan
-from reports.document.text.numbers import fixed
 from reports.document.text.terms import Terms
+from reports.shared.russian import fixed
 from reports.spec.shape import pin_name
 
 

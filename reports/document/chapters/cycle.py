@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -14,12 +15,15 @@ from reports.document.figures import Mark, Panel, line_chart, pv_diagram, stacke
 from reports.document.page.blocks import Column, TableBlock, table_block
 from reports.document.page.spec_tables import angle_table, list_block, scalar_table, unit_cell
 from reports.document.page.writer import Figure, TablePlan
-from reports.document.text.numbers import fixed
+from reports.document.text import numbers
 from reports.document.text.symbols import inline_html
-from reports.document.text.terms import Terms, digits_of
+from reports.document.text.terms import Terms
+from reports.shared.russian import fixed
 from reports.spec.blocks import Grid
 from reports.tables.gas.cycle_names import friction_by_speed, is_boosted, section_of
 from reports.tables.gas.cycle_speed import INSIDE
+
+_MOST_DECIMALS = 8  # of values in passes
 
 # Equations of the method that the sheets solve in passes or in parts.
 _EQUATIONS = {
@@ -152,9 +156,11 @@ def _passes(terms: Terms, grid_id: str) -> TableBlock:
     for row in grid.rows:
         unit = f", {row.quantity.unit_label}" if row.quantity.unit_label else ""
         columns.append(Column(inline_html(row.quantity.tex) + Markup(unit)))
-        digits = min(digits_of(row.quantity.fmt), 8)
+        digits = replace(
+            row.quantity.digits, decimals=min(row.quantity.digits.decimals, _MOST_DECIMALS)
+        )
         cells.append(
-            [fixed(terms.value(cell.key), digits) for cell in row.cells if cell is not None]
+            [numbers.of_digits(terms.value(c.key), digits) for c in row.cells if c is not None]
         )
     return table_block(columns, list(zip(*cells, strict=True)))
 

@@ -9,9 +9,9 @@ from markupsafe import Markup
 from reports.document.chapters.chapter import Chapter
 from reports.document.page.blocks import Column, TableBlock, table_block
 from reports.document.page.writer import TablePlan
-from reports.document.text.numbers import fixed
 from reports.document.text.terms import Terms
 from reports.inputs.sections.gas import RoundedGasSection
+from reports.shared.russian import fixed
 from reports.tables.gas.diagram import NODES
 
 

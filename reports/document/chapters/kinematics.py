@@ -11,8 +11,8 @@ from reports.document.chapters.layout import articulated_text, offset_kinematics
 from reports.document.chapters.plots import PHI, over_phi, phi, series
 from reports.document.figures import Panel, mechanism_sketch, twin_chart
 from reports.document.page.writer import Figure
-from reports.document.text.numbers import fixed
 from reports.document.text.terms import Terms
+from reports.shared.russian import fixed
 
 EXAMPLE = 30.0  # crank angle of the worked lines [deg]; every grid has it
 

@@ -12,6 +12,7 @@ from reports.document.page.writer import Figure
 from reports.document.text import numbers
 from reports.document.text.mathsvg import plain
 from reports.document.text.terms import Terms
+from reports.shared.russian import fixed
 
 PHI = r"$\varphi$, °"
 _MOST_PANELS = 2
@@ -53,7 +54,7 @@ def spoken(terms: Terms, caption: str, names: Sequence[str]) -> str:
         unit = terms.unit(name)
         parts = (
             f"{word} {numbers.significant(float(y[row]), 4)}{' ' if unit else ''}{unit}"
-            f" при φ = {numbers.fixed(x[row], 0)}°"
+            f" при φ = {fixed(x[row], 0)}°"
             for word, row in (("наибольшее", int(np.argmax(y))), ("наименьшее", int(np.argmin(y))))
         )
         said.append(f"{plain(terms.tex(name))}: {', '.join(parts)}")

@@ -14,8 +14,8 @@ from reports.document.figures.velocity import velocity_sketch
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.page.spec_tables import scalar_table
 from reports.document.page.writer import Figure, TablePlan
-from reports.document.text.numbers import fixed
 from reports.document.text.terms import Terms
+from reports.shared.russian import fixed
 from reports.tables.motion.reference import TABLES
 
 _ERRORS = tuple(

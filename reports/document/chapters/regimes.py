@@ -11,9 +11,9 @@ from reports.document.chapters.plots import over_phi
 from reports.document.page.blocks import Column, TableBlock, table_block
 from reports.document.page.spec_tables import list_block, unit_cell
 from reports.document.page.writer import Figure, TablePlan
-from reports.document.text.numbers import fixed
+from reports.document.text import numbers
 from reports.document.text.symbols import inline_html
-from reports.document.text.terms import Terms, digits_of, input_text
+from reports.document.text.terms import Terms, input_text
 from reports.formula.tex import input_symbol_tex
 from reports.spec.blocks import Grid
 from reports.tables.loads.comparison import regime_titles
@@ -77,7 +77,7 @@ def _loads(chapter: Chapter) -> TableBlock:
         q = row.quantity
         values = [scalars[cell.key] for cell in row.cells if cell is not None]
         unit = f", {q.unit_label}" if q.unit_label else ""
-        shown = [fixed(float(value), digits_of(q.fmt)) for value in values[:-1]]
+        shown = [numbers.of_digits(float(value), q.digits) for value in values[:-1]]
         rows.append([q.title[:1].upper() + q.title[1:] + unit, *shown, str(values[-1])])
     columns = [
         Column("Величина", 3.0, text=True),

@@ -13,8 +13,8 @@ from reports.document.chapters.plots import extreme_marks, over_phi, panels
 from reports.document.figures import Level
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.page.writer import TablePlan
-from reports.document.text.numbers import fixed
 from reports.document.text.terms import Terms
+from reports.shared.russian import fixed
 
 
 def torque(chapter: Chapter) -> Markup:

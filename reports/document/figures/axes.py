@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from reports.document.figures.labels import shown, text_size
 from reports.document.figures.style import AXIS, FONT_SIZE, GRID, HALO, SMALL
-from reports.document.text.numbers import fixed
+from reports.shared.russian import fixed
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

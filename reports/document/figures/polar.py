@@ -13,7 +13,7 @@ from reports.document.figures import axes as ax
 from reports.document.figures.labels import Room, dense, label_point, text_size
 from reports.document.figures.pen import THIN, Pen, Point
 from reports.document.figures.style import FONT_SIZE, GRID, MM, PAGE_WIDTH, sheet
-from reports.document.text.numbers import fixed
+from reports.shared.russian import fixed
 
 Values = NDArray[np.float64]
 _PRIORITIES = (90.0, 60.0, 30.0, 20.0, 10.0, 5.0)

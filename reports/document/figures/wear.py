@@ -12,7 +12,7 @@ from reports.document.figures.axes import value_ticks
 from reports.document.figures.labels import text_size
 from reports.document.figures.pen import CENTRE, HAIR, THIN, Pen, Point, polar
 from reports.document.figures.style import FONT_SIZE, MM, SMALL, sheet
-from reports.document.text.numbers import fixed
+from reports.shared.russian import fixed
 
 _DEPTH = 0.62  # part of the radius that the greatest sum takes
 _FILL = "#d6d6d6"

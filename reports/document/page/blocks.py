@@ -11,6 +11,7 @@ from markupsafe import Markup
 from reports.document.text import numbers
 from reports.document.text.symbols import inline_html
 from reports.document.text.texts import rich
+from reports.shared.russian import NBSP
 
 _WIDTH = 165 / 25.4 * 96  # px of the text's width on paper
 _SIZES = {"": 12.0, "dense": 10.5, "tiny": 9.0}  # pt, as in report.css.j2
@@ -169,7 +170,7 @@ def _tabbed(block: TableBlock, size: str) -> Tabbed | None:
         return None
     middles = [first / 2 - (first - tab), *[tab / 2] * (count - 1)]
     leads = [
-        numbers.NBSP * max(0, round(middle / quarter - width / 2))
+        NBSP * max(0, round(middle / quarter - width / 2))
         for middle, width in zip(middles, widest, strict=True)
     ]
     lines = (

@@ -154,16 +154,17 @@ def fonts_css(*, embedded: bool = False) -> str:
 
 def _globals() -> dict[str, Any]:
     from reports.document.text import numbers
+    from reports.shared.russian import NBSP, fixed
 
     return {
         "fonts_css": lambda embedded=False: Markup(fonts_css(embedded=embedded)),
         "font_stack": Markup(fonts.STACK),
-        "fixed": numbers.fixed,
+        "fixed": fixed,
         "significant": numbers.significant,
         "power": numbers.power_html,
         "number": numbers.auto_html,
         "formula_lines": _formula_lines,
-        "nbsp": numbers.NBSP,
+        "nbsp": NBSP,
     }
 
 

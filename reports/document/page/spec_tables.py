@@ -11,7 +11,7 @@ from markupsafe import Markup
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.text import numbers
 from reports.document.text.symbols import inline_html
-from reports.document.text.terms import Terms, digits_of
+from reports.document.text.terms import Terms
 from reports.spec.blocks import Grid, TableSpec
 
 
@@ -38,10 +38,8 @@ def angle_table(
     heads = []
     for column in columns:
         q = column.quantity
-        digits = digits_of(q.fmt)
         values = np.asarray(terms.values.columns[table][column.key], dtype=float).tolist()
-        blank = q.fmt.endswith(";")  # such a format shows no zero
-        cells.append(["" if blank and v == 0 else numbers.fixed(v, digits) for v in values])
+        cells.append([numbers.of_digits(v, q.digits) for v in values])
         tex = terms.tex(f"{table}.{column.key}") if own_symbols else q.tex
         heads.append(Column(symbol_head(tex, q.unit_label)))
     rows = list(zip(*cells, strict=True))
@@ -89,11 +87,10 @@ def grid_table(terms: Terms, grid: Grid, rows: Iterable[str], head: str) -> Tabl
             continue
         row = by_key[key]
         q = row.quantity
-        digits = digits_of(q.fmt)
         cells = [
             "—"
             if cell is None
-            else numbers.fixed(cast(float, terms.values.scalars[cell.key]), digits)
+            else numbers.of_digits(cast(float, terms.values.scalars[cell.key]), q.digits)
             for cell in row.cells
         ]
         name = inline_html(q.tex)

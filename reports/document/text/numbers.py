@@ -1,8 +1,7 @@
-"""Numbers as Russian typography writes them, for HTML and for TeX.
+"""Numbers of the report for HTML and for TeX; how they are written is ``shared.russian``'s.
 
-Decimal comma, real minus (U+2212), groups of three divided by a no-break space from
-five digits on, powers of ten written out.  STIX has neither U+202F nor U+2009, hence
-U+00A0 between groups; the style sheet cannot narrow it, four digits stay together.
+STIX has neither U+202F nor U+2009, hence U+00A0 between groups; the style sheet cannot
+narrow it, four digits stay together.
 """
 
 from __future__ import annotations
@@ -13,35 +12,24 @@ from decimal import ROUND_HALF_EVEN, Decimal
 
 from markupsafe import Markup
 
-MINUS = "\u2212"
-NBSP = "\u00a0"
+from kshm.nomenclature.digits import Digits
+from reports.shared.russian import MINUS, NBSP, fixed, written
+
 TIMES = "\u00d7"
-_GROUP_FROM = 5
 
 
-def fixed(value: float, digits: int = 2, *, group: bool = True) -> str:
-    """Write a number with a given count of decimals: ``−12 345,60``.
+def of_digits(value: float, digits: Digits) -> str:
+    """A value with the digits of its quantity, a power of ten as HTML."""
+    if digits.kind == "scientific":
+        return power_html(value, digits.decimals + 1)
+    return fixed(value, digits.decimals) if digits.hides == "" else written(value, digits)
 
-    Args:
-        value: The number; numpy scalars are welcome.
-        digits: Decimals after the comma, 0 or more.
-        group: Divide the integer part into groups of three from five digits on.
 
-    Raises:
-        ValueError: The number is not finite or ``digits`` is negative.
-    """
-    if not math.isfinite(value):
-        msg = f"Число для печати не конечно: {value!r}"
-        raise ValueError(msg)
-    if digits < 0:
-        msg = f"Число знаков после запятой отрицательно: {digits}"
-        raise ValueError(msg)
-    text = f"{abs(value):.{digits}f}"
-    whole, _, part = text.partition(".")
-    negative = value < 0 and text.strip("0.") != ""
-    if group and len(whole) >= _GROUP_FROM:
-        whole = f"{int(whole):,}".replace(",", NBSP)
-    return (MINUS if negative else "") + whole + ("," + part if part else "")
+def of_digits_tex(value: float, digits: Digits) -> str:
+    """TeX of :func:`of_digits`."""
+    if digits.kind == "scientific":
+        return power_tex(value, digits.decimals + 1)
+    return to_tex(of_digits(value, digits))
 
 
 def decimals_for(value: float, significant: int) -> int:

@@ -16,6 +16,7 @@ from reports.document.text.texts import rich
 from reports.formula import tex as formulas
 from reports.formula.numeric import evaluate
 from reports.inputs.fields import Field
+from reports.shared.russian import NBSP, fixed
 from reports.spec.blocks import Column, Model, Scalar
 from reports.spec.evaluation import Values
 
@@ -35,11 +36,6 @@ _SIGNIFICANT = 5
 _NO_SPACE = {"°"}
 _RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 _RUN = re.compile("[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+")
-
-
-def digits_of(fmt: str) -> int:
-    """Decimals of a number format of the sheets such as ``0.00;-0.00;``."""
-    return len(fmt.split(";", maxsplit=1)[0].partition(".")[2])
 
 
 def unit_tex(label: str) -> str:
@@ -67,7 +63,7 @@ def input_text(field: Field) -> str:
 def plain_number(value: float) -> str:
     """A number with the digits it was given with."""
     digits = next((d for d in range(12) if round(value, d) == value), 12)
-    return numbers.fixed(value, digits)
+    return fixed(value, digits)
 
 
 @dataclass(frozen=True)
@@ -152,7 +148,7 @@ class Terms:
         value = self.value(name, at)
         if name in self.model.fields:
             return plain_number(value)
-        return numbers.fixed(value, digits_of(self.quantity(name).fmt))
+        return numbers.of_digits(value, self.quantity(name).digits)
 
     def val(self, name: str, at: float | None = None) -> Markup:
         """Number with unit: ``829 Н·м``, ``30°``."""
@@ -191,7 +187,10 @@ class Terms:
 
     def result_tex(self, name: str, at: float | None = None) -> str:
         """Result with unit for TeX."""
-        return numbers.to_tex(self.num(name, at)) + unit_tex(self.unit(name))
+        if name in self.model.fields:
+            return numbers.to_tex(self.num(name, at)) + unit_tex(self.unit(name))
+        digits = self.quantity(name).digits
+        return numbers.of_digits_tex(self.value(name, at), digits) + unit_tex(self.unit(name))
 
     def branches(self, name: str) -> list[formulas.Piece]:
         """All branches of a formula with choices."""
@@ -247,7 +246,7 @@ class Terms:
         value = self.value(name, at)
         unit = "" if name in self.model.fields else self.quantity(name).unit
         if unit == "rad":
-            text = numbers.to_tex(numbers.fixed(float(np.degrees(value)), 3))
+            text = numbers.to_tex(fixed(float(np.degrees(value)), 3))
             return formulas.Raw(text + r"^{\circ}")
         return formulas.Raw(_number_tex(value))
 
@@ -261,7 +260,7 @@ def with_unit(number: str, unit: str) -> Markup:
     """A number with its unit behind a space that does not break."""
     if not unit:
         return Markup(number)
-    space = "" if unit in _NO_SPACE else numbers.NBSP
+    space = "" if unit in _NO_SPACE else NBSP
     return Markup("{}{}{}").format(number, space, rich(unit))
 
 

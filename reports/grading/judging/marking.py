@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from datetime import datetime, timedelta
 from typing import Any
 
@@ -212,7 +212,7 @@ def _line(
         "symbol": item.symbol,
         "unit": item.quantity.unit_label,
         "source": item.source,
-        "fmt": item.quantity.fmt,
+        "digits": asdict(item.quantity.digits),
         "verdict": judgement.verdict,
         "points": round(worth * share, 6),
         "of": round(worth, 6),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,18 +56,12 @@ def tolerance(item: Item, expected: Array, student: Student) -> float:
     for pattern, value in rules.items.items():
         if re.fullmatch(pattern.replace(".", r"\.").replace("*", ".*"), item.id):
             return float(value)
-    unit = _last_digit(item.quantity.fmt)
+    digits = item.quantity.digits
+    unit = 10.0**-digits.decimals
     finite = np.abs(expected[np.isfinite(expected)])
     largest = float(finite.max()) if finite.size else 0.0
     # A double carries about sixteen digits: results that differ in the tenth are equal.
     return max(min(rules.units * unit * (1 + 1e-9), rules.share * largest), 1e-10 * largest, 1e-12)
-
-
-@lru_cache(maxsize=256)
-def _last_digit(fmt: str) -> float:
-    """A unit of the last digit that a number format shows."""
-    digits = fmt.partition(";")[0].partition(".")[2]
-    return float(10.0 ** -sum(sign in "0#" for sign in digits.partition("E")[0]))
 
 
 def close(item: Item, values: Array, expected: Array, allowed: float) -> NDArray[np.bool_]:

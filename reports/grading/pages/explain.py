@@ -22,6 +22,7 @@ from reports.recalculation.grid import BadBook
 from reports.recalculation.language import column_number, render
 from reports.recalculation.read import read_grid
 from reports.shared.errors import InputError, Problem
+from reports.shared.russian import short
 from reports.workbook.intake import check_data
 from reports.workbook.layout import Layout, RowReferences, at_row
 
@@ -128,7 +129,8 @@ def _about(student: Student, item: Item, judgement: Judgement, causes: Causes) -
             pair = f"{number(float(answer.values[0]))} при правильном {_value(right[0])}"
             yield f"  {name}: у студента {pair} (первая строка)"
     allowed = tolerance(item, judgement.expected, student)
-    yield f"Допуск: {number(allowed)} (округление учебника {item.quantity.fmt})"
+    printed = short(10.0**-item.quantity.digits.decimals)
+    yield f"Допуск: {number(allowed)} (округление учебника {printed})"
     for index in _rows_to_show(judgement):
         own = judgement.own[index] if judgement.own is not None else None
         line = (

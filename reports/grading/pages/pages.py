@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
+from kshm.nomenclature.digits import Digits
 from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.verdicts import WORDS
 from reports.grading.pages.chart import line_chart
 from reports.shared.resources import templates_dir
+from reports.shared.russian import short, written
 from reports.workbook.sheets import capital
-
-MINUS = "−"
 
 
 @lru_cache(maxsize=1)
@@ -77,16 +78,11 @@ def _chart(line: dict[str, Any], full: bool) -> Markup:
     return Markup(line_chart(chart["x"], chart["own"], right))
 
 
-def number(value: float | None, fmt: str = "") -> str:
+def number(value: float | None, digits: Mapping[str, Any] | None = None) -> str:
     """A number as Russian print has it, with a digit more than the book."""
     if value is None:
         return "—"
-    if fmt and "E" not in fmt:
-        digits = len(fmt.partition(";")[0].partition(".")[2])
-        text = f"{value:.{min(digits + 1, 9)}f}"
-    else:
-        text = f"{value:.6g}"
-    return text.replace(".", ",").replace("-", MINUS)
+    return short(value) if digits is None else written(value, Digits(**digits), more=1)
 
 
 def points(value: float) -> str:

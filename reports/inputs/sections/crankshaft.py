@@ -13,15 +13,15 @@ from reports.inputs.units import DEG, KG, MM
 class WebSection(Strictly):
     """[[crankshaft.webs]]: a web and its counterweight; masses reduced to the crank radius."""
 
-    mass_kg: (
-        Annotated[float, number("Щека {n}: приведенная масса", "m_щ{n}", KG, 0, 5000)] | None
-    ) = None
-    actual_mass_kg: (
-        Annotated[float, number("Щека {n}: действительная масса", "m_щ{n}", KG, 0, 5000)] | None
-    ) = None
-    centre_mm: (
-        Annotated[float, number("Щека {n}: радиус центра масс", "ρ_{n}", MM, -2000, 2000)] | None
-    ) = None
+    mass_kg: Annotated[
+        float | None, number("Щека {n}: приведенная масса", "m_щ{n}", KG, 0, 5000)
+    ] = None
+    actual_mass_kg: Annotated[
+        float | None, number("Щека {n}: действительная масса", "m_щ{n}", KG, 0, 5000)
+    ] = None
+    centre_mm: Annotated[
+        float | None, number("Щека {n}: радиус центра масс", "ρ_{n}", MM, -2000, 2000)
+    ] = None
     angle_deg: Annotated[
         float, number("Щека {n}: угол против вращения от кривошипа", "α_щ{n}", DEG, -360, 360)
     ] = 0.0
@@ -64,21 +64,14 @@ class CrankshaftSection(Strictly):
     the throw angles that are not given, in its place before the section is checked.
     """
 
-    firing_order: Annotated[str, text("Порядок работы цилиндров, например 1-3-4-2")] | None = None
-    bank_angle_deg: (
-        Annotated[
-            float,
-            number("Угол развала: от левого ряда к правому по вращению", "γ_р", DEG, 0, 360),
-        ]
-        | None
-    ) = None
-    split_pin_deg: (
-        Annotated[
-            float,
-            number("Сдвиг шеек правого ряда по вращению", "δ_ш", DEG, -180, 180),
-        ]
-        | None
-    ) = None
+    firing_order: Annotated[str | None, text("Порядок работы цилиндров, например 1-3-4-2")] = None
+    bank_angle_deg: Annotated[
+        float | None,
+        number("Угол развала: от левого ряда к правому по вращению", "γ_р", DEG, 0, 360),
+    ] = None
+    split_pin_deg: Annotated[
+        float | None, number("Сдвиг шеек правого ряда по вращению", "δ_ш", DEG, -180, 180)
+    ] = None
     firing_offsets_deg: Annotated[
         tuple[
             Annotated[float, number("Цилиндр {n}: начало рабочего хода", "θ_{n}", DEG, 0, 720)],
@@ -103,22 +96,19 @@ class CrankshaftSection(Strictly):
         ],
         Strict(False),
     ]
-    pin_mass_kg: (
-        Annotated[float, number("Приведенная масса шатунной шейки", "m_шш", KG, 0, 5000)] | None
-    ) = None
-    oil_hole_deg: (
-        Annotated[
-            float,
-            number(
-                "Масляное отверстие шатунной шейки: угол от колена против вращения",
-                "α_м",
-                DEG,
-                -360,
-                360,
-            ),
-        ]
-        | None
-    ) = None
+    pin_mass_kg: Annotated[
+        float | None, number("Приведенная масса шатунной шейки", "m_шш", KG, 0, 5000)
+    ] = None
+    oil_hole_deg: Annotated[
+        float | None,
+        number(
+            "Масляное отверстие шатунной шейки: угол от колена против вращения",
+            "α_м",
+            DEG,
+            -360,
+            360,
+        ),
+    ] = None
     nose_mass_kg: Annotated[
         float, number("Внешний противовес на носке: приведенная масса", "m_вп1", KG, 0, 5000)
     ] = 0.0
@@ -145,18 +135,16 @@ class CrankshaftSection(Strictly):
     rear_arm_mm: Annotated[float, number("Плечо заднего противовеса PL2", "l_p2", MM, 0, 5000)] = (
         0.0
     )
-    force_offsets_deg: (
-        Annotated[
-            tuple[
-                Annotated[
-                    float,
-                    number("Колено {n}: фаза сил (воспроизведение П4.3)", "θ*_{n}", DEG, 0, 720),
-                ],
-                ...,
+    force_offsets_deg: Annotated[
+        tuple[
+            Annotated[
+                float,
+                number("Колено {n}: фаза сил (воспроизведение П4.3)", "θ*_{n}", DEG, 0, 720),
             ],
-            Strict(False),
+            ...,
         ]
-        | None
-    ) = None
+        | None,
+        Strict(False),
+    ] = None
     webs: Annotated[tuple[WebSection, ...], Strict(False)]
     arms: Annotated[tuple[ArmsSection, ...], Strict(False)]

@@ -50,18 +50,15 @@ class RoundedGasSection(Strictly):
     tdc_rise: Annotated[
         float, number("Давление в точке c'' к давлению конца сжатия", "p_c''/p_c", NONE, 1, 2)
     ] = 1.2
-    peak_share: (
-        Annotated[
-            float, number("Действительное давление z_д к расчетному", "p_zд/p_z", NONE, 0.5, 1)
-        ]
-        | None
-    ) = None
-    peak_after_tdc_deg: (
-        Annotated[float, number("Точка z_д после ВМТ", "φ_zд", DEG, 2, 45)] | None
-    ) = None
-    expansion_after_tdc_deg: (
-        Annotated[float, number("Выход на линию расширения после ВМТ", "φ_j", DEG, 4, 90)] | None
-    ) = None
+    peak_share: Annotated[
+        float | None, number("Действительное давление z_д к расчетному", "p_zд/p_z", NONE, 0.5, 1)
+    ] = None
+    peak_after_tdc_deg: Annotated[
+        float | None, number("Точка z_д после ВМТ", "φ_zд", DEG, 2, 45)
+    ] = None
+    expansion_after_tdc_deg: Annotated[
+        float | None, number("Выход на линию расширения после ВМТ", "φ_j", DEG, 4, 90)
+    ] = None
     exhaust_start_before_bdc_deg: Annotated[
         float, number("Начало выпуска до НМТ, точка b'", "φ_в1", DEG, 5, 120)
     ]

@@ -86,33 +86,27 @@ class GeometrySection(Strictly):
     """[geometry]: any two of r (or S = 2r), L and λ; three if they agree."""
 
     bore_mm: Annotated[float, number("Диаметр цилиндра", "D", MM, 10, 1500)]
-    crank_radius_mm: Annotated[float, number("Радиус кривошипа", "r", MM, 5, 2000)] | None = None
-    stroke_mm: Annotated[float, number("Ход поршня", "S", MM, 10, 4000)] | None = None
-    rod_length_mm: Annotated[float, number("Длина шатуна", "L", MM, 10, 6000)] | None = None
-    lambda_: Annotated[float, number("Отношение r/L", "λ", NONE, LAMBDA_MIN, LAMBDA_MAX)] | None = (
+    crank_radius_mm: Annotated[float | None, number("Радиус кривошипа", "r", MM, 5, 2000)] = None
+    stroke_mm: Annotated[float | None, number("Ход поршня", "S", MM, 10, 4000)] = None
+    rod_length_mm: Annotated[float | None, number("Длина шатуна", "L", MM, 10, 6000)] = None
+    lambda_: Annotated[float | None, number("Отношение r/L", "λ", NONE, LAMBDA_MIN, LAMBDA_MAX)] = (
         Field(default=None, alias="lambda")
     )
     compression_ratio: Annotated[float, number("Степень сжатия", "ε", NONE, 2, 50)]
-    crank_offset_mm: (
-        Annotated[
-            float,
-            number("Смещение оси цилиндра от оси вала в сторону вращения", "e_в", MM, -2000, 2000),
-        ]
-        | None
-    ) = None
-    pin_offset_mm: (
-        Annotated[
-            float,
-            number(
-                "Смещение поршневого пальца от оси цилиндра в сторону вращения",
-                "e_п",
-                MM,
-                -500,
-                500,
-            ),
-        ]
-        | None
-    ) = None
+    crank_offset_mm: Annotated[
+        float | None,
+        number("Смещение оси цилиндра от оси вала в сторону вращения", "e_в", MM, -2000, 2000),
+    ] = None
+    pin_offset_mm: Annotated[
+        float | None,
+        number(
+            "Смещение поршневого пальца от оси цилиндра в сторону вращения",
+            "e_п",
+            MM,
+            -500,
+            500,
+        ),
+    ] = None
 
 
 class DesignGeometrySection(Strictly):
@@ -127,13 +121,12 @@ class DesignGeometrySection(Strictly):
 class Regime(Strictly):
     """[regime]."""
 
-    name: Annotated[str, text("Название режима")] | None = None
+    name: Annotated[str | None, text("Название режима")] = None
     speed_rpm: Annotated[float, number("Частота вращения", "n", RPM, 10, 30000)]
     mechanical_efficiency: Annotated[float, number("Механический КПД", "η_м", NONE, 0.1, 1)] = 1.0
-    indicated_power_kw: (
-        Annotated[float, number("Индикаторная мощность по расчету цикла", "N_i", KW, 0.01, 1e5)]
-        | None
-    ) = None
+    indicated_power_kw: Annotated[
+        float | None, number("Индикаторная мощность по расчету цикла", "N_i", KW, 0.01, 1e5)
+    ] = None
     fullness: Annotated[float, number("Коэффициент полноты диаграммы", "φ_п", NONE, 0.5, 1)] = 1.0
 
 
@@ -166,22 +159,18 @@ class PolytropicGasSection(Strictly):
     ignition_delay_deg: Annotated[
         float, number("Период задержки воспламенения", "Δφ_з", DEG, 0, 90)
     ]
-    combustion_start_deg: (
-        Annotated[float, number("Угол начала сгорания", "φ_c", DEG, 270, 360)] | None
-    ) = None
+    combustion_start_deg: Annotated[
+        float | None, number("Угол начала сгорания", "φ_c", DEG, 270, 360)
+    ] = None
     exhaust_start_before_bdc_deg: Annotated[
         float, number("Начало выпуска до НМТ", "φ_в1", DEG, 0, 150)
     ]
     exhaust_end_after_bdc_deg: Annotated[
         float, number("Конец выпуска после НМТ", "φ_в2", DEG, 0, 180)
     ]
-    scavenge_start_before_bdc_deg: (
-        Annotated[
-            float,
-            number("Начало продувки до НМТ (двухтактный двигатель)", "φ_пр", DEG, 0, 150),
-        ]
-        | None
-    ) = None
+    scavenge_start_before_bdc_deg: Annotated[
+        float | None, number("Начало продувки до НМТ (двухтактный двигатель)", "φ_пр", DEG, 0, 150)
+    ] = None
 
 
 class TableGasSection(Strictly):
@@ -223,9 +212,9 @@ class CycleGasSection(Strictly):
     ignition_delay_deg: Annotated[
         float, number("Период задержки воспламенения", "Δφ_з", DEG, 0, 90)
     ]
-    combustion_start_deg: (
-        Annotated[float, number("Угол начала сгорания", "φ_c", DEG, 270, 360)] | None
-    ) = None
+    combustion_start_deg: Annotated[
+        float | None, number("Угол начала сгорания", "φ_c", DEG, 270, 360)
+    ] = None
     exhaust_start_before_bdc_deg: Annotated[
         float, number("Начало выпуска до НМТ", "φ_в1", DEG, 0, 150)
     ]

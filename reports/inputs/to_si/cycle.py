@@ -2,51 +2,18 @@
 
 from __future__ import annotations
 
-from kshm.cycle.errors import CycleError
+from dataclasses import replace
+
+from kshm.cycle.errors import CycleError, Remark
 from kshm.cycle.fuel import FUELS, Fuel
 from kshm.cycle.inputs import Boost, CycleInputs, FrictionLaw
 from kshm.cycle.run import CycleRun, Wanted, run_cycle
 from kshm.cycle.speed_characteristic import LEIDERMAN, Leiderman, from_adaptability
-from reports.inputs.findings import Finding, Path
+from reports.inputs.cycle_texts import path_of, text_of
+from reports.inputs.findings import Finding
 from reports.inputs.sections.cycle import CycleSection
 from reports.inputs.sections.input_file import CycleGasSection, GeometrySection, InputFile
 from reports.inputs.units import KELVIN, KJ_KG_K, KW, MJ_KG, MM, MPA, RPM
-
-_PATHS: dict[str, Path] = {
-    "omega": ("regime", "speed_rpm"),
-    "cylinders": ("engine", "cylinders"),
-    "strokes": ("engine", "strokes"),
-    "compression_ratio": ("geometry", "compression_ratio"),
-    "bore": ("geometry", "bore_mm"),
-    "stroke": ("geometry", "stroke_mm"),
-    "lam": ("geometry", "lambda"),
-    "p_ambient": ("gas", "ambient_pressure_mpa"),
-    "mechanical": ("regime", "mechanical_efficiency"),
-    "mechanical.a": ("cycle", "friction_a_mpa"),
-    "mechanical.b": ("cycle", "friction_b_mpa_s_m"),
-    "charge_heating": ("cycle", "charge_heating_k"),
-    "t_residual": ("cycle", "residual_temperature_k"),
-    "t_ambient": ("cycle", "ambient_temperature_k"),
-    "p_max": ("cycle", "max_pressure_mpa"),
-    "h2_co": ("cycle", "h2_co_ratio"),
-    "boost.pressure_ratio": ("cycle", "boost_ratio"),
-    "boost.compressor_efficiency": ("cycle", "compressor_efficiency"),
-    "boost.turbine_efficiency": ("cycle", "turbine_efficiency"),
-    "boost.cooler_pressure_loss": ("cycle", "cooler_loss_mpa"),
-    "boost.cooler_temperature_drop": ("cycle", "cooler_drop_k"),
-    "boost.outlet_pressure_ratio": ("cycle", "turbine_outlet_ratio"),
-    "boost.exhaust_cp": ("cycle", "exhaust_heat_kj_kg_k"),
-    "power": ("cycle", "power_kw"),
-    "step": ("cycle", "size_step_mm"),
-    "speed_ratio": ("cycle", "torque_speed_rpm"),
-    "omega_torque": ("cycle", "torque_speed_rpm"),
-    "omega_idle": ("cycle", "idle_speed_rpm"),
-}
-
-
-def path_of(error: CycleError) -> Path:
-    """Key of the file behind an input of the cycle; other names are keys of [cycle]."""
-    return _PATHS.get(error.field, ("cycle", error.field))
 
 
 def cycle_run(model: InputFile) -> CycleRun | None:
@@ -135,7 +102,6 @@ def fuel_of(section: CycleSection) -> Fuel:
         oxygen=float(section.fuel_oxygen or 0.0),
         heating_value=MJ_KG.to_si(section.fuel_heating_value_mj_kg or 0.0),
         vapour_molar_mass=float(section.fuel_molar_mass_kg_kmol or 100.0),
-        name="топливо",
         source="input",
     )
 
@@ -173,10 +139,14 @@ def cycle_findings(model: InputFile) -> list[Finding]:
     try:
         run = cycle_run(model)
     except CycleError as error:
-        what, _, hint = str(error).partition("; ")
-        return [Finding(path_of(error), what, hint)]
+        return [_finding(error.remark)]
     if run is None:
         return []
     return [
-        Finding(("cycle",), *text.partition("; ")[::2], warning=True) for text in run.cycle.warnings
+        replace(_finding(remark), path=("cycle",), warning=True) for remark in run.cycle.warnings
     ]
+
+
+def _finding(remark: Remark) -> Finding:
+    what, _, hint = text_of(remark).partition("; ")
+    return Finding(path_of(remark.field), what, hint)

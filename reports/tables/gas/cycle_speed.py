@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from kshm.cycle.names import EXTRA, INPUTS, OUTPUTS
 from kshm.cycle.speed_characteristic import IDLE_SHARE, LEIDERMAN
 from kshm.cycle.usual_ranges import usual_ranges
+from kshm.nomenclature.dizdn_listing import EXTRA, INPUTS, OUTPUTS
 from kshm.results.cycle import DIAGRAM_STEP, SPEED_STEP, diagram_rows, speed_rows
 from reports.inputs.sections.cycle import CycleSection
 from reports.inputs.sections.input_file import InputFile
@@ -12,6 +12,7 @@ from reports.spec.blocks import Block, ChartSpec, Column, Scalar, ScalarTable, S
 from reports.tables.gas.cycle_names import SHEET, SOURCE, is_boosted, section_of
 
 SPEED_SHEET, DIAGRAM_SHEET, RANGE_SHEET = "ВСХ", "Диаграмма цикла", "Правдоподобие цикла"
+UNCHECKED = "обычные значения, с книгой не сверены"
 LEIDERMAN_SOURCE = "Лейдерман, по памяти"
 INSIDE, OUTSIDE = "в пределах", "вне пределов"
 EPS = "geometry_compression_ratio"
@@ -187,7 +188,7 @@ def _ranges(section: CycleSection) -> ScalarTable:
             f" and {about_value} <= {usual.high!r} + 0.000000001"
         )
         scalars += [
-            Scalar(about_value, name, usual.reference, note=note, of="check_value"),
+            Scalar(about_value, name, usual.reference or UNCHECKED, note=note, of="check_value"),
             Scalar(
                 f"range_{name}", f'"{INSIDE}" if {test} else "{OUTSIDE}"', note=note, of="check"
             ),

@@ -1,0 +1,83 @@
+"""Numbers and words as Russian print writes them; the only place of such typography.
+
+Decimal comma, real minus (U+2212), groups of three divided by a no-break space from five
+digits on, powers of ten written out.
+"""
+
+from __future__ import annotations
+
+import math
+
+from kshm.nomenclature.digits import Digits
+
+MINUS = "\u2212"
+NBSP = "\u00a0"
+_GROUP_FROM = 5
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def comma(text: str) -> str:
+    """A number that Python wrote, with decimal comma and real minus."""
+    return text.replace(".", ",").replace("-", MINUS)
+
+
+def short(value: float, digits: int = 6) -> str:
+    """A number of so many significant digits without needless zeros, never as 2e+04."""
+    text = f"{value:.{digits}g}"
+    if "e" in text:
+        text = f"{float(text):.12f}".rstrip("0").rstrip(".")
+    return comma(text)
+
+
+def fixed(value: float, digits: int = 2, *, group: bool = True) -> str:
+    """Write a number with a given count of decimals: ``−12 345,60``.
+
+    Args:
+        value: The number; numpy scalars are welcome.
+        digits: Decimals after the comma, 0 or more.
+        group: Divide the integer part into groups of three from five digits on.
+
+    Raises:
+        ValueError: The number is not finite or ``digits`` is negative.
+    """
+    if not math.isfinite(value):
+        msg = f"Число для печати не конечно: {value!r}"
+        raise ValueError(msg)
+    if digits < 0:
+        msg = f"Число знаков после запятой отрицательно: {digits}"
+        raise ValueError(msg)
+    text = f"{abs(value):.{digits}f}"
+    whole, _, part = text.partition(".")
+    negative = value < 0 and text.strip("0.") != ""
+    if group and len(whole) >= _GROUP_FROM:
+        whole = f"{int(whole):,}".replace(",", NBSP)
+    return (MINUS if negative else "") + whole + ("," + part if part else "")
+
+
+def mantissa(value: float, decimals: int) -> tuple[str, int]:
+    """A number as a mantissa in [1, 10) with so many decimals and an exponent of ten.
+
+    Raises:
+        ValueError: The number is not finite.
+    """
+    if value == 0:
+        return fixed(0.0, decimals), 0
+    text, _, exponent = f"{value:.{decimals}e}".partition("e")
+    return fixed(float(text), decimals), int(exponent)
+
+
+def written(value: float, digits: Digits, *, more: int = 0) -> str:
+    """A value of a quantity as plain text; ``more`` decimals than it is printed with."""
+    if digits.hides == "zeros" and value == 0:
+        return ""
+    if digits.kind == "minutes":
+        return f"{int(value // 100)}°{value % 100:02.0f}′"
+    if digits.kind == "scientific":
+        text, exponent = mantissa(value, digits.decimals + more)
+        return f"{text}·10{str(exponent).translate(_RAISED)}" if exponent else text
+    return fixed(value, digits.decimals + more, group=False)
+
+
+def capital(text: str) -> str:
+    """The text with its first letter large."""
+    return text[:1].upper() + text[1:]

@@ -40,7 +40,7 @@ from reports.workbook.intake import check_data
 from reports.workbook.layout import Layout
 from reports.workbook.package import Package
 
-FORMAT = 1
+FORMAT = 2
 SHOWN_ROWS = 12  # wrong cells shown in the feedback of an item
 Result = dict[str, Any]
 

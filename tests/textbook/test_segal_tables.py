@@ -89,7 +89,7 @@ def test_numbers_of_the_text() -> None:
     assert {row for row, _ in beyond("segal_text")} == {
         "check", "v_error", "j_error_025", "j_change", "v_error_angle", "j_bdc",
     }  # fmt: skip
-    assert len(checks("segal_text")) == 12
+    assert len(checks("segal_text")) == 16
 
 
 def test_errors_that_cannot_be_reproduced() -> None:

@@ -71,7 +71,7 @@ def find_places(model: Model, layout: Layout, grid: Grid) -> Placement:
         at = grid.names.get((key if key in layout.named else cell_name(key)).casefold())
         by = "name"
         if at is None or at[0] not in grid.sheets:
-            at, by = search.scalar(model, key), "header"
+            at, by = search.scalar(model, key, cell.column), "header"
         if at is None and search.same_headers(model, layout, key):
             at = (cell.sheet, cell.row, cell.column)
         if at is not None:
@@ -197,20 +197,20 @@ class _Search:
             return None
         return hits[0][0], hits[0][1], hits[0][2] + distance
 
-    def scalar(self, model: Model, key: str) -> tuple[str, int, int] | None:
-        """The value cell of a list's scalar by its title and symbol."""
+    def scalar(self, model: Model, key: str, column: int) -> tuple[str, int, int] | None:
+        """The value cell of a scalar by its title and symbol, as far from them as in ``column``."""
         scalar = model.scalars[key]
         title = _plain(capital(scalar.note or scalar.quantity.title))
         symbol = _plain(scalar.quantity.symbol)
         step = SYMBOL_COLUMN - TITLE_COLUMN
         hits = [
-            (sheet, row, column)
-            for sheet, row, column in self.texts.get(title, [])
-            if _plain(str(self.grid.constant(sheet, row, column + step) or "")) == symbol
+            (sheet, row, at)
+            for sheet, row, at in self.texts.get(title, [])
+            if _plain(str(self.grid.constant(sheet, row, at + step) or "")) == symbol
         ]
         if len(hits) != 1:
             return None
-        return hits[0][0], hits[0][1], hits[0][2] + VALUE_COLUMN - TITLE_COLUMN
+        return hits[0][0], hits[0][1], hits[0][2] + column - TITLE_COLUMN
 
     def same_headers(self, model: Model, layout: Layout, key: str) -> bool:
         """Whether a grid's cell still stands under its own label, in its own row."""

@@ -195,7 +195,7 @@ def test_a_recurrence_a_circle_and_a_choice_that_avoids_it():
 
 
 def test_array_formulas_fill_their_extent_and_nothing_else():
-    engine = engine_of({"A1": 1.0, "A2": 2.0, "A3": 3.0, "D1": "=B2+B3", "E1": "=B4+C4"},
+    engine = engine_of({"A1": 1.0, "A2": 2.0, "A3": 3.0, "D1": "=B2+B3", "E1": "=B4+C3"},
                        {"B1:B3": "=A1:A3*2", "C1:C2": "=A1:A3*3"})  # fmt: skip
     assert engine.values("Sheet", 2, 1, 3)[0].tolist() == [2, 4, 6]
     assert engine.values("Sheet", 2, 1, 3)[1] == "nnn"

@@ -124,10 +124,8 @@ def graded_class(libreoffice: LibreOffice):
     assert len(pairs) == COUNT == len(register.books) == 60
     books = {number: book_of(number, defect) for number, (defect, _) in enumerate(pairs, 1)}
     office = [number for number, (_, form) in enumerate(pairs, 1) if form == "office"]
-    for start in range(0, len(office), 10):
-        part = office[start : start + 10]
-        for number, data in zip(part, libreoffice.converted([books[n] for n in part]), strict=True):
-            books[number] = data
+    saved = libreoffice.converted([books[number] for number in office])
+    books |= dict(zip(office, saved, strict=True))
     marker = Marker(register)
     found = {}
     for number, (defect, form) in enumerate(pairs, 1):

@@ -16,12 +16,12 @@ from pathlib import Path
 
 from reports.grading.issuing.issue import assignment_for, issue
 from reports.grading.issuing.register import Register
-from reports.recalculation.by_libreoffice import LibreOffice
 from reports.shared.resources import samples_dir
 from tests.bench._figure import Figure, costs
 from tests.bench._process import Cost, kshm, run
 from tests.grading.fill import filled_book
 from tests.grading.forms import rewritten
+from tools.referees.by_libreoffice import LibreOffice
 
 STUDENTS = 10
 FEW, MANY = 40, 240

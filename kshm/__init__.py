@@ -2,7 +2,7 @@
 
 The names below are the public ones and stay: ``solve(engine)`` gives a ``Solution`` with
 ``tables`` (pandas), ``columns`` (numpy) and ``scalars`` in the units of the textbook.
-Engines come from ``in_line`` with a person's units or from ``Engine`` in SI.
+Engines come from ``in_line`` and ``assemble`` with a person's units or from ``Engine`` in SI.
 """
 
 from __future__ import annotations
@@ -12,17 +12,33 @@ from typing import TYPE_CHECKING, Any
 from kshm.engine.engine import Engine
 
 if TYPE_CHECKING:
-    from kshm.chain.solve import solve, solve_chunks
-    from kshm.engine.textbook_units import end_mass, in_line, points, polytropic, throw
+    from kshm.chain.solve import solve_chunks
+    from kshm.engine.arrangement import opposed
+    from kshm.engine.textbook_units import (
+        articulated_rod,
+        assemble,
+        banks,
+        end_mass,
+        in_line,
+        place,
+        points,
+        polytropic,
+        throw,
+    )
     from kshm.nomenclature.quantity import Quantity, quantity
-    from kshm.results.solution import Solution
+    from kshm.results.solution import Solution, solve
 
 __all__ = [
     "Engine",
     "Quantity",
     "Solution",
+    "articulated_rod",
+    "assemble",
+    "banks",
     "end_mass",
     "in_line",
+    "opposed",
+    "place",
     "points",
     "polytropic",
     "quantity",
@@ -33,20 +49,23 @@ __all__ = [
 __version__ = "0.1.0"
 
 _HOMES = {
-    **dict.fromkeys(
-        ("end_mass", "in_line", "points", "polytropic", "throw"), "kshm.engine.textbook_units"
+    "kshm.chain.solve": ("solve_chunks",),
+    "kshm.engine.arrangement": ("opposed",),
+    "kshm.engine.textbook_units": (
+        "articulated_rod", "assemble", "banks", "end_mass", "in_line", "place", "points",
+        "polytropic", "throw",
     ),
-    **dict.fromkeys(("Quantity", "quantity"), "kshm.nomenclature.quantity"),
-    **dict.fromkeys(("solve", "solve_chunks"), "kshm.chain.solve"),
-    "Solution": "kshm.results.solution",
-}
+    "kshm.nomenclature.quantity": ("Quantity", "quantity"),
+    "kshm.results.solution": ("Solution", "solve"),
+}  # fmt: skip
 
 
 def __getattr__(name: str) -> Any:  # noqa: ANN401
     """Import the numeric part only when it is asked for."""
     from importlib import import_module
 
-    if name not in _HOMES:
-        msg = f"module 'kshm' has no attribute '{name}'"
-        raise AttributeError(msg)
-    return getattr(import_module(_HOMES[name]), name)
+    for home, names in _HOMES.items():
+        if name in names:
+            return getattr(import_module(home), name)
+    msg = f"module 'kshm' has no attribute '{name}'"
+    raise AttributeError(msg)

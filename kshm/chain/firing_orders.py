@@ -10,11 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kshm.arrays import Array
+from kshm.chain.solve import solve_batch
 from kshm.engine.engine import Engine
 
-Array = NDArray[np.float64]
 MAX_CYLINDERS = 7  # 64 orders; more throws have too many to list
 
 
@@ -30,13 +30,13 @@ class FiringOrder:
 
 
 def dead_centres(engine: Engine) -> Array:
-    """Shaft angles [rad] at which the cylinders' pins lie along their axes, one each."""
+    """Shaft angles [rad] at which the pins lie along the axes, shape (cylinders,), Gots 2.7."""
     throws = engine.crankshaft.throws
     return np.array([c.axis - c.pin_angle - throws[c.throw].angle for c in engine.arrangement])
 
 
 def offsets_table(starts: Array) -> Array:
-    """Firing offsets [rad] of all orders, shape (2^(cylinders − 1), cylinders).
+    """Firing offsets [rad] of all orders, shape (2^(cylinders − 1), cylinders), Gots 2.7.
 
     Cylinder i fires with its pin at TDC, see ``dead_centres``, in the first or second
     turn of the cycle; cylinder 1 always in the first.
@@ -46,41 +46,43 @@ def offsets_table(starts: Array) -> Array:
     count = len(base)
     variants = np.arange(2 ** (count - 1))[:, None]
     turn = np.where(np.arange(count) == 0, 0, variants >> np.maximum(np.arange(count) - 1, 0) & 1)
-    table: Array = base + 2 * np.pi * turn
-    return table
+    return base + 2 * np.pi * turn
 
 
 def intervals(offsets: Array) -> Array:
-    """Intervals between power strokes [rad] of each row of firing offsets, four-stroke."""
+    """Intervals between power strokes [rad], shape of the offsets, four-stroke, Gots 2.8."""
     ordered = np.sort(offsets, axis=-1)
     following = np.concatenate([ordered[..., 1:], ordered[..., :1] + 4 * np.pi], axis=-1)
-    gaps: Array = following - ordered
-    return gaps
+    return following - ordered
 
 
 def unevenness(offsets: Array) -> Array:
-    """(Greatest − smallest interval)/mean interval [-], zero for even firing."""
+    """(Greatest − smallest interval)/mean [-], shape (orders,), zero for even firing, Gots 2.8."""
     gaps = intervals(offsets)
     spread: Array = np.ptp(gaps, axis=-1) / gaps.mean(axis=-1)
     return spread
 
 
 def order_sum(offsets: Array, order: float) -> Array:
-    """|Σ exp(−i·order·θ)|: how many cylinders excite a torque order together [-]."""
+    """|Σ exp(−i·order·θ)| [-], shape (orders,): cylinders that excite a torque order together.
+
+    The phasors of Neiman's series, as in ``kshm.mechanics.balance``.
+    """
     size: Array = np.abs(np.exp(-1j * order * offsets).sum(axis=-1))
     return size
 
 
 def sequence(offsets: Array) -> tuple[int, ...]:
-    """Cylinder numbers in the order in which they fire."""
+    """Cylinder numbers in the order in which they fire, of offsets [rad] of shape (cylinders,).
+
+    Gots 2.8.
+    """
     rounded = np.round(offsets, 9)
     return tuple(int(i) + 1 for i in np.lexsort((np.arange(len(offsets)), rounded)))
 
 
 def journal_loads(engine: Engine, table: Array) -> Array:
-    """Greatest load of a main journal [N] for every row of firing offsets."""
-    from kshm.chain.solve import solve_batch
-
+    """Greatest load of a main journal [N] for every row of offsets, shape (orders,), Gots 2.7."""
     engines = [replace(engine, firing_offsets=tuple(row), force_offsets=None) for row in table]
     loads: Array = solve_batch(engines).journal_load.max(axis=(1, 2))
     return loads * engine.geometry.piston_area
@@ -105,12 +107,12 @@ def rank_firing_orders(engine: Engine) -> tuple[FiringOrder, ...]:
     table = offsets_table(dead_centres(engine))
     loads = journal_loads(engine, table)
     rough, half = unevenness(table), order_sum(table, 0.5)
-    found = [
+    ranked = (
         FiringOrder(sequence(row), tuple(row), float(a), float(b), float(load))
         for row, a, b, load in zip(table, rough, half, loads, strict=True)
-    ]
+    )
     return tuple(
         sorted(
-            found, key=lambda f: (round(f.unevenness, 6), round(f.half_order, 6), f.journal_load)
+            ranked, key=lambda o: (round(o.unevenness, 6), round(o.half_order, 6), o.journal_load)
         )
     )

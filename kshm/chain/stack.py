@@ -8,16 +8,17 @@ from operator import attrgetter
 from typing import Generic, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
-from kshm.engine.arrangement import Arrangement, ArticulatedRod, Cylinder
-from kshm.engine.engine import Engine, Geometry, PolytropicGas
-from kshm.mechanics.articulated import Linkage
-from kshm.mechanics.journals import ThrowArrays
+from kshm.arrays import Array, Mask
+from kshm.engine.arrangement import Arrangement, ArticulatedRod, Cylinder, hung
+from kshm.engine.crankshaft import places
+from kshm.engine.engine import Engine, Geometry
+from kshm.engine.gas import PolytropicGas
+from kshm.mechanics.articulated import ArticulatedArrays, Linkage
+from kshm.mechanics.journals import Rods, ThrowArrays
 from kshm.mechanics.masses import point_masses
 from kshm.mechanics.polytropes import PolytropicArrays
 
-Array = NDArray[np.float64]
 Part = TypeVar("Part")
 
 
@@ -35,31 +36,20 @@ class Batch:
     m_j: Array
     m_2: Array
     m_k: Array
-    exact: NDArray[np.bool_]
+    exact: Mask
     k: Array  # relative offset e/r
     piston_stroke: Array
     theta: Array  # (engines, cylinders, 1), (1, cylinders, 1) if equal in all engines
     force_theta: Array
-    axis: Array  # of the cylinder from that of cylinder 1, (engines, cylinders, 1)
-    pin_angle: Array  # of the split pin's half, (engines, cylinders, 1)
+    pin_angle: Array  # of the split pin's part, (engines, cylinders, 1)
     pin_mass: Array  # m_2 that turns with the crankpin, (engines, cylinders, 1)
     arrangement: Arrangement
     articulated: ArticulatedArrays | None
     p_ambient: Array
     gas: PolytropicArrays | None  # None: tables of points
     throws: ThrowArrays
+    rods: Rods
     rays: int
-
-
-@dataclass(frozen=True, slots=True)
-class ArticulatedArrays:
-    """Articulated rods of all engines, (engines, 1, 1) as the scalars of ``Batch``."""
-
-    link: Linkage
-    reciprocating: Array
-    big_end: Array
-    cylinders: tuple[int, ...]  # those that hang on others
-    masters: tuple[int, ...]
 
 
 def structure(engine: Engine) -> tuple[object, ...]:
@@ -106,6 +96,8 @@ def stack(engines: Sequence[Engine]) -> Batch:
     def per_cylinder(get: Callable[[Cylinder], float]) -> Array:
         return arrangement.values(lambda cylinders: [get(c) for c in cylinders])[:, :, None]
 
+    pin_angle = per_cylinder(lambda c: c.pin_angle)
+    pin_mass = m_2 * per_cylinder(lambda c: float(c.master is None))
     return Batch(
         engines=tuple(engines),
         phi=np.radians(degrees)[None, None, :],
@@ -122,14 +114,19 @@ def stack(engines: Sequence[Engine]) -> Batch:
         piston_stroke=of_geometry(lambda g: g.stroke),
         theta=_common(theta)[:, :, None],
         force_theta=_common(forced)[:, :, None],
-        axis=per_cylinder(lambda c: c.axis),
-        pin_angle=per_cylinder(lambda c: c.pin_angle),
-        pin_mass=m_2 * per_cylinder(lambda c: float(c.master is None)),
+        pin_angle=pin_angle,
+        pin_mass=pin_mass,
         arrangement=first.arrangement,
         articulated=_stack_articulated(engines),
         p_ambient=scalars(lambda e: e.gas.p_ambient),
         gas=_stack_gas(engines),
         throws=throws,
+        rods=Rods(
+            throw=tuple(c.throw for c in first.arrangement),
+            place=tuple(c.rod_place for c in first.arrangement),
+            turn=pin_angle[:, :, 0],
+            mass=pin_mass[:, :, 0],
+        ),
         rays=first.rays,
     )
 
@@ -164,34 +161,31 @@ def _common(values: Array) -> Array:
 
 
 def _stack_articulated(engines: Sequence[Engine]) -> ArticulatedArrays | None:
-    first = engines[0]
-    pairs = [(i, c.master) for i, c in enumerate(first.arrangement) if c.master is not None]
-    rods = [(e, e.articulated) for e in engines if e.articulated is not None]
-    if not pairs:
+    cylinders = hung(engines[0].arrangement)
+    if not cylinders:
         return None
-    if len(rods) != len(engines):
-        msg = "the arrangement has articulated rods, the engine does not describe them"
-        raise ValueError(msg)
-    slave = pairs[0][0]
 
-    def scalars(get: Callable[[Engine, ArticulatedRod], float]) -> Array:
-        return np.array([get(engine, rod) for engine, rod in rods], dtype=float)[:, None, None]
+    def per_rod(get: Callable[[Engine, ArticulatedRod, Cylinder], float]) -> Array:
+        rows = [
+            [get(e, rod, e.arrangement[i]) for rod, i in zip(e.articulated, cylinders, strict=True)]
+            for e in engines
+        ]
+        return np.array(rows, dtype=float)[:, :, None]
 
     link = Linkage(
-        r=scalars(lambda e, _: e.geometry.crank_radius),
-        rod_length=scalars(lambda e, _: e.geometry.rod_length),
-        offset=scalars(lambda e, _: e.geometry.offset),
-        bank=scalars(lambda e, _: e.arrangement[slave].axis),
-        radius=scalars(lambda _, rod: rod.radius),
-        angle=scalars(lambda _, rod: rod.angle),
-        own_length=scalars(lambda _, rod: rod.rod_length),
+        r=per_rod(lambda e, _, __: e.geometry.crank_radius),
+        rod_length=per_rod(lambda e, _, __: e.geometry.rod_length),
+        offset=per_rod(lambda e, _, __: e.geometry.offset),
+        bank=per_rod(lambda e, _, c: c.axis - e.arrangement[c.master or 0].axis),
+        radius=per_rod(lambda _, rod, __: rod.radius),
+        angle=per_rod(lambda _, rod, __: rod.angle),
+        own_length=per_rod(lambda _, rod, __: rod.rod_length),
     )
     return ArticulatedArrays(
         link,
-        reciprocating=scalars(lambda _, rod: rod.reciprocating),
-        big_end=scalars(lambda _, rod: rod.big_end),
-        cylinders=tuple(i for i, _ in pairs),
-        masters=tuple(master for _, master in pairs),
+        reciprocating=per_rod(lambda _, rod, __: rod.reciprocating),
+        big_end=per_rod(lambda _, rod, __: rod.big_end),
+        cylinders=cylinders,
     )
 
 
@@ -220,11 +214,10 @@ def _stack_throws(engines: Sequence[Engine]) -> ThrowArrays:
         get = attrgetter(name)
         return shafts.values(lambda s: (get(s.nose), get(s.rear)))
 
+    thickness = per_throw("left_web_thickness"), per_throw("right_web_thickness")
     return ThrowArrays(
         angle=per_throw("angle"),
-        arms=per_throw("arms"),
-        left_web_thickness=per_throw("left_web_thickness"),
-        right_web_thickness=per_throw("right_web_thickness"),
+        places=places(tuple(np.moveaxis(per_throw("arms"), -1, 0)), *thickness),
         web_mass=per_web("mass"),
         web_angle=per_web("angle"),
         counterweight_mass=per_web("counterweight_mass"),

@@ -10,15 +10,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kshm.arrays import Array
 from kshm.cycle.dizdn_listing import DEGREE, isobar_end
 from kshm.cycle.errors import CycleError
 from kshm.cycle.result import Cycle
-from kshm.engine.engine import PolytropicGas, TabulatedGas
+from kshm.engine.gas import PolytropicGas, TabulatedGas
 from kshm.mechanics.kinematics import displacement_exact
-
-Array = NDArray[np.float64]
 
 # Width of a vertical line of the diagram where a function of φ is needed [rad]
 EDGE = 1e-7

@@ -9,11 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kshm.arrays import Array
 from kshm.cycle.errors import CycleError
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

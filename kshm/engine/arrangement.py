@@ -1,13 +1,17 @@
 """How the cylinders stand round the crankshaft: banks, throws, rods on a pin, articulated rods.
 
 Angles run clockwise seen from the nose, as the shaft turns.  Cylinders are numbered as in
-Gots 2.7.2: the left bank from the nose, then the right one in the same order.
+Gots 2.7.2: the left bank from the nose, then the next ones in the same order.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
+
+from kshm.engine.checks import NOT_NEGATIVE, POSITIVE, check_numbers
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,18 +19,23 @@ class Cylinder:
     """Place of one cylinder; the defaults of all but ``throw`` are those of an in-line engine.
 
     ``throw`` counts from 0 at the nose; ``axis`` is the angle of the cylinder's axis from
-    that of cylinder 1 [rad]; ``rod_place`` is 0 for the rod nearer to the nose (between l2
-    and l3 of Gots figure 36), 1 for the other (between l4 and l5); ``pin`` tells the halves
-    of a split pin apart, ``pin_angle`` turns this one against the throw [rad]; ``master`` is
-    the number from 0 of the cylinder whose rod carries this one's articulated rod.
+    that of cylinder 1 [rad]; ``rod_place`` is where along the pin its rod stands: 0 nearest
+    to the nose (between l2 and l3 of Gots figure 36), 1 farthest (between l4 and l5);
+    ``pin`` tells the parts of a split pin from one another, ``pin_angle`` turns this one
+    against the throw [rad]; ``master`` is the number from 0 of the cylinder whose rod
+    carries this one's articulated rod.
     """
 
     throw: int
     axis: float = 0.0
-    rod_place: int = 0
+    rod_place: float = 0
     pin: int = 0
     pin_angle: float = 0.0
     master: int | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse angles and places that are no numbers."""
+        check_numbers(self, NOT_NEGATIVE, "throw", "rod_place", "pin")
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,35 +53,47 @@ class ArticulatedRod:
     reciprocating: float
     big_end: float
 
+    def __post_init__(self) -> None:
+        """Refuse what no rod can be."""
+        check_numbers(self, POSITIVE, "rod_length")
+        check_numbers(self, NOT_NEGATIVE, "radius", "reciprocating", "big_end")
+
 
 Arrangement = tuple[Cylinder, ...]
 
 
-def in_line(count: int) -> Arrangement:
+@cache
+def in_row(count: int) -> Arrangement:
     """Cylinders in a row, each on its own throw."""
     return tuple(Cylinder(throw) for throw in range(count))
 
 
-def v_shaped(
-    count: int, bank_angle: float, *, split_pin: float | None = None, articulated: bool = False
+def fan(
+    throws: int,
+    axes: Sequence[float],
+    *,
+    pin_angles: Sequence[float] | None = None,
+    articulated: bool = False,
 ) -> Arrangement:
-    """Two banks with two rods on every pin: throw k carries cylinders k and k + n, Gots 2.7.2.
+    """Banks with a rod of each on every throw: V, W and radial engines, Gots 2.7.2.
 
     Args:
-        count: number of cylinders, even.
-        bank_angle: from the left bank's axis to the right one's [rad].
-        split_pin: how far the right rods' halves of the pins stand ahead [rad]; None for
-            pins that both rods share.
-        articulated: the right rods hang on the left ones.
+        throws: number of throws, each of which carries a rod of every bank.
+        axes: of the banks from the first one's axis [rad].
+        pin_angles: how far each bank's part of a split pin stands ahead of the throw [rad];
+            None for pins that the rods share.
+        articulated: the rods of all banks but the first hang on those of the first.
     """
-    throws = count // 2
-    left = tuple(Cylinder(throw) for throw in range(throws))
-    if articulated:
-        right = tuple(Cylinder(throw, bank_angle, master=throw) for throw in range(throws))
-    else:
-        pin, turned = (0, 0.0) if split_pin is None else (1, split_pin)
-        right = tuple(Cylinder(throw, bank_angle, 1, pin, turned) for throw in range(throws))
-    return left + right
+    made = []
+    for bank, axis in enumerate(axes):
+        share = bank / max(1, len(axes) - 1)
+        pin, ahead = (0, 0.0) if pin_angles is None else (bank, pin_angles[bank])
+        for throw in range(throws):
+            if articulated:
+                made.append(Cylinder(throw, axis, master=throw if bank else None))
+            else:
+                made.append(Cylinder(throw, axis, share, pin, ahead))
+    return tuple(made)
 
 
 def opposed(count: int) -> Arrangement:
@@ -90,6 +111,11 @@ def throw_angle(cylinder: Cylinder, firing_offset: float) -> float:
     in line γ ≡ −θ.
     """
     return (cylinder.axis - cylinder.pin_angle - firing_offset) % (2 * math.pi)
+
+
+def hung(arrangement: Arrangement) -> tuple[int, ...]:
+    """Cylinders (from 0) whose rods hang on others, in their order."""
+    return tuple(i for i, cylinder in enumerate(arrangement) if cylinder.master is not None)
 
 
 def pins(arrangement: Arrangement) -> tuple[tuple[int, ...], ...]:

@@ -1,16 +1,16 @@
-"""The engine as frozen dataclasses, SI units throughout, angles in radians."""
+"""The engine as a frozen dataclass, SI units throughout, angles in radians."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
-from kshm.engine.arrangement import Arrangement, ArticulatedRod, in_line
-
-if TYPE_CHECKING:
-    from kshm.cycle.run import CycleRun
-    from kshm.engine.masses import Estimate, Swinging, Weighing
+from kshm.engine.arrangement import Arrangement, ArticulatedRod, hung, in_row
+from kshm.engine.checks import POSITIVE, check_numbers, refuse
+from kshm.engine.crankshaft import Crankshaft
+from kshm.engine.gas import Gas, TabulatedGas
+from kshm.engine.masses import Masses
 
 Method = Literal["textbook", "exact"]
 
@@ -30,6 +30,17 @@ class Geometry:
     compression_ratio: float
     crank_offset: float | None = None
     pin_offset: float | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse a mechanism that does not turn."""
+        check_numbers(self, POSITIVE, "bore", "crank_radius", "rod_length")
+        refuse(
+            (self.compression_ratio <= 1, "the compression ratio must be above 1"),
+            (
+                self.rod_length <= self.crank_radius + abs(self.offset),
+                "the rod must be longer than the crank and the offset together",
+            ),
+        )
 
     @property
     def lam(self) -> float:
@@ -66,154 +77,6 @@ class Geometry:
 
 
 @dataclass(frozen=True, slots=True)
-class PolytropicGas:
-    """Indicator diagram by polytropes as the program Dinn builds it.
-
-    Pressures are absolute [Pa]; crank angles [rad] are counted from TDC before
-    the intake stroke, in a two-stroke engine from the TDC of combustion.  An offset
-    moves the dead centres: angles are meant as if these stood at 0, π, 2π, 3π.
-    ``scavenge_open`` is used by two-stroke engines only.  ``ignition_advance`` is the
-    angle from the start of injection to TDC; ``combustion_start`` the angle at which the
-    straight pressure rise begins (φ_c, already delayed).
-    """
-
-    p_ambient: float
-    p_intake: float
-    p_residual: float
-    p_max: float
-    n_compression: float
-    n_expansion: float
-    rho: float
-    combustion_start: float
-    ignition_advance: float
-    exhaust_open: float
-    exhaust_close: float
-    scavenge_open: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class TabulatedGas:
-    """Indicator diagram by points: angles [rad], absolute pressures [Pa]; ends repeat."""
-
-    p_ambient: float
-    angles: tuple[float, ...]
-    pressures: tuple[float, ...]
-    smooth: bool = False  # cubics without overshoot instead of straight lines
-
-
-@dataclass(frozen=True, slots=True)
-class RoundedGas:
-    """Rounded indicator diagram of a four-stroke engine; absolute Pa, angles [rad].
-
-    ``peak`` is z_д and ``join`` the end of its rounding, both as angles in the cycle;
-    ``settle`` is the angle at which the intake pressure is reached.
-    """
-
-    p_ambient: float
-    p_intake: float
-    p_residual: float
-    p_max: float
-    n_compression: float
-    n_expansion: float
-    rho: float
-    combustion_start: float
-    tdc_rise: float  # p_c''/p_c
-    peak: float
-    peak_share: float  # p_zд/p_z
-    join: float
-    exhaust_open: float
-    exhaust_close: float
-    settle: float
-
-
-Gas = PolytropicGas | TabulatedGas | RoundedGas
-
-
-@dataclass(frozen=True, slots=True)
-class RodMasses:
-    """Masses from which m_j and m_2 follow by the two-mass replacement, Gots (20)."""
-
-    piston_group: float
-    rod: float
-    centre: float  # l_1: pin axis to the rod's centre of mass [m]
-    inertia: float | None = None  # I_ш about the centre of mass [kg·m²], where it is known
-    basis: Weighing | Swinging | Estimate | None = None  # what the values were found from
-
-
-@dataclass(frozen=True, slots=True)
-class DirectMasses:
-    """Masses m_j and m_2 given as such [kg]."""
-
-    reciprocating: float
-    rod_big_end: float
-
-
-Masses = DirectMasses | RodMasses
-
-
-@dataclass(frozen=True, slots=True)
-class Web:
-    """One crank web with its counterweight; masses reduced to the crank radius [kg].
-
-    ``angle`` [rad] is measured from the crank direction against rotation,
-    ``counterweight_angle`` from the direction opposite the crank in the
-    direction of rotation (the reading of Gots (45), (47) that statics gives).
-    """
-
-    mass: float
-    angle: float = 0.0
-    counterweight_mass: float = 0.0
-    counterweight_angle: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class Throw:
-    """One throw of the crankshaft with the chain of arms of Gots figure 35 [m].
-
-    ``angle`` is γ_i [rad], clockwise from crank 1 seen from the nose.
-    """
-
-    angle: float
-    arms: tuple[float, float, float, float, float, float]
-    left_web: Web
-    right_web: Web
-    pin_mass: float
-    left_web_thickness: float = 0.0
-    right_web_thickness: float = 0.0
-
-    @property
-    def length(self) -> float:
-        """Distance between the middles of the two main journals l [m]."""
-        return sum(self.arms) + self.left_web_thickness + self.right_web_thickness
-
-
-@dataclass(frozen=True, slots=True)
-class EndMass:
-    """External counterweight beyond an end journal: mass reduced to r [kg], arm [m].
-
-    ``angle`` [rad] is measured from the neighbouring crank: at the nose in the
-    direction of rotation, at the rear against it.
-    """
-
-    mass: float = 0.0
-    angle: float = 0.0
-    arm: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class Crankshaft:
-    """Crankshaft: throws from the nose, end masses, journal sizes [m]."""
-
-    throws: tuple[Throw, ...]
-    nose: EndMass
-    rear: EndMass
-    pin_diameter: float
-    pin_length: float
-    main_diameter: float
-    main_lengths: tuple[float, ...]
-
-
-@dataclass(frozen=True, slots=True)
 class Balancing:
     """What a person chooses for balancing and for the flywheel; SI units."""
 
@@ -230,8 +93,8 @@ class Balancing:
 
 
 @dataclass(frozen=True, slots=True)
-class Regime:
-    """A further regime: what differs from the main one; SI units."""
+class OperatingPoint:
+    """A further regime of the engine: what differs from the main one; SI units."""
 
     name: str
     omega: float
@@ -247,9 +110,13 @@ class Engine:
 
     ``firing_offsets`` are θ_i [rad], one per cylinder, cylinder 1 first.
     ``arrangement`` says where the cylinders stand; empty means in line.
+    ``articulated`` describes the rods that hang on others, in the order of their cylinders.
     ``force_offsets`` replaces θ_i for the loads on the main journals only; it
     exists to reproduce the printed table П4.3, whose phases contradict the
     shaft, and is None otherwise.
+
+    Raises:
+        ValueError: a number or a count that no engine has.
     """
 
     geometry: Geometry
@@ -268,28 +135,75 @@ class Engine:
     force_offsets: tuple[float, ...] | None = None
     balancing: Balancing = field(default_factory=Balancing)
     name: str = field(default="engine")
-    cycle: CycleRun | None = None  # the cycle calculation that the gas comes from
     oil_hole: float | None = None  # angle of the crankpin's oil hole [rad], by the wear if None
-    regimes: tuple[Regime, ...] = ()  # further speeds and loads
+    regimes: tuple[OperatingPoint, ...] = ()  # further speeds and loads
     reference_lambdas: tuple[float, ...] = ()  # λ of the reference tables, none if not asked for
     reference_angle: float = 0.0  # crank angle of the drawn mechanism [rad]
     arrangement: Arrangement = ()
-    articulated: ArticulatedRod | None = None
+    articulated: tuple[ArticulatedRod, ...] = ()
 
     def __post_init__(self) -> None:
-        """Give an engine without arrangement its cylinders in line."""
+        """Give an engine without arrangement its cylinders in line; refuse what cannot be."""
         if not self.arrangement:
-            object.__setattr__(self, "arrangement", in_line(len(self.firing_offsets)))
+            object.__setattr__(self, "arrangement", in_row(self.cylinders))
+        check_numbers(self, POSITIVE, "omega", "fullness")
+        self._check_calculation()
+        self._check_layout()
+
+    def _check_calculation(self) -> None:
+        gas, efficiency = self.gas, self.mechanical_efficiency
+        refuse(
+            (self.strokes not in (2, 4), "strokes are 2 or 4"),
+            (
+                self.step_deg < 1 or (self.strokes * 180) % self.step_deg != 0,
+                "the step must divide the cycle",
+            ),
+            (self.rays not in (12, 18), "wear diagrams have 12 or 18 rays"),
+            (
+                self.method not in ("textbook", "exact"),
+                f"the method is 'textbook' or 'exact', not {self.method!r}",
+            ),
+            (
+                not 0 <= efficiency <= 1,  # 0 at idle
+                f"the mechanical efficiency must be from 0 to 1, not {efficiency:g}",
+            ),
+            (
+                isinstance(gas, TabulatedGas) and abs(gas.angles[-1] - self.period) > 1e-9,
+                f"the points of the gas must end with the cycle at {180 * self.strokes}°",
+            ),
+        )
+
+    def _check_layout(self) -> None:
+        places, throws = self.arrangement, len(self.crankshaft.throws)
+        refuse(
+            (self.cylinders < 1, "an engine has a cylinder"),
+            (
+                len(places) != self.cylinders,
+                f"{len(places)} places need as many firing offsets, not {self.cylinders}",
+            ),
+            (
+                {place.throw for place in places} != set(range(throws)),
+                f"the rods of {self.cylinders} cylinders stand on other throws than the {throws}",
+            ),
+            (
+                any(
+                    not 0 <= i < self.cylinders or places[i].master is not None
+                    for i in (places[n].master for n in hung(places))
+                    if i is not None
+                ),
+                "a master rod must be one of a cylinder whose rod hangs on no other",
+            ),
+            (
+                len(self.articulated) != len(hung(places)),
+                f"{len(hung(places))} articulated rods must be described, "
+                f"not {len(self.articulated)}",
+            ),
+        )
 
     @property
     def is_in_line(self) -> bool:
         """Whether all cylinders stand in one row, each on its own throw."""
-        return self.arrangement == in_line(self.cylinders)
-
-    @property
-    def is_basic(self) -> bool:
-        """Whether this is a four-stroke in-line engine with a central mechanism."""
-        return self.is_in_line and self.strokes == 4 and self.geometry.is_central
+        return self.arrangement == in_row(self.cylinders)
 
     @property
     def cylinders(self) -> int:

@@ -1,41 +1,13 @@
-"""Rod by two and by three masses, by weighing, by swinging, and table 4, Gots 2.2.
-
-A rod is its mass, the distance of its centre of mass from the piston pin and, where it
-is known, its own moment of inertia.  ``measured_rod`` and ``estimated_parts`` find them
-from what a workshop or a designer has; SI units throughout.
-"""
+"""Masses of a cylinder as given: rod and piston group, or m_j and m_2; kilograms, metres."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
-if TYPE_CHECKING:
-    from kshm.engine.engine import Engine
-
-GRAVITY = 9.81  # m/s², as the textbook takes it
+from kshm.engine.checks import NOT_NEGATIVE, POSITIVE, check_numbers
 
 Fuel = Literal["petrol", "diesel"]
-Range = tuple[float, float]
-
-# Table 4 [kg/m²].  The row of the rod has lost its numbers in the text at hand: 100…200 and
-# 250…400 are those of Kolchin and Demidov, whose table the other rows repeat.
-PISTON: dict[tuple[str, str], Range] = {
-    ("aluminium", "petrol"): (80.0, 100.0),
-    ("aluminium", "diesel"): (150.0, 300.0),
-    ("iron", "petrol"): (150.0, 200.0),
-    ("iron", "diesel"): (250.0, 400.0),
-}
-ROD: dict[str, Range] = {"petrol": (100.0, 200.0), "diesel": (250.0, 400.0)}
-THROW: dict[tuple[str, str], Range] = {
-    ("steel", "petrol"): (150.0, 200.0),
-    ("steel", "diesel"): (200.0, 400.0),
-    ("iron", "petrol"): (100.0, 200.0),
-    ("iron", "diesel"): (150.0, 300.0),
-}
-BORES: dict[str, Range] = {"petrol": (0.06, 0.1), "diesel": (0.08, 0.12)}
-STROKE_BORE: Range = (1.0, 1.2)  # «the smaller values for S/D ≤ 1»
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,130 +43,30 @@ class Estimate:
 
 
 @dataclass(frozen=True, slots=True)
-class AreaMasses:
-    """Masses over the piston area m′ [kg/m²]: piston group, rod, throw."""
+class RodMasses:
+    """Masses from which m_j and m_2 follow by the two-mass replacement, Gots (20)."""
 
-    piston: float
+    piston_group: float
     rod: float
-    throw: float
+    centre: float  # l_1: pin axis to the rod's centre of mass [m]
+    inertia: float | None = None  # I_ш about the centre of mass [kg·m²], where it is known
+    basis: Weighing | Swinging | Estimate | None = None  # what the values were found from
+
+    def __post_init__(self) -> None:
+        """Refuse what no mass can be."""
+        check_numbers(self, POSITIVE, "piston_group", "rod")
 
 
-def weighed_centre(weighing: Weighing, length: float) -> float:
-    """l_1, distance from the piston pin to the centre of mass [m], Gots (23)."""
-    return length * (1 - weighing.small_end / weighing.mass)
+@dataclass(frozen=True, slots=True)
+class DirectMasses:
+    """Masses m_j and m_2 given as such [kg]."""
+
+    reciprocating: float
+    rod_big_end: float
+
+    def __post_init__(self) -> None:
+        """Refuse what no mass can be."""
+        check_numbers(self, NOT_NEGATIVE, "reciprocating", "rod_big_end")
 
 
-def pendulum_inertia(mass: float, arm: float, swings: float) -> float:
-    """Moment of inertia about the edge [kg·m²] from the swings per second, Gots (24), (25)."""
-    return mass * GRAVITY * arm / (2 * math.pi * swings) ** 2
-
-
-def swung_centre(data: Swinging) -> float:
-    """l_1 [m], Gots (27): both swings see the same inertia about the centre of mass.
-
-    With a and b the distances of the centre from the edges and k = g/(2πn)²,
-    a² − k_A a = b² − k_C b and a + b = l_3 give a linear equation for a.
-    """
-    k_a = GRAVITY / (2 * math.pi * data.swings_small) ** 2
-    k_c = GRAVITY / (2 * math.pi * data.swings_big) ** 2
-    below = k_a + k_c - 2 * data.distance
-    if below == 0:
-        msg = "the two swings do not fix the centre of mass"
-        raise ValueError(msg)
-    return data.distance * (k_c - data.distance) / below - data.bore_radius
-
-
-def swung_inertia(data: Swinging) -> float:
-    """I_ш about the centre of mass [kg·m²], Gots (26), by the parallel axis."""
-    arm = swung_centre(data) + data.bore_radius
-    return pendulum_inertia(data.mass, arm, data.swings_small) - data.mass * arm**2
-
-
-def three_masses(
-    mass: float, centre: float, length: float, inertia: float
-) -> tuple[float, float, float]:
-    """m_1, m_2, m_3 [kg] that keep mass, centre and inertia of the rod, Gots 2.2.
-
-    The book prints m_3 with one term short; m_3 = m − I/(l_1(l − l_1)).
-    """
-    first = inertia / (centre * length)
-    second = inertia / ((length - centre) * length)
-    return first, second, mass - first - second
-
-
-def two_mass_inertia(mass: float, centre: float, length: float) -> float:
-    """I_1 of the two replacing masses about the centre of mass [kg·m²], Gots (21)."""
-    return mass * centre * (length - centre)
-
-
-def area_masses(estimate: Estimate, bore: float, stroke: float) -> AreaMasses:
-    """Table 4 between its bounds [kg/m²]: pistons and throws by bore, rods by S/D."""
-    fuel = estimate.fuel
-    size = _share(bore, BORES[fuel])
-    slender = _share(stroke / bore, STROKE_BORE)
-    table = (
-        (estimate.piston_area_mass, PISTON[estimate.piston_material, fuel], size),
-        (estimate.rod_area_mass, ROD[fuel], slender),
-        (estimate.throw_area_mass, THROW[estimate.shaft, fuel], size),
-    )
-    found = [low + (high - low) * at if own is None else own for own, (low, high), at in table]
-    return AreaMasses(*found)
-
-
-def _share(value: float, bounds: Range) -> float:
-    low, high = bounds
-    return min(1.0, max(0.0, (value - low) / (high - low)))
-
-
-def reduced_web(mass: float, centre: float, radius: float) -> float:
-    """Web mass reduced to the crank radius [kg], m_щ ρ/r, Gots (28)."""
-    return mass * centre / radius
-
-
-def mass_scalars(engine: Engine) -> dict[str, float]:
-    """Scalars of the sheet of masses in SI units."""
-    from kshm.engine.engine import RodMasses
-
-    masses, geometry = engine.masses, engine.geometry
-    throw = engine.crankshaft.throws[0]
-    m_k = throw.pin_mass + throw.left_web.mass + throw.right_web.mass
-    found = {"area_throw": m_k / geometry.piston_area}
-    if not isinstance(masses, RodMasses):
-        return found
-    length = geometry.rod_length
-    two = two_mass_inertia(masses.rod, masses.centre, length)
-    found |= {
-        "area_piston": masses.piston_group / geometry.piston_area,
-        "area_rod": masses.rod / geometry.piston_area,
-        "rod_l1": masses.centre,
-        "rod_share": 1 - masses.centre / length,
-        "I_two": two,
-    }
-    if masses.inertia is not None:
-        first, second, third = three_masses(masses.rod, masses.centre, length, masses.inertia)
-        found |= {
-            "I_sh": masses.inertia,
-            "m1_three": first,
-            "m2_three": second,
-            "m3_three": third,
-            "m3_share": third / masses.rod,
-            "dI_two": two / masses.inertia - 1,
-        }
-    if isinstance(masses.basis, Swinging):
-        found |= _swinging_scalars(masses.basis)
-    elif isinstance(masses.basis, Estimate):
-        near = area_masses(masses.basis, geometry.bore, 2 * geometry.crank_radius)
-        found |= {"est_piston": near.piston, "est_rod": near.rod, "est_throw": near.throw}
-    return found
-
-
-def _swinging_scalars(data: Swinging) -> dict[str, float]:
-    arm = swung_centre(data) + data.bore_radius
-    rest = data.distance - arm
-    return {
-        "T_small": 1 / data.swings_small,
-        "T_big": 1 / data.swings_big,
-        "I_A": pendulum_inertia(data.mass, arm, data.swings_small),
-        "I_C": pendulum_inertia(data.mass, rest, data.swings_big),
-        "rod_l2": rest,
-    }
+Masses = DirectMasses | RodMasses

@@ -3,8 +3,7 @@
     from kshm import in_line, polytropic, solve, throw
 
 Everything else of ``kshm`` is in SI units with angles in radians; these functions are where
-a person's units come in without a file.  An engine of another layout is made from the
-dataclasses of ``kshm.engine.engine`` and ``kshm.engine.arrangement``.
+a person's units come in without a file.  What no engine can be is refused by ``ValueError``.
 """
 
 from __future__ import annotations
@@ -12,24 +11,20 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import pairwise
+from typing import TypedDict, Unpack
 
-from kshm.engine.engine import (
-    Crankshaft,
-    DirectMasses,
-    EndMass,
-    Engine,
-    Gas,
-    Geometry,
-    Method,
-    PolytropicGas,
-    TabulatedGas,
-    Throw,
-    Web,
-)
+from kshm.engine import arrangement
+from kshm.engine.arrangement import Arrangement, ArticulatedRod, Cylinder, in_row
+from kshm.engine.checks import refuse
+from kshm.engine.crankshaft import Crankshaft, EndMass, Throw, Web
+from kshm.engine.engine import Engine, Geometry, Method
+from kshm.engine.gas import Gas, PolytropicGas, TabulatedGas
+from kshm.engine.masses import DirectMasses
 
-_MM, _MPA = 1e-3, 1e6
+_MM, _MPA, _RPM = 1e-3, 1e6, math.pi / 30
 _ARMS = 6
+
+Sizes = float | Sequence[float]  # one for all journals or one each
 
 
 def polytropic(
@@ -80,15 +75,6 @@ def points(
     Raises:
         ValueError: the lists differ in length, do not rise, or their ends differ.
     """
-    if len(angles_deg) != len(pressures_mpa) or len(angles_deg) < 3:
-        msg = "as many pressures as angles are needed, three or more"
-        raise ValueError(msg)
-    if any(b <= a for a, b in pairwise(angles_deg)):
-        msg = "angles must rise"
-        raise ValueError(msg)
-    if angles_deg[0] != 0 or pressures_mpa[0] != pressures_mpa[-1]:
-        msg = "the points must begin at 0° and end with the pressure of the beginning"
-        raise ValueError(msg)
     return TabulatedGas(
         p_ambient=ambient_mpa * _MPA,
         angles=tuple(math.radians(angle) for angle in angles_deg),
@@ -110,7 +96,7 @@ def throw(
     """One throw with two like webs; masses reduced to the crank radius [kg].
 
     Args:
-        arms_mm: l1 … l6 of Gots figure 35 [mm].
+        arms_mm: l1 … l6 of Gots figure 35 [mm]; the rods of one pin share l3 + l4 evenly.
         web_kg: mass of one web.
         pin_kg: mass of the crankpin.
         counterweight_kg: mass of the counterweight on one web.
@@ -120,11 +106,9 @@ def throw(
             the crank along rotation [°].
 
     Raises:
-        ValueError: there are not six arms.
+        ValueError: there are not six arms, or a number that no throw has.
     """
-    if len(arms_mm) != _ARMS:
-        msg = f"six arms l1 … l6 are needed, not {len(arms_mm)}"
-        raise ValueError(msg)
+    refuse((len(arms_mm) != _ARMS, f"six arms l1 … l6 are needed, not {len(arms_mm)}"))
     web = Web(
         web_kg, math.radians(web_angle_deg), counterweight_kg, math.radians(counterweight_angle_deg)
     )
@@ -138,7 +122,113 @@ def end_mass(mass_kg: float, angle_deg: float, arm_mm: float) -> EndMass:
     return EndMass(mass_kg, math.radians(angle_deg), arm_mm * _MM)
 
 
-def in_line(
+def place(
+    throw: int,
+    axis_deg: float = 0.0,
+    *,
+    rod_place: float = 0.0,
+    pin: int = 0,
+    pin_deg: float = 0.0,
+    master: int | None = None,
+) -> Cylinder:
+    """Place of one cylinder, for layouts that ``banks`` and ``opposed`` do not make.
+
+    Args:
+        throw: its throw, from 0 at the nose.
+        axis_deg: its axis from that of cylinder 1, clockwise seen from the nose [°].
+        rod_place: where on the pin its rod stands, 0 nearest to the nose, 1 farthest.
+        pin: which part of a split pin, from 0.
+        pin_deg: how far this part stands ahead of the throw [°].
+        master: number from 0 of the cylinder on whose rod this one's hangs.
+    """
+    return Cylinder(throw, math.radians(axis_deg), rod_place, pin, math.radians(pin_deg), master)
+
+
+def banks(
+    throws: int,
+    axes_deg: Sequence[float],
+    *,
+    pins_deg: Sequence[float] | None = None,
+    articulated: bool = False,
+) -> Arrangement:
+    """Places of V, W and radial engines: every throw carries a rod of every bank.
+
+    The first bank has cylinders 1 … n from the nose, the second n + 1 … 2n, and so on.
+
+    Args:
+        throws: number of throws, 1 for a radial engine of one row.
+        axes_deg: axes of the banks, clockwise seen from the nose [°].
+        pins_deg: how far each bank's part of a split pin stands ahead of its throw [°].
+        articulated: the rods of all banks but the first hang on those of the first.
+    """
+    axes = [math.radians(axis - axes_deg[0]) for axis in axes_deg]
+    split = None if pins_deg is None else [math.radians(angle) for angle in pins_deg]
+    return arrangement.fan(throws, axes, pin_angles=split, articulated=articulated)
+
+
+def articulated_rod(
+    *,
+    rod_length_mm: float,
+    radius_mm: float,
+    angle_deg: float,
+    reciprocating_kg: float,
+    big_end_kg: float,
+) -> ArticulatedRod:
+    """Rod that hangs on a master rod, Gots figure 2 в.
+
+    Args:
+        rod_length_mm: its length [mm].
+        radius_mm: distance of its pin from the crankpin [mm].
+        angle_deg: angle of that radius from the master rod along the rotation [°].
+        reciprocating_kg: m_j of its cylinder [kg].
+        big_end_kg: its mass reduced to its pin on the master rod [kg].
+    """
+    angle = math.radians(angle_deg)
+    return ArticulatedRod(rod_length_mm * _MM, radius_mm * _MM, angle, reciprocating_kg, big_end_kg)
+
+
+class Given(TypedDict, total=False):
+    """What an engine of any layout is made of, see ``assemble``."""
+
+    bore_mm: float
+    crank_radius_mm: float
+    rod_length_mm: float
+    compression_ratio: float
+    speed_rpm: float
+    gas: Gas
+    reciprocating_kg: float
+    rod_big_end_kg: float
+    firing_offsets_deg: Sequence[float]
+    throws: Throw | Sequence[Throw]
+    pin_diameter_mm: Sizes
+    pin_length_mm: Sizes
+    main_diameter_mm: Sizes
+    main_lengths_mm: Sizes
+    nose: EndMass | None
+    rear: EndMass | None
+    strokes: int
+    method: Method
+    step_deg: int
+    wear_rays: int
+    mechanical_efficiency: float
+    indicated_power_kw: float | None
+    fullness: float
+    name: str
+
+
+def in_line(**given: Unpack[Given]) -> Engine:
+    """An in-line engine with a central mechanism, of what ``assemble`` takes.
+
+    Every cylinder has a throw of its own, cylinder 1 at the nose, γ_i = −θ_i, Gots 2.7.1.
+
+    Raises:
+        ValueError: lists of the wrong length, a number that no engine has.
+    """
+    return assemble(**given)
+
+
+def assemble(
+    places: Arrangement | None = None,
     *,
     bore_mm: float,
     crank_radius_mm: float,
@@ -150,12 +240,15 @@ def in_line(
     rod_big_end_kg: float,
     firing_offsets_deg: Sequence[float],
     throws: Throw | Sequence[Throw],
-    pin_diameter_mm: float,
-    pin_length_mm: float,
-    main_diameter_mm: float,
-    main_lengths_mm: float | Sequence[float],
+    pin_diameter_mm: Sizes,
+    pin_length_mm: Sizes,
+    main_diameter_mm: Sizes,
+    main_lengths_mm: Sizes,
     nose: EndMass | None = None,
     rear: EndMass | None = None,
+    crank_offset_mm: float | None = None,
+    pin_offset_mm: float | None = None,
+    articulated: ArticulatedRod | Sequence[ArticulatedRod] = (),
     strokes: int = 4,
     method: Method = "textbook",
     step_deg: int = 10,
@@ -165,11 +258,10 @@ def in_line(
     fullness: float = 1.0,
     name: str = "engine",
 ) -> Engine:
-    """An in-line engine with a central mechanism; cylinder 1 stands at the nose.
-
-    The throws stand where the firing offsets want them, γ_i = −θ_i, Gots 2.7.1.
+    """An engine of any layout; the throws stand where the firing offsets want them.
 
     Args:
+        places: ``banks(...)``, ``opposed(...)`` or a tuple of ``place(...)``; in a row if None.
         bore_mm: cylinder bore D [mm].
         crank_radius_mm: crank radius r [mm].
         rod_length_mm: length of the rod L [mm].
@@ -179,13 +271,17 @@ def in_line(
         reciprocating_kg: reciprocating mass m_j of a cylinder [kg].
         rod_big_end_kg: rod mass m_2 that turns with the crankpin [kg].
         firing_offsets_deg: θ_i [°], one per cylinder.
-        throws: ``throw(...)``, one for all cylinders or one each.
-        pin_diameter_mm: diameter of the crankpins [mm].
-        pin_length_mm: length of the crankpins [mm].
-        main_diameter_mm: diameter of the main journals [mm].
-        main_lengths_mm: their lengths [mm], one for all or one each.
+        throws: ``throw(...)``, one for all or one each.
+        pin_diameter_mm: diameters of the crankpins [mm], one for all or one per throw.
+        pin_length_mm: their lengths [mm], likewise.
+        main_diameter_mm: diameters of the main journals [mm], one for all or one each.
+        main_lengths_mm: their lengths [mm], likewise.
         nose: external counterweight at the nose.
         rear: external counterweight at the rear.
+        crank_offset_mm: how far the cylinders' axes pass the shaft on the side to which the
+            crank turns at TDC [mm], Gots 1.4.
+        pin_offset_mm: how far the piston pins stand from the axes on the same side [mm].
+        articulated: ``articulated_rod(...)``, one for all rods that hang or one each.
         strokes: 4 or 2.
         method: ``"textbook"``, two-term acceleration, or ``"exact"``.
         step_deg: step of the tables [°], which must divide the cycle.
@@ -196,38 +292,57 @@ def in_line(
         name: name of the engine.
 
     Raises:
-        ValueError: lists of the wrong length, a number that no engine has.
+        ValueError: lists of the wrong length, rods of one throw that do not fire together
+            with it, a number that no engine has.
     """
-    count = len(firing_offsets_deg)
-    each = (throws,) * count if isinstance(throws, Throw) else tuple(throws)
-    if isinstance(main_lengths_mm, int | float):
-        main_lengths_mm = (main_lengths_mm,) * (count + 1)
-    _check(count, len(each), len(main_lengths_mm), strokes, step_deg, wear_rays)
-    positive = (bore_mm, crank_radius_mm, speed_rpm, compression_ratio - 1)
-    if min(positive) <= 0 or rod_length_mm <= crank_radius_mm:
-        msg = "bore, crank radius, speed, ε − 1 must be positive, the rod longer than the crank"
-        raise ValueError(msg)
-    placed = tuple(
-        replace(one, angle=math.radians(-offset % 360))
-        for one, offset in zip(each, firing_offsets_deg, strict=True)
+    cylinders = len(firing_offsets_deg)
+    refuse(
+        (cylinders < 1, "an engine has a cylinder"),
+        (mechanical_efficiency == 0, "the mechanical efficiency must be above 0"),
     )
+    if places is None:
+        places = in_row(cylinders)
+    refuse(
+        (
+            len(places) != cylinders,
+            f"{len(places)} places need as many firing offsets, not {cylinders}",
+        )
+    )
+    count = 1 + max(each.throw for each in places)
+    each_throw = (throws,) * count if isinstance(throws, Throw) else tuple(throws)
+    refuse(
+        (
+            len(each_throw) != count,
+            f"{cylinders} cylinders need throws for {count}, not {len(each_throw)}",
+        )
+    )
+    offsets = tuple(math.radians(offset) for offset in firing_offsets_deg)
+    angles = _throw_angles(places, offsets, count)
+    if isinstance(articulated, ArticulatedRod):
+        articulated = (articulated,) * len(arrangement.hung(places))
     return Engine(
         geometry=Geometry(
-            bore_mm * _MM, crank_radius_mm * _MM, rod_length_mm * _MM, compression_ratio
+            bore_mm * _MM,
+            crank_radius_mm * _MM,
+            rod_length_mm * _MM,
+            compression_ratio,
+            *(None if e is None else e * _MM for e in (crank_offset_mm, pin_offset_mm)),
         ),
-        omega=speed_rpm * math.pi / 30,
+        omega=speed_rpm * _RPM,
         gas=gas,
         masses=DirectMasses(reciprocating_kg, rod_big_end_kg),
         crankshaft=Crankshaft(
-            throws=placed,
+            throws=tuple(
+                replace(one, angle=angle) for one, angle in zip(each_throw, angles, strict=True)
+            ),
             nose=nose or EndMass(),
             rear=rear or EndMass(),
-            pin_diameter=pin_diameter_mm * _MM,
-            pin_length=pin_length_mm * _MM,
-            main_diameter=main_diameter_mm * _MM,
-            main_lengths=tuple(length * _MM for length in main_lengths_mm),
+            pin_diameters=_sizes(pin_diameter_mm, count),
+            pin_lengths=_sizes(pin_length_mm, count),
+            main_diameters=_sizes(main_diameter_mm, count + 1),
+            main_lengths=_sizes(main_lengths_mm, count + 1),
         ),
-        firing_offsets=tuple(math.radians(offset) for offset in firing_offsets_deg),
+        firing_offsets=offsets,
         strokes=strokes,
         method=method,
         step_deg=step_deg,
@@ -236,18 +351,29 @@ def in_line(
         indicated_power=None if indicated_power_kw is None else indicated_power_kw * 1e3,
         fullness=fullness,
         name=name,
+        arrangement=places,
+        articulated=tuple(articulated),
     )
 
 
-def _check(cylinders: int, throws: int, journals: int, strokes: int, step: int, rays: int) -> None:
-    problems = [
-        (cylinders < 1, "an engine has a cylinder"),
-        (throws != cylinders, f"{cylinders} cylinders need as many throws, not {throws}"),
-        (journals != cylinders + 1, f"{cylinders} throws need a main journal more, not {journals}"),
-        (strokes not in (2, 4), "strokes are 2 or 4"),
-        (step < 1 or (strokes * 180) % step != 0, "the step must divide the cycle"),
-        (rays not in (12, 18), "wear diagrams have 12 or 18 rays"),
-    ]
-    for wrong, msg in problems:
-        if wrong:
-            raise ValueError(msg)
+def _sizes(given: Sizes, count: int) -> tuple[float, ...]:
+    """Sizes of ``count`` journals [m]."""
+    each = (given,) * count if isinstance(given, int | float) else tuple(given)
+    return tuple(size * _MM for size in each)
+
+
+def _throw_angles(places: Arrangement, offsets: Sequence[float], count: int) -> list[float]:
+    """Angle of every throw [rad] by its first rod; the others must stand on it as they fire."""
+    angles: dict[int, float] = {}
+    for number, (cylinder, offset) in enumerate(zip(places, offsets, strict=True), 1):
+        angle = arrangement.throw_angle(cylinder, offset)
+        stands = angles.setdefault(cylinder.throw, angle)
+        apart = math.degrees(math.remainder(angle - stands, 2 * math.pi))
+        refuse(
+            (
+                not abs(apart) <= 1e-6,
+                f"cylinder {number} fires where throw {cylinder.throw + 1} stands {apart:g}° apart",
+            )
+        )
+    refuse((set(angles) != set(range(count)), f"a throw of {count} carries no rod"))
+    return [angles[number] for number in range(count)]

@@ -6,24 +6,19 @@ that pin: the book gives no formulas.  There is no two-term form; both methods t
 exact acceleration of these pistons.
 
 Angles φ are those of the articulated cylinder: its crank is parallel to its axis at
-φ = 0, the master cylinder's angle is φ plus the angle between the banks.
+φ = 0, the master cylinder's angle is φ plus the angle between the banks.  Functions are
+elementwise: their arrays broadcast with (engines, articulated rods, angles).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from kshm.mechanics.polytropes import Stroke, volume_ratio
-
-if TYPE_CHECKING:
-    from kshm.chain.stack import ArticulatedArrays
-
-Array = NDArray[np.float64]
+from kshm.arrays import Array
+from kshm.mechanics.kinematics import Stroke, volume_ratio
 
 _NEWTON_STEPS = 8
 _SCAN = np.radians(np.arange(-60.0, 61.0, 1.0))
@@ -31,12 +26,12 @@ _SCAN = np.radians(np.arange(-60.0, 61.0, 1.0))
 
 @dataclass(frozen=True, slots=True)
 class Linkage:
-    """Geometry as arrays that broadcast with (engines, cylinders, angles); SI."""
+    """Geometry of every articulated rod, shape (engines, rods, 1); SI."""
 
     r: Array
     rod_length: Array  # of the master rod
     offset: Array  # e, the same for both banks in their own frames
-    bank: Array
+    bank: Array  # from the master cylinder's axis to the own one
     radius: Array
     angle: Array
     own_length: Array
@@ -65,7 +60,7 @@ class Motion:
 
 
 def articulated_pin(phi: Array, link: Linkage) -> Point:
-    """Path of the articulated pin from the geometry of the master rod."""
+    """Path of the articulated pin [m], elementwise, from the master rod, Gots figure 2 в."""
     alpha = phi + link.bank
     lam = link.r / link.rod_length
     beta = np.arcsin((link.r * np.sin(alpha) - link.offset) / link.rod_length)
@@ -90,7 +85,7 @@ def articulated_pin(phi: Array, link: Linkage) -> Point:
 
 
 def motion(phi: Array, link: Linkage) -> Motion:
-    """Motion of the articulated rod's piston, exact."""
+    """Motion of the articulated piston [m], exact, elementwise, Gots figure 2 в."""
     pin = articulated_pin(phi, link)
     side, side_1, side_2 = pin.across
     side = side - link.offset
@@ -103,8 +98,11 @@ def motion(phi: Array, link: Linkage) -> Motion:
 
 
 def dead_centres(link: Linkage) -> tuple[Array, Array]:
-    """Crank angles of the piston's TDC and BDC [rad], near 0 and π, where its speed vanishes."""
-    found = []
+    """Crank angles of TDC and BDC [rad], shape (engines, rods, 1), where Gots 1.4 has none.
+
+    Near 0 and π, by Newton's steps to where the piston's speed vanishes.
+    """
+    centres = []
     for start, sign in ((0.0, 1.0), (np.pi, -1.0)):
         grid = start + _SCAN
         heights = sign * motion(grid, link).height[0]
@@ -112,12 +110,12 @@ def dead_centres(link: Linkage) -> tuple[Array, Array]:
         for _ in range(_NEWTON_STEPS):
             _, speed, change = motion(phi, link).height
             phi = phi - speed / change
-        found.append(phi)
-    return found[0], found[1]
+        centres.append(phi)
+    return centres[0], centres[1]
 
 
 @dataclass(frozen=True, slots=True)
-class PinForces:
+class RodPinForces:
     """What the articulated rod does to the crankpin and to the master piston's wall.
 
     ``K`` and ``T`` are the components on the crankpin of its own push and of the side
@@ -132,9 +130,9 @@ class PinForces:
 
 
 def pin_forces(
-    axial: Array, phi: Array, found: Motion, link: Linkage, inertia_unit: Array
-) -> PinForces:
-    """Forces of an articulated rod by statics of the massless rods.
+    axial: Array, phi: Array, piston: Motion, link: Linkage, inertia_unit: Array
+) -> RodPinForces:
+    """Forces of an articulated rod by statics of the massless rods, elementwise, Gots figure 2 в.
 
     The rod pushes its pin along itself; the pin's own mass adds its inertia force.  The
     master rod in equilibrium carries the moment of this push about the crankpin to the
@@ -143,39 +141,48 @@ def pin_forces(
     Args:
         axial: force along the articulated cylinder's axis over the piston area [Pa].
         phi: angle of that cylinder [rad].
-        found: its motion at ``phi``.
+        piston: its motion at ``phi``.
         link: geometry.
         inertia_unit: mass on the articulated pin times ω² over the piston area [Pa/m].
     """
-    side = axial * np.tan(found.beta) - inertia_unit * found.pin.across[2]
-    up = -axial - inertia_unit * found.pin.along[2]
+    side = axial * np.tan(piston.beta) - inertia_unit * piston.pin.across[2]
+    up = -axial - inertia_unit * piston.pin.along[2]
     # Into the master cylinder's frame: x to the side of rotation, y up its axis.
     cos, sin = np.cos(link.bank), np.sin(link.bank)
     x, y = side * cos + up * sin, up * cos - side * sin
-    turn = link.angle - found.pin.beta
+    turn = link.angle - piston.pin.beta
     moment = link.radius * (np.sin(turn) * y - np.cos(turn) * x)
-    added = moment / (link.rod_length * np.cos(found.pin.beta))
+    added = moment / (link.rod_length * np.cos(piston.pin.beta))
     alpha = phi + link.bank
     radial = (x + added) * np.sin(alpha) + y * np.cos(alpha)
     tangential = (x + added) * np.cos(alpha) - y * np.sin(alpha)
-    return PinForces(K=-radial, T=tangential, N_added=added, moment=moment)
+    return RodPinForces(K=-radial, T=tangential, N_added=added, moment=moment)
+
+
+@dataclass(frozen=True, slots=True)
+class ArticulatedArrays:
+    """Articulated rods of all engines, shape (engines, rods, 1); SI."""
+
+    link: Linkage
+    reciprocating: Array
+    big_end: Array
+    cylinders: tuple[int, ...]  # those that hang on others
 
 
 @dataclass(frozen=True, slots=True)
 class Hung:
-    """Everything about the cylinders of articulated rods, (engines, their number, angles)."""
+    """Everything about the cylinders of articulated rods, shape (engines, rods, angles)."""
 
     motion: Motion
+    volume: Stroke
     displacement: Array  # from the piston's own TDC [m]
     stroke: Array
-    tdc: Array
-    bdc: Array
     volume_ratio: Array
     p: Array
     p_inertia: Array
     N: Array
     S: Array
-    on_pin: PinForces
+    on_pin: RodPinForces
 
 
 def hang(
@@ -187,10 +194,11 @@ def hang(
     omega: Array,
     area: Array,
 ) -> Hung:
-    """Kinematics and forces of all articulated rods at their cylinders' angles ``phi``.
+    """Kinematics and forces of all articulated rods at their cylinders' angles ``phi`` [rad].
 
-    ``pressure`` gives the gas pressure for V/V_c at ``phi`` and the motion of these pistons;
-    their clearance volume follows from their own stroke and the engine's compression ratio.
+    By the geometry of Gots figure 2 в; shape (engines, rods, angles), SI.  ``pressure``
+    gives the gas pressure for V/V_c at ``phi`` and the motion of these pistons; their
+    clearance volume follows from their own stroke and the engine's compression ratio.
     """
     link = rods.link
     tdc, bdc = dead_centres(link)
@@ -199,22 +207,22 @@ def hang(
     def ratio(angle: Array) -> Array:
         return volume_ratio(top - motion(angle, link).height[0], top - bottom, eps)
 
-    found = motion(phi, link)
-    volume = volume_ratio(top - found.height[0], top - bottom, eps)
-    p = pressure(volume, Stroke(ratio, tdc, bdc))
+    piston, volume = motion(phi, link), Stroke(ratio, tdc, bdc)
+    moved = top - piston.height[0]
+    in_cylinder = volume_ratio(moved, top - bottom, eps)
+    p = pressure(in_cylinder, volume)
     # The second derivative points up where the piston is thrown towards the head.
-    inertia = rods.reciprocating * omega**2 * found.height[2] / area
+    inertia = rods.reciprocating * omega**2 * piston.height[2] / area
     axial = p - p_ambient + inertia
     return Hung(
-        motion=found,
-        displacement=top - found.height[0],
+        motion=piston,
+        volume=volume,
+        displacement=moved,
         stroke=top - bottom,
-        tdc=tdc,
-        bdc=bdc,
-        volume_ratio=volume,
+        volume_ratio=in_cylinder,
         p=p,
         p_inertia=inertia,
-        N=axial * np.tan(found.beta),
-        S=axial / np.cos(found.beta),
-        on_pin=pin_forces(axial, phi, found, link, rods.big_end * omega**2 / area),
+        N=axial * np.tan(piston.beta),
+        S=axial / np.cos(piston.beta),
+        on_pin=pin_forces(axial, phi, piston, link, rods.big_end * omega**2 / area),
     )

@@ -1,9 +1,9 @@
 """Free forces and moments of an engine by orders, as rotating phasors; balancing of them.
 
-A quantity of order n is kept as the complex number Q of  q(φ) = Re(Q·exp(i·n·φ)).
-Vectors across the crankshaft are ``up`` (to the cylinder heads) and ``right`` (seen
-from the nose, the side to which rotation leads from up).  Places run along the
-shaft from the middle of the main journals towards the flywheel [m].
+A quantity of order n is kept as the complex number Q of  q(φ) = Re(Q·exp(i·n·φ)), a
+vector across the crankshaft as two of them, shape (2,): ``up`` (to the cylinder heads)
+and ``right`` (seen from the nose, the side to which rotation leads from up).  Places run
+along the shaft from the middle of the main journals towards the flywheel [m].
 
 Reciprocating masses follow the exact series of the acceleration, Neiman (36).
 """
@@ -15,12 +15,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from kshm.engine.arrangement import Cylinder
-from kshm.engine.engine import Engine, Throw
+from kshm.arrays import Array
+from kshm.engine.arrangement import hung, throws
+from kshm.engine.engine import Engine
 from kshm.mechanics.harmonics import acceleration_amplitude
 from kshm.mechanics.masses import point_masses
 
-Array = NDArray[np.float64]
+Phasors = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,14 +31,6 @@ class Cylinders:
     phase: Array
     place: Array
     axis: Array
-
-
-@dataclass(frozen=True, slots=True)
-class Phasors:
-    """A vector of one order: complex amplitudes of its components up and to the right."""
-
-    up: complex
-    right: complex
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,95 +47,90 @@ class Ellipse:
 
 
 def throw_starts(engine: Engine) -> Array:
-    """Places of the left supports of all throws and of the last support [m]."""
+    """Places of the main journals [m], shape (journals,), Gots figure 35."""
     lengths = [throw.length for throw in engine.crankshaft.throws]
     ends = np.concatenate([[0.0], np.cumsum(lengths)])
     places: Array = ends - ends[-1] / 2
     return places
 
 
-def rod_place(throw: Throw) -> float:
-    """Distance of the rod from the throw's left support [m], Gots figure 35."""
-    return throw.arms[0] + throw.left_web_thickness + throw.arms[1]
-
-
 def is_balanced_by_orders(engine: Engine) -> bool:
     """Whether the orders of Neiman's series describe all pistons: central, no articulated rods."""
-    hung = any(place.master is not None for place in engine.arrangement)
-    return engine.geometry.is_central and not hung
+    return engine.geometry.is_central and not hung(engine.arrangement)
 
 
-def places(engine: Engine) -> Array:
-    """Place of every cylinder's rod along the shaft from its middle [m], Gots figure 36."""
-    starts, throws = throw_starts(engine), engine.crankshaft.throws
-
-    def place(cylinder: Cylinder) -> float:
-        throw = throws[cylinder.throw]
-        further = throw.arms[2] + throw.arms[3] if cylinder.rod_place else 0.0
-        return float(starts[cylinder.throw]) + rod_place(throw) + further
-
-    return np.array([place(cylinder) for cylinder in engine.arrangement])
+def rod_places(engine: Engine) -> Array:
+    """Place of every cylinder's rod along the shaft [m], shape (cylinders,), Gots figure 36."""
+    starts, shaft = throw_starts(engine), engine.crankshaft.throws
+    return np.array(
+        [starts[c.throw] + shaft[c.throw].places.rod_at(c.rod_place) for c in engine.arrangement]
+    )
 
 
 def pin_angles(engine: Engine) -> Array:
-    """Angle of every cylinder's crankpin, clockwise from crank 1 [rad]."""
-    throws = engine.crankshaft.throws
-    return np.array([throws[c.throw].angle + c.pin_angle for c in engine.arrangement])
+    """Angle of every cylinder's pin from crank 1 [rad], clockwise, shape (cylinders,), Gots 2.7."""
+    shaft = engine.crankshaft.throws
+    return np.array([shaft[c.throw].angle + c.pin_angle for c in engine.arrangement])
 
 
 def cylinders_of(engine: Engine) -> Cylinders:
     """Cylinders of an engine; "up" is the axis of cylinder 1."""
     axes = np.array([cylinder.axis for cylinder in engine.arrangement])
-    return Cylinders(np.array(engine.firing_offsets), places(engine), axes)
+    return Cylinders(np.array(engine.firing_offsets), rod_places(engine), axes)
 
 
 def order_phasors(cylinders: Cylinders, order: float, weights: Array | None = None) -> Phasors:
-    """Vector sum of unit forces cos(order·(φ − θ_i)) along the cylinder axes.
+    """Vector sum of unit forces cos(order·(φ − θ_i)) along the cylinder axes [-], Neiman (36).
 
     Args:
         cylinders: the cylinders.
         order: order n.
-        weights: one per cylinder; their places give the moment.
+        weights: one per cylinder, shape (cylinders,); their places [m] give the moment.
     """
     unit = np.exp(-1j * order * cylinders.phase)
     if weights is not None:
         unit = unit * weights
-    return Phasors(
-        complex(np.sum(unit * np.cos(cylinders.axis))),
-        complex(np.sum(unit * np.sin(cylinders.axis))),
-    )
+    return np.array([np.sum(unit * np.cos(cylinders.axis)), np.sum(unit * np.sin(cylinders.axis))])
+
+
+def inertia_unit(engine: Engine) -> float:
+    """First-order inertia force of one cylinder m_j r ω² [N], Gots (31)."""
+    m_j, _ = point_masses(engine.masses, engine.geometry.rod_length)
+    return m_j * engine.geometry.crank_radius * engine.omega**2
 
 
 def reciprocating(engine: Engine, cylinders: Cylinders, order: int) -> tuple[Phasors, Phasors]:
-    """Free force [N] and moment [N·m] of one order of all reciprocating masses.
+    """Free force [N] and moment [N·m] of one order, each of shape (2,), Neiman (36).
 
-    Directed away from the crankshaft where the pistons are thrown upwards.
+    Of all reciprocating masses, directed away from the crankshaft where the pistons are
+    thrown upwards.
     """
-    m_j, _ = point_masses(engine.masses, engine.geometry.rod_length)
-    amplitude = m_j * engine.geometry.crank_radius * engine.omega**2
-    amplitude *= acceleration_amplitude(engine.geometry.lam, order)
+    amplitude = inertia_unit(engine) * acceleration_amplitude(engine.geometry.lam, order)
     force = order_phasors(cylinders, order)
     moment = order_phasors(cylinders, order, cylinders.place)
-    return scaled(force, amplitude), scaled(moment, amplitude)
-
-
-def scaled(vector: Phasors, factor: float) -> Phasors:
-    """The vector times a number."""
-    return Phasors(vector.up * factor, vector.right * factor)
-
-
-def added(first: Phasors, second: Phasors) -> Phasors:
-    """Sum of two vectors of one order."""
-    return Phasors(first.up + second.up, first.right + second.right)
+    return force * amplitude, moment * amplitude
 
 
 def turning(vector: complex) -> Phasors:
-    """A vector that turns with the shaft; ``vector`` = up + i·right at φ = 0."""
-    return Phasors(vector, -1j * vector)
+    """A vector [N or N·m] that turns with the shaft, shape (2,), Gots 2.2.
+
+    ``vector`` = up + i·right at φ = 0.
+    """
+    return np.array([vector, -1j * vector])
+
+
+def turning_parts(vector: Phasors) -> tuple[complex, complex]:
+    """Two vectors [N or N·m] that turn with and against rotation and make one of shape (2,).
+
+    Lanchester's shafts answer them.
+    """
+    up, right = vector
+    along, against = up + 1j * right, np.conj(up) + 1j * np.conj(right)
+    return complex(along / 2), complex(against / 2)
 
 
 def ellipse(vector: Phasors, noise: float = 0.0) -> Ellipse:
-    """Greatest and smallest length of a vector of one order and the direction.
+    """Lengths of a vector of one order and its direction [rad], shape (2,), Neiman (36).
 
     Args:
         vector: the vector.
@@ -162,50 +150,33 @@ def ellipse(vector: Phasors, noise: float = 0.0) -> Ellipse:
 
 def rotating(engine: Engine, *, counterweights: bool) -> tuple[complex, complex]:
     """Centrifugal force [N] and moment [N·m] of the shaft at φ = 0 as up + i·right."""
-    _, m_2 = point_masses(engine.masses, engine.geometry.rod_length)
-    unit = engine.geometry.crank_radius * engine.omega**2
-    force, moment = 0j, 0j
-    for mass, angle, place in _masses(engine, m_2, counterweights=counterweights):
-        vector = mass * unit * np.exp(1j * angle)
-        force, moment = force + vector, moment + place * vector
-    return complex(force), complex(moment)
+    mass, angle, place = np.array(_masses(engine, counterweights=counterweights)).T
+    vectors = mass * engine.geometry.crank_radius * engine.omega**2 * np.exp(1j * angle)
+    return complex(vectors.sum()), complex((place * vectors).sum())
 
 
-def _masses(
-    engine: Engine, m_2: float, *, counterweights: bool
-) -> list[tuple[float, float, float]]:
+def _masses(engine: Engine, *, counterweights: bool) -> list[tuple[float, float, float]]:
     """Mass at the crank radius [kg], angle clockwise from crank 1 [rad], place [m]."""
-    found = []
-    shaft, starts = engine.crankshaft, throw_starts(engine)
-    spots = zip(pin_angles(engine), places(engine), strict=True)
-    found += [(m_2, float(angle), float(place)) for angle, place in spots]
-    turned = _pin_turn(engine)
-    for throw, start in zip(shaft.throws, starts[:-1], strict=True):
-        rod = rod_place(throw)
-        right = rod + sum(throw.arms[2:5]) + throw.right_web_thickness / 2
-        webs = (
-            (throw.left_web, throw.arms[0] + throw.left_web_thickness / 2),
-            (throw.right_web, right),
-        )
-        pin = start + rod + throw.arms[2]
-        found += [(throw.pin_mass / 2, throw.angle, pin)]
-        found += [(throw.pin_mass / 2, throw.angle + turned, pin)]
-        for web, place in webs:
+    _, m_2 = point_masses(engine.masses, engine.geometry.rod_length)
+    shaft, starts, angles = engine.crankshaft, throw_starts(engine), pin_angles(engine)
+    masses = [(m_2, a, z) for a, z in zip(angles, rod_places(engine), strict=True)]
+    groups = throws(engine.arrangement)
+    for throw, start, rods in zip(shaft.throws, starts[:-1], groups, strict=True):
+        place = throw.places
+        # Each rod's part of a split pin has an equal share of the pin's mass.
+        masses += [(throw.pin_mass / len(rods), angles[i], start + place.pin) for i in rods]
+        webs = ((throw.left_web, place.left_web), (throw.right_web, place.right_web))
+        for web, at in webs:
             # A web's angle runs against rotation, a counterweight's with it from "opposite".
-            found.append((web.mass, throw.angle - web.angle, start + place))
+            masses.append((web.mass, throw.angle - web.angle, start + at))
             if counterweights:
                 opposite = throw.angle + np.pi + web.counterweight_angle
-                found.append((web.counterweight_mass, opposite, start + place))
+                masses.append((web.counterweight_mass, opposite, start + at))
     if counterweights:
         nose, rear = shaft.nose, shaft.rear
-        found.append((nose.mass, shaft.throws[0].angle + nose.angle, starts[0] - nose.arm))
-        found.append((rear.mass, shaft.throws[-1].angle - rear.angle, starts[-1] + rear.arm))
-    return found
-
-
-def _pin_turn(engine: Engine) -> float:
-    """How far the second half of the pins is turned [rad]: zero for pins in one piece."""
-    return max((c.pin_angle for c in engine.arrangement), key=abs)
+        masses.append((nose.mass, shaft.throws[0].angle + nose.angle, starts[0] - nose.arm))
+        masses.append((rear.mass, shaft.throws[-1].angle - rear.angle, starts[-1] + rear.arm))
+    return masses
 
 
 def ideal_counterweights(engine: Engine) -> tuple[complex, complex]:
@@ -213,17 +184,8 @@ def ideal_counterweights(engine: Engine) -> tuple[complex, complex]:
 
     One for each rod; a share of them balances that share of its first-order force.
     """
-    m_j, _ = point_masses(engine.masses, engine.geometry.rod_length)
-    unit = m_j * engine.geometry.crank_radius * engine.omega**2
-    vectors = -unit * np.exp(1j * pin_angles(engine))
-    return complex(vectors.sum()), complex((vectors * places(engine)).sum())
-
-
-def turning_parts(vector: Phasors) -> tuple[complex, complex]:
-    """Two vectors of constant length that turn with and against rotation and make the vector."""
-    with_ = (vector.up + 1j * vector.right) / 2
-    against = (np.conj(vector.up) + 1j * np.conj(vector.right)) / 2
-    return complex(with_), complex(against)
+    vectors = -inertia_unit(engine) * np.exp(1j * pin_angles(engine))
+    return complex(vectors.sum()), complex((vectors * rod_places(engine)).sum())
 
 
 def shaft_moments(engine: Engine) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -233,12 +195,11 @@ def shaft_moments(engine: Engine) -> tuple[tuple[float, float], tuple[float, flo
     each takes the chosen share of the vector that turns as it does.  Of cylinders in line
     both are equal (Lanchester).
     """
-    cylinders = cylinders_of(engine)
-    shares = engine.balancing.first_shafts_share, engine.balancing.second_shafts_share
-    found = []
-    for order, share in zip((1, 2), shares, strict=True):
-        force, _ = reciprocating(engine, cylinders, order)
-        along, against = (abs(part) for part in turning_parts(force))
-        unit = (order * engine.omega) ** 2
-        found.append((share * along / unit, share * against / unit))
-    return found[0], found[1]
+    cylinders, choice = cylinders_of(engine), engine.balancing
+
+    def pair(order: int, share: float) -> tuple[float, float]:
+        along, against = turning_parts(reciprocating(engine, cylinders, order)[0])
+        unit = share / (order * engine.omega) ** 2
+        return abs(along) * unit, abs(against) * unit
+
+    return pair(1, choice.first_shafts_share), pair(2, choice.second_shafts_share)

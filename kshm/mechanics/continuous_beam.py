@@ -9,30 +9,36 @@ the second subscript of the last moment is read as the right support.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
 
 import numpy as np
-from numpy.typing import NDArray
 
-from kshm.engine.arrangement import throws as throws_of
-from kshm.mechanics import journals
-
-if TYPE_CHECKING:
-    from kshm.chain.solve import BatchSolution
-    from kshm.engine.engine import Engine
-
-Array = NDArray[np.float64]
-Columns = dict[str, Array]
+from kshm.arrays import Array
+from kshm.mechanics.journals import Load
 
 
-def applies(engine: Engine) -> bool:
-    """Whether the shaft has inner supports and rods that pull at undivided pins."""
-    whole = all(c.pin_angle == 0 and c.master is None for c in engine.arrangement)
-    return len(engine.crankshaft.throws) > 1 and whole and engine.force_offsets is None
+def load_terms(loads: Iterable[Load], length: Array, shape: tuple[int, ...]) -> tuple[Array, Array]:
+    """Load terms Σ P a(l² − a²)/l and Σ P b(l² − b²)/l of spans [N·m²], Clapeyron, Gots (54).
+
+    Args:
+        loads: forces on the spans; their arrays broadcast with ``shape``.
+        length: lengths of the spans l [m], broadcasting likewise.
+        shape: of the terms without the last axis ``left``, ``up``.
+
+    Returns:
+        Terms of the right and of the left support, shape (*shape, 2).
+    """
+    right, left = np.zeros((*shape, 2)), np.zeros((*shape, 2))
+    for load in loads:
+        rest = length - load.place
+        for axis, force in enumerate((load.left, load.up)):
+            right[..., axis] += force * load.place * (length**2 - load.place**2) / length
+            left[..., axis] += force * rest * (length**2 - rest**2) / length
+    return right, left
 
 
 def support_moments(spans: Array, right: Array, left: Array, ends: Array) -> Array:
-    """Bending moments at all supports by Clapeyron's equation [N·m].
+    """Bending moments at all supports by Clapeyron's equation [N·m], Gots (54).
 
     Args:
         spans: lengths of the spans [m], shape (n,).
@@ -62,6 +68,7 @@ def corrections(spans: Array, moments: Array) -> Array:
     """What inner support moments add to the split scheme's reactions [N], Gots (54).
 
     The overhangs are in the split scheme already, so the end moments add nothing here.
+    Shapes (n,) of the spans [m] and (n + 1, …) of the moments [N·m] and of the result.
     """
     inner = moments.copy()
     inner[0] = inner[-1] = 0
@@ -70,109 +77,3 @@ def corrections(spans: Array, moments: Array) -> Array:
     added[:-1] -= steps
     added[1:] += steps
     return added
-
-
-def reactions(engine: Engine, raw: BatchSolution, index: int) -> tuple[Array, Array]:
-    """Moments [N·m] and specific reactions [Pa] of all supports, (journals, angles, 2)."""
-    throws, area = raw.batch.throws, engine.geometry.piston_area
-    place = journals.positions(throws)
-    spans = place.length[index]
-    right, left = _load_terms(engine, raw, index)
-    gamma = throws.angle[index][:, None]
-    right, left = journals.to_shaft_axes(right, gamma), journals.to_shaft_axes(left, gamma)
-    moments = support_moments(spans, right, left, _ends(engine, raw, index))
-    added = corrections(spans, moments)
-    return moments, raw.journal[index] + added / area
-
-
-def _load_terms(engine: Engine, raw: BatchSolution, index: int) -> tuple[Array, Array]:
-    """Load terms of every span in its throw's frame [N·m²], (throws, angles, 2)."""
-    shaft, r = engine.crankshaft, engine.geometry.crank_radius
-    unit = r * engine.omega**2
-    area = engine.geometry.piston_area
-    m_2 = raw.batch.pin_mass[index, :, 0]
-    found = []
-    for number, group in enumerate(throws_of(engine.arrangement)):
-        throw = shaft.throws[number]
-        l1, l2, l3, l4, _, l6 = throw.arms
-        h_left, h_right = throw.left_web_thickness, throw.right_web_thickness
-        length = throw.length
-        still = np.zeros_like(raw.phi)
-        loads: list[tuple[float, Array, Array]] = []
-        rod_places = (l1 + h_left + l2, l1 + h_left + l2 + l3 + l4)
-        for cylinder in group:
-            at = rod_places[engine.arrangement[cylinder].rod_place]
-            spin = m_2[cylinder] * unit
-            K, T = raw.K[index, cylinder] * area, raw.T[index, cylinder] * area
-            loads.append((at, -T, spin - K))
-        loads.append((rod_places[0] + l3, still, still + throw.pin_mass * unit))
-        for at, web in (
-            (l1 + h_left / 2, throw.left_web),
-            (length - l6 - h_right / 2, throw.right_web),
-        ):
-            turn, weight = web.angle, web.counterweight_angle
-            side = web.mass * np.sin(turn) + web.counterweight_mass * np.sin(weight)
-            up = web.mass * np.cos(turn) - web.counterweight_mass * np.cos(weight)
-            loads.append((at, still + side * unit, still + up * unit))
-        right, left = np.zeros((len(still), 2)), np.zeros((len(still), 2))
-        for at, side_force, up_force in loads:
-            force = np.stack([side_force, up_force], axis=-1)
-            rest = length - at
-            right += force * at * (length**2 - at**2) / length
-            left += force * rest * (length**2 - rest**2) / length
-        found.append((right, left))
-    return np.stack([a for a, _ in found]), np.stack([b for _, b in found])
-
-
-def _ends(engine: Engine, raw: BatchSolution, index: int) -> Array:
-    """Moments of the overhung counterweights at the end supports in shaft axes, (2, angles, 2)."""
-    shaft = engine.crankshaft
-    unit = engine.geometry.crank_radius * engine.omega**2
-    found = []
-    for mass, throw, way in (
-        (shaft.nose, shaft.throws[0], -1.0),
-        (shaft.rear, shaft.throws[-1], 1.0),
-    ):
-        # The nose angle runs with rotation, hence away from "left".
-        vector = mass.mass * unit * np.array([way * np.sin(mass.angle), np.cos(mass.angle)])
-        turned = journals.to_shaft_axes(-vector * mass.arm, np.array(throw.angle))
-        found.append(np.broadcast_to(turned, (len(raw.phi), 2)))
-    return np.stack(found)
-
-
-def columns(engine: Engine, raw: BatchSolution, index: int) -> dict[str, Columns]:
-    """Table of the continuous shaft in SI units; none where the scheme does not apply."""
-    if not applies(engine):
-        return {}
-    moments, specific = reactions(engine, raw, index)
-    table: Columns = {"phi_deg": raw.phi}
-    for k in range(1, len(moments) - 1):
-        for axis in (0, 1):
-            table[f"Ms{'xy'[axis]}{k + 1}_Nm"] = moments[k, :, axis]
-    for k in range(len(moments)):
-        x, y = specific[k, :, 0], specific[k, :, 1]
-        table |= {f"Rcx{k + 1}_MPa": x, f"Rcy{k + 1}_MPa": y, f"Rc{k + 1}_MPa": np.hypot(x, y)}
-    return {"continuous": table}
-
-
-def scalars(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float]:
-    """Mean and greatest reactions of both schemes compared, SI units."""
-    found = columns(engine, raw, index)
-    if not found:
-        return {}
-    table, shaft = found["continuous"], engine.crankshaft
-    area = engine.geometry.piston_area
-    split = raw.journal_load[index]
-    values: dict[str, float] = {}
-    for k in range(1, len(shaft.throws) + 2):
-        load = table[f"Rc{k}_MPa"]
-        projected = shaft.main_diameter * shaft.main_lengths[k - 1]
-        mean, most = float(load[:-1].mean()), float(load.max())
-        values |= {
-            f"Rc{k}_mean": mean,
-            f"Rc{k}_max": most,
-            f"dRc{k}_mean": mean / float(split[k - 1][:-1].mean()) - 1,
-            f"dRc{k}_max": most / float(split[k - 1].max()) - 1,
-            f"qc{k}_max": most * area / projected,
-        }
-    return values

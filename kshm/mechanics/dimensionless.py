@@ -5,81 +5,56 @@
   title  = {Динамические расчеты двигателей внутреннего сгорания},
 }
 
-Displacement is divided by R, velocity by ωR and acceleration by ω²R.  Arrays
-broadcast; angles are in radians from top dead centre.
+Displacement is divided by R, velocity by ωR and acceleration by ω²R.  Everything is
+elementwise on arrays that broadcast; angles are in radians from top dead centre.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from kshm.arrays import Array
+from kshm.mechanics import kinematics
 
-# λ of Segal's printed tables 2-5.
-SEGAL_LAMBDAS = (0.16, 0.18, 0.2, 0.22, 0.24, 0.26, 0.28, 0.303)
-
-
-def displacement(alpha: Array, lam: Array) -> Array:
-    """Exact displacement s [-], Segal (1.17), from the triangle of crank and rod."""
-    result: Array = 1 + 1 / lam - np.cos(alpha) - _rod_along_axis(alpha, lam)
-    return result
+_ONE: Array = np.ones(())
 
 
-def velocity(alpha: Array, lam: Array) -> Array:
-    """Exact velocity v = ds/dα [-], Segal (1.18)."""
-    sine, cosine = np.sin(alpha), np.cos(alpha)
-    result: Array = sine + sine * cosine / _rod_along_axis(alpha, lam)
-    return result
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """Displacement, velocity and acceleration [-], arrays of one shape."""
+
+    s: Array
+    v: Array
+    j: Array
 
 
-def acceleration(alpha: Array, lam: Array) -> Array:
-    """Exact acceleration j = d²s/dα² [-], Segal (1.19)."""
-    sine, cosine = np.sin(alpha), np.cos(alpha)
-    along = _rod_along_axis(alpha, lam)
-    result: Array = cosine + (cosine**2 - sine**2) / along + (sine * cosine) ** 2 / along**3
-    return result
+def exact(alpha: Array, lam: Array) -> Motion:
+    """Exact s, v = ds/dα, j = d²s/dα² [-], elementwise, Segal (1.17)-(1.19)."""
+    return Motion(**kinematics.exact_motion(alpha, _ONE, lam, _ONE))
 
 
-def _rod_along_axis(alpha: Array, lam: Array) -> Array:
-    """Projection of the rod on the cylinder axis over R, cos β / λ."""
-    along: Array = np.sqrt(1 / lam**2 - np.sin(alpha) ** 2)
-    return along
-
-
-def displacement_two_term(alpha: Array, lam: Array) -> Array:
-    """Approximate displacement [-], Segal (1.8)."""
-    result: Array = 1 - np.cos(alpha) + lam / 2 * np.sin(alpha) ** 2
-    return result
-
-
-def velocity_two_term(alpha: Array, lam: Array) -> Array:
-    """Approximate velocity [-], Segal (1.14)."""
-    result: Array = np.sin(alpha) * (1 + lam * np.cos(alpha))
-    return result
-
-
-def acceleration_two_term(alpha: Array, lam: Array) -> Array:
-    """Approximate acceleration [-], Segal (1.14)."""
-    result: Array = np.cos(alpha) + lam * (2 * np.cos(alpha) ** 2 - 1)
-    return result
+def two_term(alpha: Array, lam: Array) -> Motion:
+    """Approximate s, v, j [-], elementwise, Segal (1.8), (1.14)."""
+    parts = kinematics.two_term_motion(alpha, _ONE, lam, _ONE)
+    return Motion(**{letter: first + second for letter, (first, second, _) in parts.items()})
 
 
 def angle_two_term(s: Array, lam: Array) -> Array:
-    """Crank angle [rad] at the displacement s by the quadratic equation, Segal (1.11)."""
+    """Crank angle [rad] at the displacement s, elementwise, by the quadratic, Segal (1.11)."""
     # 1 − cos α = x solves x²·λ/2 − x·(1 + λ) + s = 0; half angles keep small s exact.
     x = 2 * s / (1 + lam + np.sqrt((1 + lam) ** 2 - 2 * lam * s))
     return 2 * np.arcsin(np.sqrt(np.clip(x / 2, 0, 1)))
 
 
 def angle_small(s: Array, lam: Array) -> Array:
-    """Crank angle [rad] at a small displacement s < 0.15, Segal (1.12)."""
-    angle: Array = np.sqrt(2 * s / (1 + lam))
-    return angle
+    """Crank angle [rad] at a small displacement s < 0.15, elementwise, Segal (1.12)."""
+    return np.sqrt(2 * s / (1 + lam))
 
 
 def angle_exact(s: Array, lam: Array) -> Array:
-    """Crank angle [rad] at the displacement 0 ≤ s ≤ 2, exact: half angle of the triangle."""
+    """Crank angle [rad] at 0 ≤ s ≤ 2, elementwise: half angle of Segal's triangle (1.17)."""
     rod = 1 / lam
     near, far = s * (2 * rod - s), (2 - s) * (2 * rod + 2 - s)
     return 2 * np.arctan2(np.sqrt(near), np.sqrt(far))
@@ -90,9 +65,8 @@ def min_acceleration_two_term(lam: float) -> tuple[float, float]:
 
     At bottom dead centre for λ ≤ 1/4, else at cos α = −1/(4λ).
     """
-    cosine = max(-1.0, -1 / (4 * lam))
-    angle = float(np.arccos(cosine))
-    return angle, float(acceleration_two_term(np.array(angle), np.array(lam)))
+    angle = np.arccos(max(-1.0, -1 / (4 * lam)))
+    return float(angle), float(two_term(angle, np.array(lam)).j)
 
 
 def min_acceleration(lam: float) -> tuple[float, float]:
@@ -106,8 +80,8 @@ def min_acceleration(lam: float) -> tuple[float, float]:
             low = middle
         else:
             high = middle
-    angle = float(np.arccos((low + high) / 2))
-    return angle, float(acceleration(np.array(angle), np.array(lam)))
+    angle = np.arccos((low + high) / 2)
+    return float(angle), float(exact(angle, np.array(lam)).j)
 
 
 def _jerk_over_sine(cosine: float, lam: float) -> float:
@@ -117,10 +91,3 @@ def _jerk_over_sine(cosine: float, lam: float) -> float:
     double = 2 * cosine**2 - 1
     terms = 4 / along - 3 * double / along**3 - 3 * cosine**2 * sine2 / along**5
     return float(-(1 + cosine * terms))
-
-
-def packed_minutes(angle: Array) -> Array:
-    """Angle [rad] as degrees·100 + minutes, rounded to a minute: 9°13′ is 913."""
-    minutes = np.floor(np.degrees(angle) * 60 + 0.5)
-    packed: Array = np.floor(minutes / 60) * 100 + np.mod(minutes, 60)
-    return packed

@@ -4,12 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
+from kshm.arrays import Array
 from kshm.mechanics.kinematics import Position
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +19,7 @@ class RodForces:
 
 
 def decompose(axial: Array, at: Position) -> RodForces:
-    """Split the axial force P_s into N, S, K, T with the exact rod angle, Gots (34)-(37).
+    """Split the axial force P_s [N or Pa] into N, S, K, T, elementwise, Gots (34)-(37).
 
     The rod pushes the crankpin along the line from the piston pin to the crankpin, S; the
     cylinder wall must carry its part across the cylinder, N.  K and T are the components

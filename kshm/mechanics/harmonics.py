@@ -18,11 +18,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from kshm.arrays import Array
 
-NEIMAN_RATIOS = (3.4, 3.5, 3.6, 3.7, 3.8, 3.9, 4.0)  # 1/λ of the printed tables
 ORDERS = (2, 4, 6, 8, 10, 12)
 _CUT_OF_THE_TEXT = 4  # powers of sin²: the text keeps terms up to sin⁸
 
@@ -70,22 +68,23 @@ def signed(lam: float, order: int) -> float:
     return coefficient(lam, order) * (1 if order % 4 == 2 else -1)
 
 
-def acceleration_amplitude(lam: float, order: int, *, exact: bool = True) -> float:
-    """Amplitude of cos(order·α) in j/(ω²R), Neiman (36); two-term (37) if not ``exact``."""
-    if not exact:
-        return {1: 1.0, 2: lam}.get(order, 0.0)
+def acceleration_amplitude(lam: float, order: int) -> float:
+    """Amplitude of cos(order·α) in j/(ω²R), Neiman (36)."""
     return order**2 * signed(lam, order)
 
 
 def motion(alpha: Array, lam: float, order: int) -> tuple[Array, Array, Array]:
-    """The harmonic of one order in s/R, v/(ωR) and j/(ω²R), Neiman (23), (28), (36)."""
+    """The harmonic of one order in s, v, j over R [-], elementwise, Neiman (23), (28), (36)."""
     amplitude = signed(lam, order)
     cosine, sine = np.cos(order * alpha), np.sin(order * alpha)
     return -amplitude * cosine, order * amplitude * sine, order**2 * amplitude * cosine
 
 
 def max_velocity(lam: Array) -> tuple[Array, Array]:
-    """Angle [rad] of the greatest two-term velocity, its ratio to the mean, Neiman (32), (33)."""
+    """Angle [rad] of the greatest two-term velocity, its ratio to the mean, elementwise.
+
+    Neiman (32), (33).
+    """
     # Solved for the cosine without the cancellation of the printed difference of roots.
     cosine = 2 * lam / (1 + np.sqrt(1 + 8 * lam**2))
     angle = np.arccos(cosine)
@@ -93,7 +92,7 @@ def max_velocity(lam: Array) -> tuple[Array, Array]:
 
 
 def rod_on_pin(alpha: Array, lam: Array) -> Array:
-    """Angular velocity of the rod on the crankpin over ω, Neiman (12)."""
+    """Angular velocity of the rod on the crankpin over ω [-], elementwise, Neiman (12)."""
     along = np.sqrt(1 / lam**2 - np.sin(alpha) ** 2)
     speed: Array = 1 + np.cos(alpha) / along
     return speed

@@ -8,11 +8,12 @@ bearings on the shaft; loads on the bearings are their negatives.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from kshm.arrays import Array
+from kshm.engine.crankshaft import Places
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,9 +21,7 @@ class ThrowArrays:
     """Throws as arrays of shape (engines, throws); metres, kilograms, radians."""
 
     angle: Array
-    arms: Array  # (engines, throws, 6): l1 … l6
-    left_web_thickness: Array
-    right_web_thickness: Array
+    places: Places[Array]
     web_mass: Array  # (engines, throws, 2): left, right
     web_angle: Array
     counterweight_mass: Array
@@ -34,28 +33,19 @@ class ThrowArrays:
 
 
 @dataclass(frozen=True, slots=True)
-class Positions:
-    """Places along the throw from the left support [m], shape (engines, throws)."""
-
-    left_web: Array
-    rod: Array
-    right_rod: Array  # the second rod of a V engine's throw
-    pin: Array
-    right_web: Array
-    length: Array
-
-
-@dataclass(frozen=True, slots=True)
 class Rods:
     """Which throw carries each rod, and where; arrays of shape (engines, cylinders)."""
 
     throw: tuple[int, ...]
-    place: tuple[int, ...]  # 0 the rod nearer to the nose, 1 the other
-    turn: Array  # δ: how far a split pin's half stands ahead of its throw [rad]
+    place: tuple[float, ...]  # along the pin: 0 nearest to the nose, 1 farthest
+    turn: Array  # δ: how far a split pin's part stands ahead of its throw [rad]
     mass: Array  # m_2 that turns with the pin [kg]
 
     def summed(self, values: Array, throws: int) -> Array:
-        """Sum over the rods of every throw: (engines, cylinders, …) to (engines, throws, …)."""
+        """Sum over the rods of every throw, in the unit of ``values`` [any], Gots 2.7.2.
+
+        Shape (engines, cylinders, …) becomes (engines, throws, …).
+        """
         if self.throw == tuple(range(throws)):  # a rod on each throw
             return values
         total = np.zeros((values.shape[0], throws, *values.shape[2:]))
@@ -63,19 +53,30 @@ class Rods:
             total[:, throw] += values[:, rod]
         return total
 
-    def places(self, found: Positions) -> Array:
-        """Distance of each rod from its throw's left support [m], (engines, cylinders)."""
-        both = (found.rod, found.right_rod)
-        columns = [
-            both[place][:, throw] for throw, place in zip(self.throw, self.place, strict=True)
+    def shares(self, places: Places[Array]) -> Array:
+        """Share [-] of each rod's load on its throw's right support, by statics, Gots (50)-(53).
+
+        Shape (engines, cylinders); it may lie outside 0…1.
+        """
+        on_throws = [
+            (places.rod_at(place) / places.length)[:, throw]
+            for throw, place in zip(self.throw, self.place, strict=True)
         ]
-        return np.stack(columns, axis=1)
+        return np.stack(on_throws, axis=1)
+
+
+class Load(NamedTuple):
+    """A force on a throw: its place [m] and components [N], shape (engines, throws)."""
+
+    place: Array
+    left: Array
+    up: Array
 
 
 def in_throw_frame(K: Array, T: Array, turn: Array) -> tuple[Array, Array]:
-    """Forces K and T on a split pin's half as components of its throw's frame.
+    """Forces K and T [N or Pa] on a split pin's part in its throw's frame, Gots 2.7.2.
 
-    ``turn`` [rad] is how far the half stands ahead of the throw; it broadcasts.
+    ``turn`` [rad] is how far the part stands ahead of the throw; its shape broadcasts.
     """
     if not np.any(turn):
         return K, T
@@ -83,108 +84,95 @@ def in_throw_frame(K: Array, T: Array, turn: Array) -> tuple[Array, Array]:
     return K * cos + T * sin, T * cos - K * sin
 
 
-def positions(throws: ThrowArrays) -> Positions:
-    """Places of webs, rods and pin along each throw, Gots figures 35 and 36."""
-    l1, l2, l3, l4, l5, l6 = np.moveaxis(throws.arms, -1, 0)
-    h_left, h_right = throws.left_web_thickness, throws.right_web_thickness
-    rod = l1 + h_left + l2
-    right = rod + l3 + l4 + l5
-    return Positions(
-        left_web=l1 + h_left / 2,
-        rod=rod,
-        right_rod=rod + l3 + l4,
-        pin=rod + l3,
-        right_web=right + h_right / 2,
-        length=right + h_right + l6,
-    )
-
-
-def right_share(place: Array, length: Array) -> Array:
-    """Share of a load at ``place`` carried by the right support [-]; may lie outside 0…1."""
-    return place / length
-
-
-def centrifugal_reactions(
-    throws: ThrowArrays, r: Array, omega: Array, rods: Rods
-) -> tuple[Array, Array]:
-    """Constant reactions of both supports to centrifugal forces [N], Gots (44)-(49).
-
-    With two rods on a throw C_3 is the mass m_2 of the left one, C_5 that of the right one.
-    Half of a split pin's mass stands in the direction of each half, in the middle of the pin.
+def own_loads(throws: ThrowArrays, unit: Array, pin_up: Array, pin_ahead: Array) -> list[Load]:
+    """Centrifugal forces [N] of pins, webs and counterweights, Gots (44)-(49).
 
     Args:
         throws: shape (engines, throws).
-        r: crank radius [m], shape (engines, 1).
-        omega: angular velocity [rad/s], same shape.
+        unit: rω² [m/s²], shape (engines, 1).
+        pin_up: share of the pin's mass that stands along the crank [-], as ``throws``.
+        pin_ahead: share that stands a quarter turn ahead, with a split pin.
+    """
+    place = throws.places
+    pin = throws.pin_mass * unit
+    loads = [Load(place.pin, -pin * pin_ahead, pin * pin_up)]
+    for side, where in enumerate((place.left_web, place.right_web)):
+        web, angle = throws.web_mass[..., side] * unit, throws.web_angle[..., side]
+        loads.append(Load(where, web * np.sin(angle), web * np.cos(angle)))
+        # A counterweight stands opposite the crank, turned on in the direction of rotation:
+        # from "down" rotation leads to "left".
+        weight = throws.counterweight_mass[..., side] * unit
+        angle = throws.counterweight_angle[..., side]
+        loads.append(Load(where, weight * np.sin(angle), -weight * np.cos(angle)))
+    return loads
+
+
+def end_loads(throws: ThrowArrays, unit: Array) -> tuple[Load, Load]:
+    """External counterweights as overhung loads [N], Gots 2.7: on the first throw, on the last.
+
+    Args:
+        throws: shape (engines, throws).
+        unit: rω² [m/s²], shape (engines, 1).
+    """
+    force, count = throws.end_mass * unit, throws.angle.shape[-1]
+    up, turned = force * np.cos(throws.end_angle), force * np.sin(throws.end_angle)
+    first, last = np.arange(count) == 0, np.arange(count) == count - 1
+    length = throws.places.length
+    nose = np.broadcast_to(-throws.end_arm[:, :1], length.shape)
+    # The nose angle runs with rotation, hence away from "left"; the rear angle against it.
+    return (
+        Load(nose, first * -turned[:, :1], first * up[:, :1]),
+        Load(length + throws.end_arm[:, 1:], last * turned[:, 1:], last * up[:, 1:]),
+    )
+
+
+def pin_directions(rods: Rods, throws: int) -> tuple[Array, Array]:
+    """Shares of the pins' masses along the crank and ahead of it [-], (engines, throws).
+
+    Each rod's part of a split pin has an equal share of the pin's mass; Gots 2.7.2 has no
+    split pins.  Shape (engines, throws).
+    """
+    up, ahead = np.cos(rods.turn), np.sin(rods.turn)
+    carried = rods.summed(np.ones_like(up), throws)
+    return rods.summed(up, throws) / carried, rods.summed(ahead, throws) / carried
+
+
+def centrifugal_reactions(throws: ThrowArrays, unit: Array, rods: Rods) -> tuple[Array, Array]:
+    """Constant reactions of both supports to centrifugal forces [N], Gots (44)-(49).
+
+    With two rods on a throw C_3 is the mass m_2 of the left one, C_5 that of the right one.
+
+    Args:
+        throws: shape (engines, throws).
+        unit: rω² [m/s²], shape (engines, 1).
         rods: the rods on the throws.
 
     Returns:
         Left and right reactions, shape (engines, throws, 2), the last axis being
         ``left`` (against rotation) and ``up`` (along the crank).
     """
-    unit = r * omega**2
-    place = positions(throws)
-    count = place.rod.shape[1]
+    count = throws.angle.shape[1]
     up, ahead = np.cos(rods.turn), np.sin(rods.turn)
-    carried = rods.summed(np.ones_like(rods.turn), count)
-    pin_up, pin_ahead = (rods.summed(part, count) / carried for part in (up, ahead))
-    loads: list[tuple[Array, Array, Array]] = []
-    for which, where in enumerate((place.rod, place.right_rod)):
-        mass = rods.mass * (np.array(rods.place) == which)
-        along, across = (rods.summed(mass * part, count) * unit for part in (up, ahead))
-        loads.append((where, along, -across))
-    pin = throws.pin_mass * unit
-    loads.append((place.pin, pin * pin_up, -pin * pin_ahead))
-    for side, where in enumerate((place.left_web, place.right_web)):
-        web = throws.web_mass[..., side] * unit
-        web_angle = throws.web_angle[..., side]
-        loads.append((where, web * np.cos(web_angle), web * np.sin(web_angle)))
-        # A counterweight stands opposite the crank, turned on in the direction of rotation:
-        # from "down" rotation leads to "left".
-        weight = throws.counterweight_mass[..., side] * unit
-        angle = throws.counterweight_angle[..., side]
-        loads.append((where, -weight * np.cos(angle), weight * np.sin(angle)))
-    loads.extend(_end_loads(throws, place, unit))
-
-    left = np.zeros((*place.rod.shape, 2))
+    own = [*own_loads(throws, unit, *pin_directions(rods, count)), *end_loads(throws, unit)]
+    left = np.zeros((*throws.angle.shape, 2))
     right = np.zeros_like(left)
-    for where, up, side_force in loads:
-        share = right_share(where, place.length)
-        vector = np.stack(np.broadcast_arrays(side_force, up), axis=-1)
-        right -= share[..., None] * vector
-        left -= (1 - share)[..., None] * vector
+    share = rods.shares(throws.places)
+    for axis, part in enumerate((-ahead, up)):
+        force = rods.mass * part
+        right[..., axis] -= rods.summed(share * force, count) * unit
+        left[..., axis] -= rods.summed((1 - share) * force, count) * unit
+        for load in own:
+            size, at = load[1 + axis], load.place / throws.places.length
+            right[..., axis] -= at * size
+            left[..., axis] -= (1 - at) * size
     return left, right
 
 
-def _end_loads(
-    throws: ThrowArrays, place: Positions, unit: Array
-) -> list[tuple[Array, Array, Array]]:
-    """External counterweights as overhung loads on the first and the last throw."""
-    count = place.rod.shape[-1]
-    force = throws.end_mass * unit
-    up, turned = force * np.cos(throws.end_angle), force * np.sin(throws.end_angle)
-    first = np.arange(count) == 0
-    last = np.arange(count) == count - 1
-    nose_place = np.broadcast_to(-throws.end_arm[:, :1], place.rod.shape)
-    rear_place = place.length + throws.end_arm[:, 1:]
-    return [
-        # The nose angle runs with rotation, hence away from "left"; the rear angle against it.
-        (nose_place, first * up[:, :1], first * -turned[:, :1]),
-        (rear_place, last * up[:, 1:], last * turned[:, 1:]),
-    ]
+def to_shaft_axes(left: Array, up: Array, gamma: Array) -> tuple[Array, Array]:
+    """Components x, y [N or Pa] of a throw's ``left`` and ``up``, elementwise, Gots 2.7.1.
 
-
-def to_shaft_axes(vector: Array, gamma: Array) -> Array:
-    """Turn (left, up) components of a throw at γ clockwise from crank 1 to shaft axes x, y.
-
-    Args:
-        vector: shape (..., 2).
-        gamma: angle [rad], broadcasting with ``vector`` without its last axis.
+    ``gamma`` [rad] is the throw's angle clockwise from crank 1.
     """
-    return np.stack(_turned(vector[..., 0], vector[..., 1], gamma), axis=-1)
-
-
-def _turned(left: Array, up: Array, gamma: Array) -> tuple[Array, Array]:
     cos, sin = np.cos(gamma), np.sin(gamma)
     return left * cos - up * sin, left * sin + up * cos
 
@@ -195,8 +183,8 @@ def main_reactions(
     """Reactions of every main bearing on its journal in shaft axes, Gots (50)-(57).
 
     Args:
-        K: force of each rod towards the crank axis in its throw's frame,
-            (engines, cylinders, angles); all forces are in one unit.
+        K: force of each rod towards the crank axis in its throw's frame [N or Pa],
+            shape (engines, cylinders, angles).
         T: force of each rod along the rotation in its throw's frame, same shape.
         throws: the throws.
         rods: the rods on the throws.
@@ -206,19 +194,17 @@ def main_reactions(
         Total (engines, journals, angles, 2) and the shares of the throw before and
         after each journal, same shape; the last axis is x, y.
     """
-    place = positions(throws)
-    count = place.rod.shape[1]
-    length = place.length[:, list(rods.throw)]
-    share = right_share(rods.places(place), length)[..., None]
+    count = throws.angle.shape[1]
+    share = rods.shares(throws.places)[..., None]
     # A push along T is answered against rotation ("left"), a push K inwards by "up".
-    answers = _turned(T, K, throws.angle[:, list(rods.throw)][:, :, None])
+    answers = to_shaft_axes(T, K, throws.angle[:, list(rods.throw)][:, :, None])
     # x and y apart in memory: arithmetic runs over whole rows.
     before = np.empty((2, K.shape[0], count + 1, K.shape[-1]))
     after = np.empty_like(before)
     before[:, :, 0], after[:, :, -1] = 0, 0
     sides = ((after[:, :, :-1], constant[0], 1 - share), (before[:, :, 1:], constant[1], share))
     for target, steady, part in sides:
-        still = _turned(steady[..., 0], steady[..., 1], throws.angle)
+        still = to_shaft_axes(steady[..., 0], steady[..., 1], throws.angle)
         for axis in (0, 1):
             moving = rods.summed(part * answers[axis], count)
             np.add(still[axis][..., None], moving, out=target[axis])
@@ -226,12 +212,11 @@ def main_reactions(
     return total, first, second
 
 
-def side_forces_left_of_pin(throws: ThrowArrays, r: Array, omega: Array) -> Array:
-    """Centrifugal forces against rotation acting left of each crankpin [N], (engines, throws)."""
-    unit = r * omega**2
+def side_forces_left_of_pin(throws: ThrowArrays, unit: Array) -> Array:
+    """Centrifugal forces against rotation left of each crankpin [N], (engines, throws), statics.
+
+    ``unit`` is rω² [m/s²] of shape (engines, 1).
+    """
     web = throws.web_mass[..., 0] * np.sin(throws.web_angle[..., 0])
     weight = throws.counterweight_mass[..., 0] * np.sin(throws.counterweight_angle[..., 0])
-    nose = throws.end_mass[:, :1] * np.sin(throws.end_angle[:, :1])
-    first = np.arange(web.shape[-1]) == 0
-    side: Array = unit * (web + weight - first * nose)
-    return side
+    return unit * (web + weight) + end_loads(throws, unit)[0].left

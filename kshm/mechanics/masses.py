@@ -1,8 +1,11 @@
-"""Moving masses and their inertia forces, Gots 2.2 and 2.3."""
+"""Moving masses that stand for rod, piston group and throw, Gots 2.2 and 2.3."""
 
 from __future__ import annotations
 
-from kshm.engine.engine import DirectMasses, Engine, Masses, Throw
+from kshm.engine.arrangement import throws as throws_of
+from kshm.engine.crankshaft import Throw
+from kshm.engine.engine import Engine
+from kshm.engine.masses import DirectMasses, Masses
 
 
 def two_mass_rod(rod: float, centre: float, length: float) -> tuple[float, float]:
@@ -36,8 +39,9 @@ def throw_mass(throw: Throw) -> float:
 def rotating_mass(engine: Engine) -> float:
     """Rotating mass of the first throw with its rods m_r = m_к + Σm_2 [kg], Gots (29).
 
-    Two rods on a pin count twice; an articulated rod hangs on its master and does not.
+    Rods on one pin count each; an articulated rod hangs on its master and does not.
     """
     _, big_end = point_masses(engine.masses, engine.geometry.rod_length)
-    rods = sum(place.throw == 0 and place.master is None for place in engine.arrangement)
+    places = engine.arrangement
+    rods = sum(places[i].master is None for i in throws_of(places)[0])
     return throw_mass(engine.crankshaft.throws[0]) + rods * big_end

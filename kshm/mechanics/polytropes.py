@@ -1,19 +1,17 @@
-"""Gas pressure over the crank angle: the polytropic scheme of Dinn and a table of points."""
+"""Gas pressure over the crank angle by the polytropic scheme of Dinn."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from kshm.arrays import Array, Mask
+from kshm.mechanics.kinematics import Stroke
 
 # Angles come from whole degrees: 1e-9 rad decides on which side of a switch a point lies.
 SLACK = 1e-9
 
-Mask = NDArray[np.bool_]
 EVERYWHERE: Mask = np.array(True)
 
 
@@ -34,30 +32,13 @@ class PolytropicArrays:
     scavenge_open: Array
 
 
-@dataclass(frozen=True, slots=True)
-class Stroke:
-    """When and how the volume of each cylinder changes, as arrays that broadcast.
-
-    ``ratio`` gives V/V_c [-] at crank angles [rad] of the cylinder; ``tdc`` and ``bdc`` are
-    its dead centres [rad], 0 and π in a central mechanism.
-    """
-
-    ratio: Callable[[Array], Array]
-    tdc: Array
-    bdc: Array
-
-
-def volume_ratio(displacement: Array, stroke: Array, eps: Array) -> Array:
-    """Cylinder volume over clearance volume V/V_c [-]; V_c from the piston's own stroke."""
-    ratio: Array = 1 + displacement * ((eps - 1) / stroke)
-    return ratio
-
-
 def polytropic_pressure(
     phi: Array, ratio: Array, motion: Stroke, eps: Array, gas: PolytropicArrays, *,
     strokes: int = 4,
 ) -> Array:  # fmt: skip
-    """Absolute gas pressure [Pa] at the angles ``phi`` [rad] of the cycle, V/V_c ``ratio``.
+    """Absolute gas pressure [Pa] at the angles ``phi`` [rad] of the cycle, Gots 2.1, Dinn.
+
+    All arrays broadcast to the result's shape; ``ratio`` is V/V_c [-] at ``phi``.
 
     The timing is counted from the dead centres that the mechanism has: an offset moves
     them, and the angles of ``gas`` with them.
@@ -96,8 +77,7 @@ class _Timing:
 
     def compression(self, ratio: Array, begin: Array, where: Mask = EVERYWHERE) -> Array:
         """Polytrope n_1 from p_a at the ratio ``begin``; p_a where it is not asked for."""
-        pressure: Array = self.gas.p_intake * _power(begin / ratio, self.gas.n_compression, where)
-        return pressure
+        return self.gas.p_intake * _power(begin / ratio, self.gas.n_compression, where)
 
     def rise(self, angle: Array, begin: Array) -> Array:
         """Straight rise from the start of combustion, at most to p_z."""
@@ -110,14 +90,12 @@ class _Timing:
         """Isobar to ρV_c and polytrope n_2; p_z where it is not asked for."""
         gas = self.gas
         fall = _power(gas.rho / ratio, gas.n_expansion, where & (ratio > gas.rho))
-        pressure: Array = gas.p_max * fall
-        return pressure
+        return gas.p_max * fall
 
     def line(self, begin: Array, from_: Array, end: Array, to: Array) -> Array:
         """Straight line of the pressure over the angle."""
         fraction = (self.angle - begin) / (end - begin)
-        pressure: Array = from_ + (to - from_) * fraction
-        return pressure
+        return from_ + (to - from_) * fraction
 
 
 def _four_stroke(t: _Timing) -> Array:
@@ -176,12 +154,3 @@ def _two_stroke(t: _Timing) -> Array:
         t.compression(t.ratio, begin),
     ]
     return np.select(conditions, values, default=t.rise(angle, begin))
-
-
-def tabulated_pressure(phi: Array, angles: Array, pressures: Array) -> Array:
-    """Absolute gas pressure [Pa] by straight lines between the given points.
-
-    Straight lines cannot overshoot.  ``angles`` [rad] rise from 0 to the cycle's end.
-    """
-    pressure: Array = np.interp(np.mod(phi, angles[-1]), angles, pressures)
-    return pressure

@@ -16,12 +16,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from kshm.engine.engine import Engine, RodMasses
+from kshm.arrays import Array
+from kshm.engine.engine import Engine
+from kshm.engine.masses import RodMasses
 from kshm.mechanics import dimensionless
-
-Array = NDArray[np.float64]
 
 STEEL = 7800.0  # kg/m³
 _WEB_ALLOWANCE = 0.01  # m, in the height of the web under (34)
@@ -33,7 +32,7 @@ class Parts:
 
     radius: float
     rod_length: float
-    crank_inertia: float  # I_к of one throw about the shaft
+    crank_inertia: float  # I_к of the first throw about the shaft
     rod_mass: float
     rod_centre: float  # x_L, from the piston pin
     rod_inertia: float  # about the rod's own centre of mass
@@ -61,7 +60,7 @@ def parts_of(engine: Engine) -> Parts:
     return Parts(
         radius=geometry.crank_radius,
         rod_length=length,
-        crank_inertia=throw_inertia(engine),
+        crank_inertia=float(throw_inertias(engine)[0]),
         rod_mass=rod,
         rod_centre=centre,
         rod_inertia=inertia if known is None else known,
@@ -69,32 +68,32 @@ def parts_of(engine: Engine) -> Parts:
     )
 
 
-def throw_inertia(engine: Engine) -> float:
-    """Moment of inertia of one throw without counterweights [kg·m²], Ilchenko (32)-(35).
+def throw_inertias(engine: Engine) -> Array:
+    """Moment of inertia of every throw without counterweights [kg·m²], Ilchenko (32)-(35).
 
-    With d⁴ in (32), (33) and the web's thickness in (34), as dimensions demand; the main
-    journal is the mean one, half of it on either side.
+    Shape (throws,).  With d⁴ in (32), (33) and the web's thickness in (34), as dimensions
+    demand; the main journal is the mean one, half of it on either side.
     """
     shaft, r = engine.crankshaft, engine.geometry.crank_radius
     bore, choice = engine.geometry.bore, engine.balancing
-    main_length = float(np.mean(shaft.main_lengths))
-    journals = cylinder_inertia(shaft.main_diameter, main_length)
-    pin_mass = STEEL * np.pi * shaft.pin_diameter**2 / 4 * shaft.pin_length
-    pin = cylinder_inertia(shaft.pin_diameter, shaft.pin_length) + pin_mass * r**2
-    height = r + (shaft.pin_diameter + shaft.main_diameter) / 2 + _WEB_ALLOWANCE
+    pin, pin_length = np.array(shaft.pin_diameters), np.array(shaft.pin_lengths)
+    main, main_length = np.array(shaft.main_diameters), np.array(shaft.main_lengths)
+    pins = cylinder_inertia(pin, pin_length) + STEEL * np.pi * pin**2 / 4 * pin_length * r**2
+    height = r + (pin + main.mean()) / 2 + _WEB_ALLOWANCE
     width, thickness = choice.web_width_share * bore, choice.web_thickness_share * bore
     web_mass = STEEL * height * width * thickness
     web = web_mass * ((height**2 + width**2) / 12 + r**2 / 4)
-    return float(journals + pin + 2 * web)
+    inertias: Array = cylinder_inertia(main, main_length).mean() + pins + 2 * web
+    return inertias
 
 
-def cylinder_inertia(diameter: float, length: float) -> float:
-    """Moment of inertia of a steel cylinder about its axis [kg·m²]."""
+def cylinder_inertia(diameter: Array, length: Array) -> Array:
+    """Moment of inertia of a steel cylinder [kg·m²], elementwise, Ilchenko (32)."""
     return STEEL * np.pi * diameter**4 / 32 * length
 
 
 def centre_speed(phi: Array, lam: float, share: float) -> Array:
-    """Speed of the rod's centre of mass over ωR [-], Ilchenko (10).
+    """Speed of the rod's centre of mass over ωR [-], elementwise, Ilchenko (10).
 
     Args:
         phi: crank angle [rad].
@@ -103,35 +102,34 @@ def centre_speed(phi: Array, lam: float, share: float) -> Array:
     """
     # Straight from the coordinates: the point divides pin and crankpin by ``share``.
     across = (1 - share) * np.cos(phi)
-    along = (1 - share) * np.sin(phi) + share * dimensionless.velocity(phi, np.array(lam))
+    along = (1 - share) * np.sin(phi) + share * dimensionless.exact(phi, np.array(lam)).v
     return np.hypot(along, across)
 
 
 def centre_speed_approx(phi: Array, share: float) -> Array:
-    """The paper's approximation of it, Ilchenko (11)."""
+    """The paper's approximation of ``centre_speed`` [-], elementwise, Ilchenko (11)."""
     return np.abs(share * np.cos(phi) ** 2 - 1)
 
 
 def exact(phi: Array, parts: Parts) -> tuple[Array, Array]:
-    """Reduced inertia of the rod and of the piston 2T/ω² [kg·m²], exact."""
+    """Reduced inertia of rod and piston 2T/ω² [kg·m²], elementwise, exact, Ilchenko (10)."""
     lam = np.array(parts.lam)
     share = 1 - parts.rod_centre / parts.rod_length
     turning = np.cos(phi) / np.sqrt(1 / lam**2 - np.sin(phi) ** 2)  # ω_ш/ω
     centre = parts.radius * centre_speed(phi, parts.lam, share)
     rod = parts.rod_mass * centre**2 + parts.rod_inertia * turning**2
-    piston = parts.piston_mass * (parts.radius * dimensionless.velocity(phi, lam)) ** 2
+    piston = parts.piston_mass * (parts.radius * dimensionless.exact(phi, lam).v) ** 2
     return rod, piston
 
 
 def approximate(phi: Array, parts: Parts) -> Array:
-    """Reduced inertia of one cylinder with its throw [kg·m²], Ilchenko (19) with m_п."""
+    """Reduced inertia of a cylinder with its throw [kg·m²], elementwise, Ilchenko (19), m_п."""
     lam, cosine = parts.lam, np.cos(phi)
     share = 1 - parts.rod_centre / parts.rod_length
     rod = parts.rod_mass * (parts.radius * (share * cosine**2 - 1)) ** 2
     turning = parts.rod_inertia * (lam * cosine) ** 2
     piston = parts.piston_mass * (parts.radius * np.sin(phi) * (1 + lam * cosine)) ** 2
-    result: Array = parts.crank_inertia + rod + turning + piston
-    return result
+    return parts.crank_inertia + rod + turning + piston
 
 
 def counterweight_inertia(engine: Engine) -> float:
@@ -143,15 +141,15 @@ def counterweight_inertia(engine: Engine) -> float:
 
 
 def of_engine(phi: Array, engine: Engine) -> Array:
-    """Reduced inertia of the whole engine without flywheel [kg·m²]."""
+    """Reduced inertia of the engine without flywheel [kg·m²], shape (angles,), Ilchenko (10)."""
     parts = parts_of(engine)
     phases = phi[None, :] - np.array(engine.firing_offsets)[:, None]
     rod, piston = exact(phases, parts)
-    total: Array = (rod + piston).sum(axis=0)
-    throws = len(engine.crankshaft.throws)
-    return total + throws * parts.crank_inertia + counterweight_inertia(engine)
+    shaft = float(throw_inertias(engine).sum()) + counterweight_inertia(engine)
+    total: Array = (rod + piston).sum(axis=0) + shaft
+    return total
 
 
 def variation(values: Array) -> float:
-    """Coefficient δ_I = (I_max − I_min)/(I_max + I_min) [-]; the paper defines none."""
+    """δ_I = (I_max − I_min)/(I_max + I_min) [-], shape (angles,); Ilchenko defines none."""
     return float((values.max() - values.min()) / (values.max() + values.min()))

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from kshm.arrays import Array
 
 
 def running_on_main(torque: Array) -> Array:
@@ -27,17 +26,16 @@ def running_on_main(torque: Array) -> Array:
 def running_on_pin(before: Array, torque: Array) -> Array:
     """Torque running on to each crankpin [N·m] by the book's rule, Gots table 13.
 
-    The torque on the main journal before plus half of the throw's own.
-
-    Args:
-        before: running-on torque on the main journal before the throw [N·m].
-        torque: torque of each throw [N·m], shape (engines, throws, angles).
+    The torque on the main journal before plus half of the throw's own, both of shape
+    (engines, throws, angles).
     """
     return before + torque / 2
 
 
 def running_on_pin_statics(before: Array, tangential: Array, r: Array) -> Array:
-    """Torque in the section through each crankpin [N·m] by statics.
+    """Torque in the section through each crankpin [N·m] by statics, shape as ``before``.
+
+    Gots 2.8 takes half of the throw's torque instead.
 
     Args:
         before: running-on torque on the main journal before the throw [N·m].
@@ -46,3 +44,18 @@ def running_on_pin_statics(before: Array, tangential: Array, r: Array) -> Array:
         r: crank radius [m].
     """
     return before + r * tangential
+
+
+def gas_torque(p_gas: Array, phi: Array, r: Array, lam: Array, area: Array) -> Array:
+    """Torque of the gas on central mechanisms [N·m], elementwise, by virtual work, Gots (39).
+
+    Args:
+        p_gas: gas pressure over the one under the piston [Pa].
+        phi: angle in the cycle of each cylinder [rad].
+        r: crank radius [m].
+        lam: λ [-].
+        area: piston area [m²].
+    """
+    along = np.sqrt(1 / lam**2 - np.sin(phi) ** 2)
+    torque: Array = p_gas * area * r * np.sin(phi) * (1 + np.cos(phi) / along)
+    return torque

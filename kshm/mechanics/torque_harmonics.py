@@ -15,9 +15,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from kshm.arrays import Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,10 +42,10 @@ class Harmonics:
 
 
 def analyse(values: Array, period: float, orders: Array) -> Harmonics:
-    """Harmonics of a curve over its period by the discrete Fourier transform.
+    """Harmonics of a curve over its period by Fourier's transform, in its unit, Chudakov (1).
 
     Args:
-        values: equidistant values, the last repeating the first.
+        values: equidistant values, the last repeating the first, shape (angles,) [any unit].
         period: length of the curve [rad]: 4π or 2π.
         orders: orders per turn, multiples of 2π/period below the half of the samples.
 
@@ -75,10 +74,9 @@ def specific_imbalance(m_j: float, r: float, area: float) -> float:
     return m_j * r / area
 
 
-def inertia_second(d_j: Array, omega: Array) -> Array:
-    """Inertia coefficient t_j2 = d_j ω²/2 [Pa], Chudakov (5)."""
-    result: Array = d_j * omega**2 / 2
-    return result
+def inertia_second(d_j: float, omega: Array) -> Array:
+    """Inertia coefficient t_j2 = d_j ω²/2 [Pa], elementwise, Chudakov (5)."""
+    return d_j * omega**2 / 2
 
 
 def speed_of(t_gas: float, d_j: float) -> float:
@@ -87,21 +85,19 @@ def speed_of(t_gas: float, d_j: float) -> float:
 
 
 def residual(t_gas: Array, t_inertia: Array, psi: float) -> Array:
-    """|t_г2 − (1 − ψ)·t_j2| [Pa]: Chudakov (6) with shafts that suppress a share ψ."""
-    left: Array = np.abs(t_gas - (1 - psi) * t_inertia)
-    return left
+    """|t_г2 − (1 − ψ)·t_j2| [Pa] with shafts that suppress ψ, elementwise, Chudakov (6)."""
+    return np.abs(t_gas - (1 - psi) * t_inertia)
 
 
 def residual_vector(t_gas: Array, gamma: float, t_inertia: Array, psi: float) -> Array:
-    """The same as vectors, with the true phase γ of the gas harmonic [Pa]."""
+    """The same [Pa] as vectors with the true phase γ of the gas, elementwise, Chudakov (6)."""
     left: Array = np.abs(t_gas * np.exp(1j * gamma) - (1 - psi) * t_inertia)
     return left
 
 
 def best_suppression(t_gas: Array, t_inertia: Array) -> Array:
-    """ψ_опт that makes (6) zero, none below the speed where it would be negative [-]."""
-    best: Array = np.maximum(0.0, 1 - t_gas / t_inertia)
-    return best
+    """ψ_опт [-] that makes Chudakov (6) zero, elementwise; none where it would be negative."""
+    return np.maximum(0.0, 1 - t_gas / t_inertia)
 
 
 def shaft_offset(psi: float, rod_length: float) -> float:

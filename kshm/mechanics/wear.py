@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from kshm.arrays import Array
 
 HALF_WINDOW = np.pi / 3
 # The window includes its edges: forces at dead centres lie exactly on them.
@@ -13,7 +13,7 @@ EDGE = 1e-9
 
 
 def ray_angles(rays: int) -> Array:
-    """Angles of the rays against rotation from ray I [rad], shape (rays,)."""
+    """Angles of the rays against rotation from ray I [rad], shape (rays,), Gots 2.6."""
     return 2 * np.pi / rays * np.arange(rays, dtype=np.float64)
 
 
@@ -33,7 +33,7 @@ def components(size: Array, ray: Array, rays: int) -> tuple[Array, Array]:
 
 
 def ray_loads(up: Array, against: Array, rays: int) -> Array:
-    """Force counted at each ray within ±60°, zero elsewhere, Gots table 14.
+    """Force [N or Pa] counted at each ray within ±60°, zero elsewhere, Gots table 14.
 
     Args:
         up: force component along ray I, shape (..., angles).
@@ -51,7 +51,7 @@ def ray_loads(up: Array, against: Array, rays: int) -> Array:
 
 
 def ray_sums(up: Array, against: Array, size: Array, rays: int) -> Array:
-    """Sum of ``ray_loads`` over one cycle; the repeated last angle is left out.
+    """Sum of ``ray_loads`` [N or Pa] over one cycle, the last angle left out, Gots table 14.
 
     Which rays count a force depends only on the sector that it points into, so the forces
     are summed by sectors first.  The edges of all windows are directions of rays, because
@@ -72,8 +72,7 @@ def ray_sums(up: Array, against: Array, size: Array, rays: int) -> Array:
     once[..., -1] = 0
     sector = row + _sectors(up, against, size, rays).astype(np.int64)
     by_sector = np.bincount(sector.ravel(), weights=once.ravel(), minlength=count * row.size)
-    sums: Array = by_sector.reshape(*size.shape[:-1], count) @ _counted_at(rays)
-    return sums
+    return by_sector.reshape(*size.shape[:-1], count) @ _counted_at(rays)
 
 
 def _sectors(up: Array, against: Array, size: Array, rays: int) -> NDArray[np.int8]:
@@ -84,17 +83,17 @@ def _sectors(up: Array, against: Array, size: Array, rays: int) -> NDArray[np.in
     """
     along, across = np.abs(up), np.abs(against)
     slack = size * (EDGE / np.sin(HALF_WINDOW))  # the edge of ``ray_loads`` as an angle
-    found: NDArray[np.int8] = (across > slack).view(np.int8)
+    sector: NDArray[np.int8] = (across > slack).view(np.int8)
     least, most = across - slack, across + slack
     for angle in ray_angles(rays)[1 : (rays + 3) // 4]:
         edge = along * np.tan(angle)
-        found += (least > edge).view(np.int8)
-        found += (most >= edge).view(np.int8)
+        sector += (least > edge).view(np.int8)
+        sector += (most >= edge).view(np.int8)
     if rays % 4 == 0:  # a ray stands at 90°
-        found += (along <= slack).view(np.int8)
-    found += (up < 0).view(np.int8) * (np.int8(rays) - 2 * found)
-    found += (against < 0).view(np.int8) * (np.int8(2 * rays) - 2 * found)
-    return found
+        sector += (along <= slack).view(np.int8)
+    sector += (up < 0).view(np.int8) * (np.int8(rays) - 2 * sector)
+    sector += (against < 0).view(np.int8) * (np.int8(2 * rays) - 2 * sector)
+    return sector
 
 
 def _counted_at(rays: int) -> Array:

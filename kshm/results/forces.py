@@ -1,38 +1,33 @@
 """Tables П4 and of single journals from the arrays of a batch, for one engine or for many.
 
 Every function takes the index of an engine or a slice of engines; columns are of shape
-(angles,) or (engines, angles).
+(angles,) or (engines, angles), SI units.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
-from numpy.typing import NDArray
 
-from kshm.engine.arrangement import pins
-from kshm.nomenclature.quantity import quantity
-from kshm.results.layout_columns import (
-    articulated_columns,
-    direction,
+from kshm.arrays import Array, Columns, Tables
+from kshm.chain.result import ChainArrays
+from kshm.engine.arrangement import pins, throws
+from kshm.mechanics.journals import in_throw_frame
+from kshm.nomenclature.quantity import ray_key
+from kshm.results.case import Case
+from kshm.results.layout import (
     has_single_rods,
     pin_table,
+    rod_names,
     shown_pins,
     throw_torque_key,
+    wear_table,
 )
 
-if TYPE_CHECKING:
-    from kshm.chain.solve import BatchSolution
-    from kshm.engine.engine import Engine
-
-Array = NDArray[np.float64]
-Columns = dict[str, Array]
 Index = int | slice
 
 
-def force_tables(raw: BatchSolution, at: Index = slice(None)) -> dict[str, Columns]:
-    """Forces, torques, crankpins, journals, running-on torques in the units of the tables."""
+def force_tables(raw: ChainArrays, at: Index = slice(None)) -> Tables:
+    """Forces, torques, crankpins, journals and running-on torques."""
     engine = raw.batch.engines[0]
     tables = {
         "P4_1": cylinder_columns(raw, at, 0),
@@ -47,16 +42,11 @@ def force_tables(raw: BatchSolution, at: Index = slice(None)) -> dict[str, Colum
             for i in range(raw.running_pin_statics.shape[1])
         },
     }
-    degrees = np.arange(0.0, engine.strokes * 180 + engine.step_deg, engine.step_deg)
-    return {
-        table: {"phi_deg": degrees}
-        | {key: values / quantity(key).si for key, values in columns.items()}
-        for table, columns in tables.items()
-    }
+    return {table: {"phi_deg": raw.phi, **columns} for table, columns in tables.items()}
 
 
-def cylinder_columns(raw: BatchSolution, at: Index, cylinder: int) -> Columns:
-    """Forces of one cylinder in SI units, Gots table П4.1."""
+def cylinder_columns(raw: ChainArrays, at: Index, cylinder: int) -> Columns:
+    """Forces of one cylinder, Gots table П4.1."""
     return {
         "Pg_MPa": raw.p_gas[at, cylinder], "Pj_MPa": raw.p_inertia[at, cylinder],
         "Ps_MPa": raw.p_sum[at, cylinder],
@@ -66,28 +56,33 @@ def cylinder_columns(raw: BatchSolution, at: Index, cylinder: int) -> Columns:
     }  # fmt: skip
 
 
-def _further(raw: BatchSolution, at: Index, cylinder: int) -> Columns:
-    hung = articulated_columns(raw, at, cylinder)
-    return {
+def _further(raw: ChainArrays, at: Index, cylinder: int) -> Columns:
+    columns = {
         "phase_deg": raw.local_phi[at, cylinder],
         "volume_ratio": raw.volume_ratio[at, cylinder],
         "p_MPa": raw.p[at, cylinder],
         **cylinder_columns(raw, at, cylinder),
-        **hung,
     }
+    rods, hung = raw.batch.articulated, raw.hung
+    if rods is not None and hung is not None and cylinder in rods.cylinders:
+        # What the rod does to the master piston and rod.
+        row, area = rods.cylinders.index(cylinder), raw.batch.area[at, 0]
+        columns["Nadd_MPa"] = hung.on_pin.N_added[at, row]
+        columns["Mrod_Nm"] = hung.on_pin.moment[at, row] * area
+    return columns
 
 
-def _torques(raw: BatchSolution, at: Index) -> Columns:
+def _torques(raw: ChainArrays, at: Index) -> Columns:
     each = {f"M{i + 1}_Nm": raw.torque[at, i] for i in range(raw.torque.shape[1])}
     return each | {"Msum_Nm": raw.torque_sum[at]}
 
 
-def _crankpin(raw: BatchSolution, at: Index, pin: int) -> Columns:
+def _crankpin(raw: ChainArrays, at: Index, pin: int) -> Columns:
     batch = raw.batch
     engine = batch.engines[0]
     own = [raw.K[at, i] for i in pins(engine.arrangement)[pin]]
     side, up = raw.pin_side[at, pin], raw.pin_up[at, pin]
-    values = {
+    columns = {
         "T_MPa": side,
         "K_MPa": np.sum(own, axis=0),
         "Krod_MPa": -up,
@@ -97,13 +92,13 @@ def _crankpin(raw: BatchSolution, at: Index, pin: int) -> Columns:
     if has_single_rods(engine):
         unit = batch.r[at, 0] * batch.omega[at, 0] ** 2
         throw = batch.m_k[at, 0] * unit / batch.area[at, 0]
-        values |= {"Ksum_MPa": -up - throw, "Rthrow_MPa": raw.throw_load[at, pin]}
-    return values
+        columns |= {"Ksum_MPa": -up - throw, "Rthrow_MPa": raw.throw_load[at, pin]}
+    return columns
 
 
-def _journal(raw: BatchSolution, at: Index, journal: int) -> Columns:
+def _journal(raw: ChainArrays, at: Index, journal: int) -> Columns:
     angles = raw.batch.throws.angle
-    values: Columns = {}
+    columns: Columns = {}
     sides = (("a", journal - 1, raw.journal_before), ("b", journal, raw.journal_after))
     for side, throw, vectors in sides:
         if not 0 <= throw < angles.shape[1]:
@@ -114,32 +109,78 @@ def _journal(raw: BatchSolution, at: Index, journal: int) -> Columns:
         # Back from the shaft axes to the frame of the throw.
         across = vector[..., 0] * cos + vector[..., 1] * sin
         along = -vector[..., 0] * sin + vector[..., 1] * cos
-        values |= {
-            f"{side}T_MPa": across, f"{side}Tcos_MPa": across * cos,
-            f"{side}Tsin_MPa": across * sin,
-            f"{side}K_MPa": along, f"{side}Kcos_MPa": along * cos,
-            f"{side}Ksin_MPa": along * sin,
-        }  # fmt: skip
+        for letter, part in (("T", across), ("K", along)):
+            columns |= {
+                f"{side}{letter}_MPa": part,
+                f"{side}{letter}cos_MPa": part * cos,
+                f"{side}{letter}sin_MPa": part * sin,
+            }
     x, y = raw.journal[at, journal][..., 0], raw.journal[at, journal][..., 1]
-    phi = raw.phi
-    values |= {
+    cos, sin = np.cos(raw.phi), np.sin(raw.phi)
+    return columns | {
         "Rx_MPa": x,
         "Ry_MPa": y,
         "R_MPa": raw.journal_load[at, journal],
         "psiR_deg": direction(x, y),
         # The load on the bearing is the opposite of the reaction; the shaft has turned
         # clockwise by φ, from "up" away from "left".
-        "block_x_MPa": -(x * np.cos(phi) - y * np.sin(phi)),
-        "block_y_MPa": -(x * np.sin(phi) + y * np.cos(phi)),
+        "block_x_MPa": -(x * cos - y * sin),
+        "block_y_MPa": -(x * sin + y * cos),
     }
-    return values
 
 
-def _running(raw: BatchSolution, at: Index, family: str, moments: Array, first: int) -> Columns:
+def _running(raw: ChainArrays, at: Index, family: str, moments: Array, first: int) -> Columns:
     """Torques on journals or pins from throw 1 on, with the throws' own between them."""
-    engine: Engine = raw.batch.engines[0]
-    values = {f"{family}{first}_Nm": moments[..., 0, :]}
+    engine = raw.batch.engines[0]
+    columns = {f"{family}{first}_Nm": moments[..., 0, :]}
     for throw in range(1, raw.throw_torque.shape[1]):
-        values[throw_torque_key(engine, throw)] = raw.throw_torque[at, throw]
-        values[f"{family}{throw + first}_Nm"] = moments[..., throw, :]
-    return values
+        columns[throw_torque_key(engine, throw)] = raw.throw_torque[at, throw]
+        columns[f"{family}{throw + first}_Nm"] = moments[..., throw, :]
+    return columns
+
+
+def rod_tables(case: Case) -> Tables:
+    """Forces of all rods on each throw in its frame, their sum and the throw's torque."""
+    if has_single_rods(case.engine):
+        return {}
+    return {
+        f"rods_{throw + 1}": _rods(case, throw, group)
+        for throw, group in enumerate(throws(case.engine.arrangement))
+    }
+
+
+def _rods(case: Case, throw: int, group: tuple[int, ...]) -> Columns:
+    raw, columns = case.raw, {"phi_deg": case.raw.phi}
+    for name, cylinder in zip(rod_names(len(group)), group, strict=True):
+        at = (case.index, cylinder)
+        K, T = in_throw_frame(raw.K[at], raw.T[at], raw.batch.pin_angle[at])
+        columns |= {f"T{name}_MPa": T, f"K{name}_MPa": K}
+    at = (case.index, throw)
+    return columns | {
+        "T_MPa": raw.throw_T[at],
+        "K_MPa": raw.throw_K[at],
+        "Rthrow_MPa": raw.throw_load[at],
+        "Mthrow_Nm": raw.throw_torque[at],
+    }
+
+
+def wear_tables(case: Case) -> Tables:
+    """Forces counted at the rays of every crankpin shown and of the main journals, table 14."""
+    raw, index = case.raw, case.index
+    tables = {
+        wear_table(n): raw.pin_rays(index, n) for n in range(len(shown_pins(case.engine)))
+    } | {f"table_14_main_{k + 1}": raw.journal_rays(index, k) for k in range(raw.journal.shape[1])}
+    return {
+        name: {"phi_deg": raw.phi, **{ray_key(i + 1): loads[:, i] for i in range(raw.batch.rays)}}
+        for name, loads in tables.items()
+    }
+
+
+def direction(side: Array, along: Array) -> Array:
+    """Angle of a vector from its ``along`` axis [rad] in (−π, π], steady where side ≈ 0.
+
+    Components below 1e-9 MPa are rounding noise of zero and count as zero, else
+    the angle would jump between −180° and 180°.
+    """
+    clean = np.where(np.abs(side) < 1e-3, 0.0, side)
+    return np.arctan2(clean, along)

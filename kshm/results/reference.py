@@ -5,55 +5,56 @@ Motions are divided by r, rω and rω², those of the rod by ω and ω².
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
-from numpy.typing import NDArray
 
-from kshm.mechanics import kinematics, masses
-
-if TYPE_CHECKING:
-    from kshm.engine.engine import Engine
-
-Array = NDArray[np.float64]
-Columns = dict[str, Array]
+from kshm.arrays import Array, Columns, Results
+from kshm.mechanics import kinematics
+from kshm.results.case import Case, grid
 
 STEP_DEG = 10.0
 FIGURE_6 = (0.1, 0.4, 0.01)  # first, last and step of λ
+# λ for which the textbook prints its reference tables 1-3 and 5-8.
+REFERENCE_LAMBDAS: tuple[tuple[str, float], ...] = tuple(
+    (f"lambda_1/{value}", 1 / float(value)) for value in ("3.2", "3.4", "3.6", "3.8", "4.0", "4.2")
+)
+_ONE: Array = np.ones(())
 
 
-def columns(engine: Engine) -> dict[str, Columns]:
-    """Reference tables in SI units; none unless the input asks for them."""
-    tables = {"vectors": _vectors(engine)}
+def reference_results(case: Case) -> Results:
+    """Figure 20 in SI units; reference tables and figure 5 where the input asks for them."""
+    engine = case.engine
+    lam, lambdas = engine.geometry.lam, np.array(engine.reference_lambdas)
+    tables = {"vectors": _vectors(case)}
+    scalars = {"C_vector": case.inertia_unit, "C2_vector": lam * case.inertia_unit}
     if not engine.reference_lambdas:
-        return tables
-    lambdas = np.array(engine.reference_lambdas)
-    half = np.radians(np.arange(0.0, 180.0 + STEP_DEG, STEP_DEG))
+        return tables, scalars
+    half = grid(0, 180, STEP_DEG)
     for name, values in kinematics.reference_functions(half[:, None], lambdas).items():
-        number = name.removeprefix("table_")
-        tables[f"ref_{number}"] = {
+        tables[name.replace("table", "ref")] = {
             "phi_deg": half,
             **{f"ref_lambda{i + 1}": values[:, i] for i in range(len(lambdas))},
         }
-    turn = np.radians(np.arange(0.0, 360.0 + STEP_DEG, STEP_DEG))
-    tables["ref_motion"] = _motion(turn, np.array(engine.geometry.lam))
+    tables["ref_motion"] = _motion(grid(0, 360, STEP_DEG), np.array(lam))
     tables["ref_fig6"] = _figure_6()
-    return tables
+    sin, cos = float(np.sin(engine.reference_angle)), float(np.cos(engine.reference_angle))
+    lift = cos + float(np.sqrt(1 - (lam * sin) ** 2)) / lam
+    return tables, scalars | {
+        "draw_B_x": sin, "draw_B_y": cos, "draw_A_y": lift,
+        # The rod's line from A through B meets the diameter across the cylinder axis at H.
+        "draw_H_x": sin * lift / (lift - cos), "draw_beta_deg": float(np.arcsin(lam * sin)),
+    }  # fmt: skip
 
 
 def _motion(phi: Array, lam: Array) -> Columns:
-    one = np.array(1.0)
-    s = kinematics.displacement_orders(phi, one, lam)
-    v = kinematics.velocity_orders(phi, one, lam, one)
-    j = kinematics.acceleration_orders(phi, one, lam, one)
-    rod = kinematics.rod_angular_velocity(phi, lam, one)
-    turn = kinematics.rod_angular_acceleration(phi, lam, one)
-    found: Columns = {"phi_deg": phi}
-    for letter, (first, second) in (("s", s), ("v", v), ("j", j)):
-        found |= {
+    columns: Columns = {"phi_deg": phi}
+    parts = kinematics.two_term_motion(phi, _ONE, lam, _ONE)
+    for letter, (first, second, _) in parts.items():
+        columns |= {
             f"{letter}1_rel": first, f"{letter}2_rel": second, f"{letter}_rel": first + second,
         }  # fmt: skip
-    return found | {
+    rod = kinematics.rod_angular_velocity(phi, lam, _ONE)
+    turn = kinematics.rod_angular_acceleration(phi, lam, _ONE)
+    return columns | {
         "omega_rod_rel": rod[0], "omega_rod_near_rel": rod[1],
         "eps_rod_rel": turn[0], "eps_rod_near_rel": turn[1],
     }  # fmt: skip
@@ -65,46 +66,55 @@ def _figure_6() -> Columns:
     lam: Array = np.arange(round(first / step), round(last / step) + 1, dtype=np.float64) * step
     one = np.ones_like(lam)
     fastest = kinematics.max_velocity(one, lam, one)
+    mean = kinematics.mean_velocity(one, one)
     return {
         "lambda_value": lam,
         "phi_vmax_deg": kinematics.max_velocity_angle(lam),
         "vmax_rel": fastest,
-        "v_ratio": fastest / kinematics.mean_velocity(one, one),
-        "v1_ratio": one / kinematics.mean_velocity(one, one),
+        "v_ratio": fastest / mean,
+        "v1_ratio": one / mean,
     }
 
 
-def _vectors(engine: Engine) -> Columns:
+def _vectors(case: Case) -> Columns:
     """Vectors C and λC and the forces that they project, Gots (31), figure 20."""
-    m_j, _ = masses.point_masses(engine.masses, engine.geometry.rod_length)
-    size = -m_j * engine.geometry.crank_radius * engine.omega**2
-    lam = engine.geometry.lam
-    phi = np.radians(np.arange(0.0, 360.0 + engine.step_deg, engine.step_deg))
-    first, second = size * np.cos(phi), lam * size * np.cos(2 * phi)
-    return {
-        "phi_deg": phi,
-        "Pj1_kN": first,
-        "Pj2_kN": second,
-        "C1_x_kN": size * np.sin(phi), "C1_y_kN": size * np.cos(phi),
-        "C2_x_kN": lam * size * np.sin(2 * phi), "C2_y_kN": lam * size * np.cos(2 * phi),
-        "rose1_x_kN": first * np.sin(phi), "rose1_y_kN": first * np.cos(phi),
-        "rose2_x_kN": second * np.sin(phi), "rose2_y_kN": second * np.cos(phi),
-    }  # fmt: skip
+    phi, size, lam = case.turn, -case.inertia_unit, case.engine.geometry.lam
+    columns: Columns = {"phi_deg": phi}
+    ends, roses = Columns(), Columns()
+    for order, length in ((1, size), (2, lam * size)):
+        force = length * np.cos(order * phi)
+        columns[f"Pj{order}_kN"] = force
+        ends |= {f"C{order}_x_kN": length * np.sin(order * phi), f"C{order}_y_kN": force}
+        roses |= {
+            f"rose{order}_x_kN": force * np.sin(phi), f"rose{order}_y_kN": force * np.cos(phi),
+        }  # fmt: skip
+    return columns | ends | roses
 
 
-def scalars(engine: Engine) -> dict[str, float]:
-    """Points of the drawn mechanism of figures 5 and 9 and the axes of figure 20."""
-    m_j, _ = masses.point_masses(engine.masses, engine.geometry.rod_length)
-    size = m_j * engine.geometry.crank_radius * engine.omega**2
-    found = {"C_vector": size, "C2_vector": engine.geometry.lam * size}
-    if not engine.reference_lambdas:
-        return found
-    lam, phi = engine.geometry.lam, engine.reference_angle
-    sin_b = lam * np.sin(phi)
-    lift = float(np.cos(phi) + np.sqrt(1 - sin_b**2) / lam)
-    # The rod's line from A through B meets the diameter across the cylinder axis at H.
-    cut = float(np.sin(phi) * lift / (lift - np.cos(phi)))
-    return found | {
-        "draw_B_x": float(np.sin(phi)), "draw_B_y": float(np.cos(phi)), "draw_A_y": lift,
-        "draw_H_x": cut, "draw_beta_deg": float(np.arcsin(sin_b)),
-    }  # fmt: skip
+def reference_tables(step_deg: int = 10) -> dict[str, dict[str, Array | list[str]]]:
+    """Tables 1, 2, 3, 5-8 of the textbook in the shape in which it prints them.
+
+    Values are printed without their sign; the sign stands in columns of its own,
+    for φ and for its mirror 360° − φ.
+    """
+    degrees = np.arange(0.0, 180.0 + step_deg, step_deg)
+    lambdas = np.array([value for _, value in REFERENCE_LAMBDAS])
+    values = kinematics.reference_functions(np.radians(degrees)[:, None], lambdas)
+    mirrored = {"table_2", "table_5", "table_7"}  # odd in φ
+    tables: dict[str, dict[str, Array | list[str]]] = {}
+    for name, rows in values.items():
+        columns = {key: np.abs(rows[:, i]) for i, (key, _) in enumerate(REFERENCE_LAMBDAS)}
+        mirror = {"phi_mirror_deg": 360 - degrees}
+        if name == "table_1":
+            tables[name] = {"phi_deg": degrees, **columns, **mirror}
+            continue
+        negative = rows[:, 0] < -1e-9
+        flipped = ~negative if name in mirrored else negative
+        tables[name] = {
+            "phi_deg": degrees,
+            "sign": ["-" if flag else "+" for flag in negative],
+            **columns,
+            "sign_mirror": ["-" if flag else "+" for flag in flipped],
+            **mirror,
+        }
+    return tables

@@ -1,14 +1,12 @@
-"""Further regimes of an engine: other speeds and gas, solved together, Gots 2.4."""
+"""Further regimes of an engine: other speeds and gas, Gots 2.4, under keys of their own."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
-from kshm.engine.engine import Engine, Regime
-
-if TYPE_CHECKING:
-    from kshm.results.solution import Columns, Solution
+from kshm.arrays import Scalars, Tables
+from kshm.engine.engine import Engine, OperatingPoint
 
 # Scalars that no speed and no gas changes: they stand once, without a regime's number.
 STATIC = frozenset(
@@ -32,53 +30,34 @@ def main_only(table: str) -> bool:
     return table in ("P4_3", "offset", "articulated") or table.startswith("P3")
 
 
-def of_regime(engine: Engine, regime: Regime) -> Engine:
+def at_point(engine: Engine, point: OperatingPoint) -> Engine:
     """The same engine at another speed with other gas."""
     return replace(
         engine,
-        omega=regime.omega,
-        gas=regime.gas,
-        mechanical_efficiency=regime.mechanical_efficiency,
-        indicated_power=regime.indicated_power,
-        fullness=regime.fullness,
-        cycle=None,
+        omega=point.omega,
+        gas=point.gas,
+        mechanical_efficiency=point.mechanical_efficiency,
+        indicated_power=point.indicated_power,
+        fullness=point.fullness,
         regimes=(),
     )
 
 
-def solve_regimes(engine: Engine) -> tuple[Solution, ...]:
-    """Solutions of the further regimes; those of one structure in one batch."""
-    from kshm.chain.solve import solve_batch
-    from kshm.chain.stack import structure
-    from kshm.results.solution import Solution
-
-    engines = [of_regime(engine, regime) for regime in engine.regimes]
-    groups: dict[tuple[object, ...], list[int]] = {}
-    for index, other in enumerate(engines):
-        groups.setdefault(structure(other), []).append(index)
-    found: dict[int, Solution] = {}
-    for members in groups.values():
-        raw = solve_batch([engines[index] for index in members])
-        for place, index in enumerate(members):
-            found[index] = Solution(engines[index], raw, place)
-    return tuple(found[index] for index in range(len(engines)))
-
-
-def regime_columns(solutions: tuple[Solution, ...]) -> dict[str, Columns]:
-    """Tables of the further regimes under their own ids, units of the tables."""
+def regime_tables(each: Iterable[Tables]) -> Tables:
+    """Tables of the further regimes under their own ids."""
     return {
         regime_key(table, number): columns
-        for number, solution in enumerate(solutions, 2)
-        for table, columns in solution.chain_columns.items()
+        for number, tables in enumerate(each, 2)
+        for table, columns in tables.items()
         if not main_only(table)
     }
 
 
-def regime_scalars(solutions: tuple[Solution, ...]) -> dict[str, float]:
-    """Scalars of the further regimes in SI units."""
+def regime_scalars(each: Iterable[Scalars]) -> Scalars:
+    """Scalars of the further regimes under their own keys."""
     return {
         regime_key(key, number): value
-        for number, solution in enumerate(solutions, 2)
-        for key, value in solution.chain_scalars.items()
+        for number, scalars in enumerate(each, 2)
+        for key, value in scalars.items()
         if key not in STATIC
     }

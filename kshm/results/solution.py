@@ -2,36 +2,82 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kshm.arrays import Array, Columns, Results, Scalars, Tables
+from kshm.chain.result import ChainArrays
+from kshm.chain.solve import solve_batch
+from kshm.chain.stack import structure
+from kshm.cycle.run import CycleRun
 from kshm.engine.engine import Engine
-from kshm.mechanics import kinematics
-from kshm.mechanics.cubic_diagrams import diagram_columns, diagram_scalars, gas_work
-from kshm.nomenclature.quantity import quantity, ray_key
-from kshm.results import regimes
-from kshm.results.companions import companion_columns, companion_scalars
-from kshm.results.cycle import cycle_columns
-from kshm.results.forces import force_tables
-from kshm.results.layout_columns import layout_columns, shown_pins, wear_table
-from kshm.results.summary import summarise
+from kshm.mechanics.balance import is_balanced_by_orders
+from kshm.nomenclature.quantity import quantity
+from kshm.results import forces, gas, motion, regimes
+from kshm.results.balance import balance_results
+from kshm.results.case import Case
+from kshm.results.continuous_beam import continuous_results
+from kshm.results.cycle import cycle_scalars, cycle_tables
+from kshm.results.inertia import inertia_results
+from kshm.results.loads import Engines, geometry_scalars, load_scalars, mass_scalars
+from kshm.results.masses import rod_mass_scalars
+from kshm.results.neiman import neiman_results
+from kshm.results.pin_bearing import pin_bending, rod_bearing
+from kshm.results.reference import reference_results, reference_tables
+from kshm.results.segal import segal_results
+from kshm.results.torque_orders import torque_order_results
+from kshm.results.two_term import two_term_errors
 
 if TYPE_CHECKING:
     import pandas as pd
 
-    from kshm.chain.solve import BatchSolution
+Subject = Callable[[Case], Results]
 
-Array = NDArray[np.float64]
-Columns = dict[str, Array]
+# Subjects for engines of every layout, and those that follow the series of a central
+# mechanism and take no articulated rods.
+ALWAYS: tuple[Subject, ...] = (
+    reference_results, rod_bearing, pin_bending, continuous_results, two_term_errors,
+)  # fmt: skip
+BY_ORDERS: tuple[Subject, ...] = (
+    segal_results, neiman_results, balance_results, inertia_results, torque_order_results,
+)  # fmt: skip
+_GRIDS = ("phi_deg", "alpha_deg")
 
-# λ for which the textbook prints its reference tables 1-3 and 5-8.
-REFERENCE_LAMBDAS: tuple[tuple[str, float], ...] = tuple(
-    (f"lambda_1/{value}", 1 / float(value)) for value in ("3.2", "3.4", "3.6", "3.8", "4.0", "4.2")
-)
+
+def solve(engine: Engine, cycle: CycleRun | None = None) -> Solution:
+    """Solve one engine: kinematics, forces, torques, journal loads and wear, Gots (1)-(60).
+
+    Args:
+        engine: the engine.
+        cycle: the calculation that its gas comes from, to stand among the results.
+    """
+    return Solution(engine, solve_batch([engine]), cycle=cycle)
+
+
+def solve_regimes(engine: Engine) -> tuple[Solution, ...]:
+    """Solutions of the further regimes; those of one structure in one batch."""
+    engines = [regimes.at_point(engine, point) for point in engine.regimes]
+    groups: dict[tuple[object, ...], list[int]] = {}
+    for index, other in enumerate(engines):
+        groups.setdefault(structure(other), []).append(index)
+    solutions: dict[int, Solution] = {}
+    for members in groups.values():
+        raw = solve_batch([engines[index] for index in members])
+        for place, index in enumerate(members):
+            solutions[index] = Solution(engines[index], raw, place)
+    return tuple(solutions[index] for index in range(len(engines)))
+
+
+def in_units(columns: Columns) -> Columns:
+    """SI columns in the units of the tables."""
+    return {
+        # Grids are whole degrees: what the conversion to radians and back leaves goes.
+        key: np.round(values / quantity(key).si, 9) if key in _GRIDS else values / quantity(key).si
+        for key, values in columns.items()
+    }
 
 
 class Solution:
@@ -42,63 +88,79 @@ class Solution:
     units in ``attrs["units"]``.  ``raw`` holds the SI arrays of the batch.
     """
 
-    def __init__(self, engine: Engine, raw: BatchSolution, index: int = 0) -> None:
+    def __init__(
+        self, engine: Engine, raw: ChainArrays, index: int = 0, cycle: CycleRun | None = None
+    ) -> None:
         self.engine = engine
         self.raw = raw
-        self._index = index
+        self.cycle = cycle
+        self._case = Case(engine, raw, index)
 
     @cached_property
-    def columns(self) -> dict[str, Columns]:
+    def columns(self) -> Tables:
         """Table id → column key → values in the units of the tables."""
-        companions = companion_columns(self.engine, self.raw, self._index)
-        return self.chain_columns | companions | regimes.regime_columns(self.regimes)
+        further = regimes.regime_tables(each.chain_tables for each in self.regimes)
+        tables = self.chain_tables | self._subjects[0] | further
+        return {table: in_units(columns) for table, columns in tables.items()}
+
+    @cached_property
+    def scalars(self) -> Scalars:
+        """Scalar key → value in the unit of its quantity."""
+        further = regimes.regime_scalars(each.chain_scalars for each in self.regimes)
+        scalars = self.chain_scalars | self._subjects[1] | further
+        return {key: value / quantity(key).si for key, value in scalars.items()}
 
     @cached_property
     def regimes(self) -> tuple[Solution, ...]:
         """Solutions of the engine's further regimes."""
-        return regimes.solve_regimes(self.engine)
+        return solve_regimes(self.engine)
 
     @cached_property
-    def chain_columns(self) -> dict[str, Columns]:
-        """Tables of chapters 1 and 2 alone, those that a regime changes among them."""
+    def chain_tables(self) -> Tables:
+        """Tables of chapters 1 and 2 alone in SI units, those that a regime changes among them."""
+        case = self._case
         tables = {
-            "P3_1": self._piston(),
-            "P3_2": self._rod(),
-            "gas": self._gas(),
-            **force_tables(self.raw, self._index),
-            **layout_columns(self.engine, self.raw, self._index),
-            **{
-                wear_table(n): self._wear(self.raw.pin_rays(self._index, n))
-                for n in range(len(shown_pins(self.engine)))
-            },
-            **{
-                f"table_14_main_{k + 1}": self._wear(self.raw.journal_rays(self._index, k))
-                for k in range(self._journals)
-            },
+            **motion.motion_tables(case),
+            "gas": gas.gas_table(case),
+            **forces.force_tables(self.raw, case.index),
+            **motion.layout_motion_tables(case),
+            **forces.rod_tables(case),
+            **forces.wear_tables(case),
+            **({} if self.cycle is None else cycle_tables(self.cycle)),
+            **gas.point_tables(case),
         }
-        if self.engine.cycle is not None:
-            made = cycle_columns(self.engine.cycle)
-            tables |= {name: self._units(columns) for name, columns in made.items()}
-        smooth = diagram_columns(self.engine)
-        tables |= {name: self._units(columns) for name, columns in smooth.items()}
-        worst = int(self.chain_scalars["worst_main_load"])
-        chosen = tables[f"P4_3_{worst}"]
-        tables["P4_3"] = {key: chosen[key] for key in ("phi_deg", "Rx_MPa", "Ry_MPa")}
-        return tables
+        worst = tables[f"P4_3_{int(self.chain_scalars['worst_main_load'])}"]
+        return tables | {"P4_3": {key: worst[key] for key in ("phi_deg", "Rx_MPa", "Ry_MPa")}}
 
     @cached_property
-    def scalars(self) -> dict[str, float]:
-        """Scalar key → value in the unit of its quantity."""
-        found = self.chain_scalars | companion_scalars(self.engine, self.raw, self._index)
-        found |= regimes.regime_scalars(self.regimes)
-        return {key: value / quantity(key).si for key, value in found.items()}
-
-    @cached_property
-    def chain_scalars(self) -> dict[str, float]:
+    def chain_scalars(self) -> Scalars:
         """Scalars of chapters 1 and 2 alone in SI units."""
-        found = summarise(self.engine, self.raw, self._index)
-        work = gas_work(self.engine, self.raw, self._index)
-        return found | diagram_scalars(self.engine, work)
+        case = self._case
+        of = Engines(self.raw, slice(case.index, case.index + 1))
+
+        def single(scalars: Mapping[str, Array]) -> Scalars:
+            return {key: float(each[0]) for key, each in scalars.items()}
+
+        return {
+            **single(geometry_scalars(of)),
+            **motion.layout_motion_scalars(case),
+            **single(mass_scalars(of)),
+            **gas.corner_scalars(case),
+            **single(load_scalars(of)),
+            **({} if self.cycle is None else cycle_scalars(self.cycle)),
+            **gas.gas_scalars(case),
+        }
+
+    @cached_property
+    def _subjects(self) -> Results:
+        """Tables and scalars beside the chain itself in SI units."""
+        by_orders = BY_ORDERS if is_balanced_by_orders(self.engine) else ()
+        tables, scalars = Tables(), rod_mass_scalars(self.engine)
+        for subject in (*by_orders, *ALWAYS):
+            more_tables, more_scalars = subject(self._case)
+            tables |= more_tables
+            scalars |= more_scalars
+        return tables, scalars
 
     @cached_property
     def tables(self) -> dict[str, pd.DataFrame]:
@@ -113,113 +175,9 @@ class Solution:
         for name, columns in tables.items():
             frame = pd.DataFrame(columns)
             known = [key for key in columns if not key.startswith(("lambda", "sign", "phi_m"))]
-            found = {key: quantity(key) for key in known}
-            frame.attrs["units"] = {key: about.unit_label for key, about in found.items()}
-            frame.attrs["symbols"] = {key: about.symbol for key, about in found.items()}
-            frame.attrs["titles"] = {key: about.title for key, about in found.items()}
+            about = {key: quantity(key) for key in known}
+            frame.attrs["units"] = {key: each.unit_label for key, each in about.items()}
+            frame.attrs["symbols"] = {key: each.symbol for key, each in about.items()}
+            frame.attrs["titles"] = {key: each.title for key, each in about.items()}
             frames[name] = frame
         return frames
-
-    @property
-    def _journals(self) -> int:
-        return len(self.engine.crankshaft.throws) + 1
-
-    @cached_property
-    def _degrees(self) -> Array:
-        engine = self.engine
-        return np.arange(0.0, engine.strokes * 180 + engine.step_deg, engine.step_deg)
-
-    def _turn(self) -> tuple[Array, Array, Array, Array, Array, Array]:
-        """φ over one turn with r, λ, ω, k as arrays for the kinematic tables."""
-        degrees = self._degrees[self._degrees <= 360]
-        geometry = self.engine.geometry
-        r, lam = np.array(geometry.crank_radius), np.array(geometry.lam)
-        k = np.array(geometry.relative_offset)
-        return degrees, np.radians(degrees), r, lam, np.array(self.engine.omega), k
-
-    def _units(self, values: Columns) -> Columns:
-        return {key: value / quantity(key).si for key, value in values.items()}
-
-    def _with_phi(self, values: Columns, degrees: Array | None = None) -> Columns:
-        return {"phi_deg": self._degrees if degrees is None else degrees, **self._units(values)}
-
-    def _piston(self) -> Columns:
-        degrees, phi, r, lam, omega, k = self._turn()
-        s1, s2 = kinematics.displacement_orders(phi, r, lam)
-        v1, v2 = kinematics.velocity_orders(phi, r, lam, omega)
-        j1, j2 = kinematics.acceleration_orders(phi, r, lam, omega)
-        values = {
-            "s1_mm": s1, "s2_mm": s2, "s_mm": s1 + s2,
-            "v1_m_s": v1, "v2_m_s": v2, "v_m_s": v1 + v2,
-            "j1_m_s2": j1, "j2_m_s2": j2, "j_m_s2": j1 + j2,
-        }  # fmt: skip
-        if not self.engine.geometry.is_central:
-            sk = kinematics.displacement_offset(phi, r, lam, k)
-            vk = kinematics.velocity_offset(phi, r, lam, omega, k)
-            jk = kinematics.acceleration_offset(phi, r, lam, omega, k)
-            values = {
-                "s1_mm": s1, "s2_mm": s2, "sk_mm": sk, "s_mm": s1 + s2 + sk,
-                "v1_m_s": v1, "v2_m_s": v2, "vk_m_s": vk, "v_m_s": v1 + v2 + vk,
-                "j1_m_s2": j1, "j2_m_s2": j2, "jk_m_s2": jk, "j_m_s2": j1 + j2 + jk,
-            }  # fmt: skip
-        return self._with_phi(values, degrees)
-
-    def _rod(self) -> Columns:
-        degrees, phi, _, lam, omega, k = self._turn()
-        exact, approx = kinematics.rod_angular_velocity(phi, lam, omega, k)
-        eps_exact, eps_approx = kinematics.rod_angular_acceleration(phi, lam, omega, k)
-        values = {
-            "beta_rad": kinematics.rod_angle(phi, lam, k),
-            "omega_rod_exact_1_s": exact,
-            "omega_rod_approx_1_s": approx,
-            "eps_rod_exact_1_s2": eps_exact,
-            "eps_rod_approx_1_s2": eps_approx,
-        }
-        return self._with_phi(values, degrees)
-
-    def _gas(self) -> Columns:
-        raw, e = self.raw, self._index
-        geometry = self.engine.geometry
-        swept = geometry.piston_area * geometry.stroke
-        displacement = raw.displacement[e, 0]
-        volume = swept / (geometry.compression_ratio - 1) + geometry.piston_area * displacement
-        ratio = volume * (geometry.compression_ratio - 1) / swept
-        values = {
-            "x_exact_mm": displacement,
-            "volume_ratio": ratio,
-            "volume_dm3": volume,
-            "p_MPa": raw.p[e, 0],
-        }
-        return self._with_phi(values)
-
-    def _wear(self, loads: Array) -> Columns:
-        return self._with_phi({ray_key(i + 1): loads[:, i] for i in range(loads.shape[1])})
-
-
-def reference_tables(step_deg: int = 10) -> dict[str, dict[str, Array | list[str]]]:
-    """Tables 1, 2, 3, 5-8 of the textbook in the shape in which it prints them.
-
-    Values are printed without their sign; the sign stands in columns of its own,
-    for φ and for its mirror 360° − φ.
-    """
-    degrees = np.arange(0.0, 180.0 + step_deg, step_deg)
-    lambdas = np.array([value for _, value in REFERENCE_LAMBDAS])
-    values = kinematics.reference_functions(np.radians(degrees)[:, None], lambdas)
-    mirrored = {"table_2", "table_5", "table_7"}  # odd in φ
-    tables: dict[str, dict[str, Array | list[str]]] = {}
-    for name, grid in values.items():
-        columns = {key: np.abs(grid[:, i]) for i, (key, _) in enumerate(REFERENCE_LAMBDAS)}
-        mirror = {"phi_mirror_deg": 360 - degrees}
-        if name == "table_1":
-            tables[name] = {"phi_deg": degrees, **columns, **mirror}
-            continue
-        negative = grid[:, 0] < -1e-9
-        flipped = ~negative if name in mirrored else negative
-        tables[name] = {
-            "phi_deg": degrees,
-            "sign": ["-" if flag else "+" for flag in negative],
-            **columns,
-            "sign_mirror": ["-" if flag else "+" for flag in flipped],
-            **mirror,
-        }
-    return tables

@@ -1,104 +1,137 @@
-"""Torque harmonics of one engine and Chudakov's coefficients as columns and scalars."""
+"""Torque harmonics of one engine and Chudakov's coefficients."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
-from numpy.typing import NDArray
 
-from kshm.engine.engine import Engine, PolytropicGas, RoundedGas
-from kshm.mechanics import kinematics, torque_harmonics
+from kshm.arrays import Array, Columns, Results, Scalars
+from kshm.engine.gas import TabulatedGas
+from kshm.mechanics import torque_harmonics
+from kshm.mechanics.kinematics import Position
 from kshm.mechanics.masses import point_masses
+from kshm.results.case import Case
 
-if TYPE_CHECKING:
-    from kshm.chain.solve import BatchSolution
-
-Array = NDArray[np.float64]
-Columns = dict[str, Array]
-
-D50_IMBALANCE = 19.2  # kg/m = 192 gf·cm/cm², the Д-50 engine
-D50_SUPPRESSIONS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
 LAST_ORDER = 8.0
+SECOND = np.array([2.0])
 
 
-def orders(step_deg: int, strokes: int = 4) -> Array:
-    """Orders 1/2, 1, … 8 of a four-stroke engine, 1 … 8 of a two-stroke one, up to the grid's."""
-    step = 2 / strokes
-    last = min(LAST_ORDER, 180 / step_deg - step)
-    found: Array = np.arange(1.0, round(last / step) + 1) * step
-    return found
+def torque_order_results(case: Case) -> Results:
+    """Tangential forces, their orders and, of four-stroke engines, what shafts suppress; SI.
 
-
-def tangential(engine: Engine, raw: BatchSolution, index: int) -> Columns:
-    """Specific tangential force of cylinder 1 from gas, inertia and the motored cycle [Pa]."""
-    phi, lam = raw.phi, engine.geometry.lam
-    beta = np.arcsin(lam * np.sin(phi))
-    shape = np.sin(phi) + np.tan(beta) * np.cos(phi)
-    curves = {
-        "t_gas_MPa": raw.p_gas[index, 0] * shape,
-        "t_inertia_MPa": raw.p_inertia[index, 0] * shape,
+    Chudakov's zones compare with a cycle of compression alone, which ports do not give.
+    """
+    curves = _tangential(case)
+    tables = {
+        "tangential": {"phi_deg": case.raw.phi, **curves},
+        "torque_orders": _orders(case, curves),
     }
-    if engine.strokes == 4:
-        curves["t_motored_MPa"] = (motored(engine, raw, index) - engine.gas.p_ambient) * shape
+    if case.engine.strokes != 4:
+        return tables, {}
+    scalars = _coefficients(case, curves)
+    return tables | {"suppression": _suppression(case, scalars)}, scalars
+
+
+def _tangential(case: Case) -> Columns:
+    """Specific tangential force of cylinder 1 from gas, inertia and the motored cycle [Pa]."""
+    raw, first = case.raw, (case.index, 0)
+    at = Position.at(raw.local_phi[first], case.sizes[1])
+    shape = at.sin + at.sin_beta / at.cos_beta * at.cos
+    curves = {"t_gas_MPa": raw.p_gas[first] * shape, "t_inertia_MPa": raw.p_inertia[first] * shape}
+    if case.engine.strokes == 4:
+        curves["t_motored_MPa"] = (_motored(case) - case.engine.gas.p_ambient) * shape
     return curves
 
 
-def motored(engine: Engine, raw: BatchSolution, index: int) -> Array:
+def _motored(case: Case) -> Array:
     """Gas pressure without combustion [Pa]: the compression, mirrored about TDC."""
-    phi = raw.phi
-    pressure = raw.p[index, 0]
+    raw, first, gas = case.raw, (case.index, 0), case.engine.gas
+    phi, pressure = raw.local_phi[first], raw.p[first]
     between = (phi > np.pi + 1e-9) & (phi < 3 * np.pi - 1e-9)
-    if isinstance(engine.gas, PolytropicGas | RoundedGas):
-        geometry = engine.geometry
-        r, lam = np.array(geometry.crank_radius), np.array(geometry.lam)
-        share = kinematics.displacement_exact(phi, r, lam) / (2 * r)
-        eps = geometry.compression_ratio
-        ratio = 1 + (eps - 1) * share
-        mirrored = engine.gas.p_intake * (eps / ratio) ** engine.gas.n_compression
+    if isinstance(gas, TabulatedGas):
+        row = np.arange(len(phi))
+        mirrored = pressure[np.minimum(row, row[::-1])]
     else:
-        mirrored = pressure[np.minimum(np.arange(len(phi)), len(phi) - 1 - np.arange(len(phi)))]
+        eps = case.engine.geometry.compression_ratio
+        mirrored = gas.p_intake * (eps / raw.volume_ratio[first]) ** gas.n_compression
     cold: Array = np.where(between, mirrored, pressure)
     return cold
 
 
-def _second(curve: Array, period: float) -> tuple[float, float]:
-    found = torque_harmonics.analyse(curve, period, np.array([2.0]))
-    return float(found.amplitude[0]), float(found.phase[0])
-
-
-def columns(engine: Engine, raw: BatchSolution, index: int) -> dict[str, Columns]:
-    """Tables ``tangential``, ``torque_orders``, ``suppression`` and ``d50`` in SI units."""
-    curves = tangential(engine, raw, index)
-    found = orders(engine.step_deg, engine.strokes)
+def _orders(case: Case, curves: Columns) -> Columns:
+    """Orders 1/2, 1, … 8 of a four-stroke engine, 1 … 8 of a two-stroke one, up to the grid's."""
+    engine = case.engine
+    step = 2 / engine.strokes
+    last = min(LAST_ORDER, 180 / engine.step_deg - step)
+    orders: Array = np.arange(1.0, round(last / step) + 1) * step
     gas, inertia = (
-        torque_harmonics.analyse(curves[key], engine.period, found)
+        torque_harmonics.analyse(curves[key], engine.period, orders)
         for key in ("t_gas_MPa", "t_inertia_MPa")
     )
-    total = torque_harmonics.Harmonics(found, gas.cosine + inertia.cosine, gas.sine + inertia.sine)
-    offsets = np.array(engine.firing_offsets)
-    together = np.abs(np.exp(-1j * found[:, None] * offsets).sum(axis=1))
+    total = torque_harmonics.Harmonics(orders, gas.cosine + inertia.cosine, gas.sine + inertia.sine)
+    together = np.abs(np.exp(-1j * orders[:, None] * np.array(engine.firing_offsets)).sum(axis=1))
     lever = engine.geometry.piston_area * engine.geometry.crank_radius
-    table: Columns = {"order": found}
+    table: Columns = {"order": orders}
     for name, part in (("gas", gas), ("inertia", inertia), ("total", total)):
-        table[f"{name}_cos_MPa"] = part.cosine
-        table[f"{name}_sin_MPa"] = part.sine
-        table[f"{name}_amplitude_MPa"] = part.amplitude
-        table[f"{name}_phase_deg"] = part.phase
+        table |= {
+            f"{name}_cos_MPa": part.cosine,
+            f"{name}_sin_MPa": part.sine,
+            f"{name}_amplitude_MPa": part.amplitude,
+            f"{name}_phase_deg": part.phase,
+        }
     table["cylinders_sum"] = together
     table["M_engine_order_Nm"] = total.amplitude * lever * together
-    tables = {"tangential": {"phi_deg": raw.phi, **curves}, "torque_orders": table}
-    if engine.strokes == 4:
-        tables |= {"suppression": _suppression(engine, raw, index), "d50": _d50()}
-    return tables
+    return table
 
 
-def _suppression(engine: Engine, raw: BatchSolution, index: int) -> Columns:
-    values = _coefficients(engine, raw, index)
+def _coefficients(case: Case, curves: Columns) -> Scalars:
+    """Second-order coefficients of gas and inertia, zones of speed, shafts; Chudakov (5)-(8)."""
+    engine, geometry, lam = case.engine, case.engine.geometry, case.engine.geometry.lam
+    second = {
+        key: torque_harmonics.analyse(curve, engine.period, SECOND) for key, curve in curves.items()
+    }
+    amplitude = {key: float(each.amplitude[0]) for key, each in second.items()}
+    gas, cold = amplitude["t_gas_MPa"], amplitude["t_motored_MPa"]
+    # Between the motored and the working cycle the harmonic is taken linear in p_i; at idle
+    # all of p_i goes into friction.
+    idle = cold + (gas - cold) * (1 - engine.mechanical_efficiency)
+    unit = case.inertia_unit / geometry.piston_area
+    m_j, _ = point_masses(engine.masses, geometry.rod_length)
+    d_j = torque_harmonics.specific_imbalance(m_j, geometry.crank_radius, geometry.piston_area)
+    t_j = float(torque_harmonics.inertia_second(d_j, case.omega))
+    bounds = sorted(torque_harmonics.speed_of(t_gas, d_j) for t_gas in (idle, gas))
+    best = float(torque_harmonics.best_suppression(np.array(gas), np.array(t_j)))
+    psi, rod = engine.balancing.suppression, geometry.rod_length
+    scalars = {
+        **{f"t_j_order{n}": value * unit
+           for n, value in enumerate(torque_harmonics.inertia_coefficients(lam), 1)},
+        "d_j": d_j,
+        "d_j_technical": d_j,
+        "t_gas2": gas,
+        "gamma_gas2_deg": float(second["t_gas_MPa"].phase[0]),
+        "t_inertia2": amplitude["t_inertia_MPa"],
+        "gamma_inertia2_deg": float(second["t_inertia_MPa"].phase[0]) % (2 * np.pi),
+        "t_j2": t_j,
+        "t_motored2": cold,
+        "t_gas2_idle": idle,
+        "n_zone1": bounds[0],
+        "n_zone2": bounds[1],
+        "zone": 1.0 + (engine.omega > bounds[0]) + (engine.omega > bounds[1]),
+        "psi_best_nominal": best,
+        "h_shafts": torque_harmonics.shaft_offset(psi, rod),
+        "h_shafts_best": torque_harmonics.shaft_offset(best, rod),
+    }  # fmt: skip
+    if engine.is_in_line:
+        scalars["P_shafts"] = 0.5 * lam * unit * geometry.piston_area * engine.cylinders
+    return scalars
+
+
+def _suppression(case: Case, scalars: Scalars) -> Columns:
+    """What balance shafts leave of the second order over the speed, Chudakov (6)."""
+    engine = case.engine
     ratio = np.linspace(0.3, 1.2, 10)
     omega: Array = ratio * engine.omega
-    t_j = torque_harmonics.inertia_second(np.array(values["d_j"]), omega)
-    nominal, idle = np.array(values["t_gas2"]), np.array(values["t_gas2_idle"])
+    t_j = torque_harmonics.inertia_second(scalars["d_j"], omega)
+    nominal, idle = np.array(scalars["t_gas2"]), np.array(scalars["t_gas2_idle"])
     psi = engine.balancing.suppression
     best = torque_harmonics.best_suppression(nominal, t_j)
     return {
@@ -108,77 +141,9 @@ def _suppression(engine: Engine, raw: BatchSolution, index: int) -> Columns:
         "residual_bare_MPa": torque_harmonics.residual(nominal, t_j, 0.0),
         "residual_psi_MPa": torque_harmonics.residual(nominal, t_j, psi),
         "residual_vector_MPa": torque_harmonics.residual_vector(
-            nominal, values["gamma_gas2"], t_j, psi
+            nominal, scalars["gamma_gas2_deg"], t_j, psi
         ),
         "psi_best": best,
         "psi_best_idle": torque_harmonics.best_suppression(idle, t_j),
         "h_best_mm": best * engine.geometry.rod_length,
     }
-
-
-def _d50() -> Columns:
-    omega: Array = np.linspace(1200, 3000, 10) * np.pi / 30
-    t_j = torque_harmonics.inertia_second(np.array(D50_IMBALANCE), omega)
-    return {
-        "n_rpm": omega,
-        **{f"t_psi{round(10 * psi)}": (1 - psi) * t_j for psi in D50_SUPPRESSIONS},
-    }
-
-
-def _coefficients(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float]:
-    geometry = engine.geometry
-    m_j, _ = point_masses(engine.masses, geometry.rod_length)
-    curves = tangential(engine, raw, index)
-    gas, gamma = _second(curves["t_gas_MPa"], engine.period)
-    cold, _ = _second(curves["t_motored_MPa"], engine.period)
-    # Between the motored and the working cycle the harmonic is taken linear in p_i; at idle
-    # all of p_i goes into friction.
-    idle = cold + (gas - cold) * (1 - engine.mechanical_efficiency)
-    d_j = torque_harmonics.specific_imbalance(m_j, geometry.crank_radius, geometry.piston_area)
-    return {"d_j": d_j, "t_gas2": gas, "gamma_gas2": gamma, "t_motored2": cold,
-            "t_gas2_idle": idle}  # fmt: skip
-
-
-def scalars(engine: Engine, raw: BatchSolution, index: int) -> dict[str, float]:
-    """Scalars of the torque harmonics in SI units; none for two-stroke engines.
-
-    Chudakov's zones compare with a cycle of compression alone, which ports do not give.
-    """
-    if engine.strokes != 4:
-        return {}
-    values = _coefficients(engine, raw, index)
-    geometry, psi = engine.geometry, engine.balancing.suppression
-    curves = tangential(engine, raw, index)
-    inertia, gamma_j = _second(curves["t_inertia_MPa"], engine.period)
-    d_j = values["d_j"]
-    t_j = float(torque_harmonics.inertia_second(np.array(d_j), np.array(engine.omega)))
-    unit = 2 * t_j  # m_j r ω²/F
-    bounds = [torque_harmonics.speed_of(values[key], d_j) for key in ("t_gas2_idle", "t_gas2")]
-    best = float(torque_harmonics.best_suppression(np.array(values["t_gas2"]), np.array(t_j)))
-    lam = geometry.lam
-    omega_d50 = 1630 * np.pi / 30
-    d50 = float(torque_harmonics.inertia_second(np.array(D50_IMBALANCE), np.array(omega_d50)))
-    found = {
-        **{f"t_j_order{n}": value * unit
-           for n, value in enumerate(torque_harmonics.inertia_coefficients(lam), 1)},
-        "d_j": d_j,
-        "d_j_technical": d_j,
-        "t_gas2": values["t_gas2"],
-        "gamma_gas2_deg": values["gamma_gas2"],
-        "t_inertia2": inertia,
-        "gamma_inertia2_deg": gamma_j % (2 * np.pi),
-        "t_j2": t_j,
-        "t_motored2": values["t_motored2"],
-        "t_gas2_idle": values["t_gas2_idle"],
-        "n_zone1": min(bounds),
-        "n_zone2": max(bounds),
-        "zone": 1.0 + (engine.omega > min(bounds)) + (engine.omega > max(bounds)),
-        "psi_best_nominal": best,
-        "h_shafts": torque_harmonics.shaft_offset(psi, geometry.rod_length),
-        "h_shafts_best": torque_harmonics.shaft_offset(best, geometry.rod_length),
-        "d50_t_j2": d50,
-        "d50_t_gas2": 0.6 * d50,
-    }  # fmt: skip
-    if engine.is_in_line:
-        found["P_shafts"] = 0.5 * lam * unit * geometry.piston_area * engine.cylinders
-    return found

@@ -2,70 +2,44 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
-from numpy.typing import NDArray
 
+from kshm.arrays import Results, Scalars
 from kshm.mechanics import kinematics
-from kshm.mechanics.masses import point_masses
-from kshm.results.summary import first_extreme
-
-if TYPE_CHECKING:
-    from kshm.engine.engine import Engine
-
-Array = NDArray[np.float64]
-Columns = dict[str, Array]
-
-_ERRORS = ("s_mm", "v_m_s", "j_m_s2", "Pj_MPa", "N_MPa", "T_MPa", "M_Nm")
+from kshm.nomenclature.quantity import quantity
+from kshm.results.case import Case
+from kshm.results.extremes import first_extreme
+from kshm.results.motion import UNITS
 
 
-def columns(engine: Engine) -> dict[str, Columns]:
-    """Exact and two-term motion and force over a turn with their differences, SI units."""
-    geometry = engine.geometry
-    r, lam = np.array(geometry.crank_radius), np.array(geometry.lam)
-    k, omega = np.array(geometry.relative_offset), np.array(engine.omega)
-    phi = np.radians(np.arange(0.0, 360.0 + engine.step_deg, engine.step_deg))
-    s = kinematics.displacement_exact(phi, r, lam, k)
-    v = kinematics.velocity_exact(phi, r, lam, omega, k)
-    j = kinematics.acceleration_exact(phi, r, lam, omega, k)
-    near = {
-        "s": sum(kinematics.displacement_orders(phi, r, lam))
-        + kinematics.displacement_offset(phi, r, lam, k),
-        "v": sum(kinematics.velocity_orders(phi, r, lam, omega))
-        + kinematics.velocity_offset(phi, r, lam, omega, k),
-        "j": sum(kinematics.acceleration_orders(phi, r, lam, omega))
-        + kinematics.acceleration_offset(phi, r, lam, omega, k),
-    }
-    m_j, _ = point_masses(engine.masses, geometry.rod_length)
-    force, near_force = (-m_j * a / geometry.piston_area for a in (j, near["j"]))
-    d_force = near_force - force
+def two_term_errors(case: Case) -> Results:
+    """Exact and two-term motion and force over a turn, their differences and the greatest, SI."""
+    geometry, phi, omega, (r, lam, k) = case.engine.geometry, case.turn, case.omega, case.sizes
+    area = geometry.piston_area
+    exact = kinematics.exact_motion(phi, r, lam, omega, k)
+    parts = kinematics.two_term_motion(phi, r, lam, omega, k)
+    near = {letter: first + second + offset for letter, (first, second, offset) in parts.items()}
+    mass = case.inertia_unit / float(r * omega**2)
+    for curves in (exact, near):
+        curves["Pj"] = -mass * curves["j"] / area
+    table, whole = {"phi_deg": phi}, {}
+    for (letter, values), unit in zip(exact.items(), (*UNITS, "MPa"), strict=True):
+        table[f"e{letter}_exact_{unit}"] = values
+        table[f"e{letter}_two_{unit}"] = near[letter]
+        table[f"e{letter}_{unit}"] = near[letter] - values
+        whole[f"e{letter}_{unit}"] = float(np.abs(values).max())
     beta = kinematics.rod_angle(phi, lam, k)
-    tangential = d_force * (np.sin(phi) + np.cos(phi) * np.tan(beta))
-    table = {
-        "phi_deg": phi,
-        "es_exact_mm": s, "es_two_mm": near["s"], "es_mm": near["s"] - s,
-        "ev_exact_m_s": v, "ev_two_m_s": near["v"], "ev_m_s": near["v"] - v,
-        "ej_exact_m_s2": j, "ej_two_m_s2": near["j"], "ej_m_s2": near["j"] - j,
-        "ePj_exact_MPa": force, "ePj_two_MPa": near_force, "ePj_MPa": d_force,
-        "eN_MPa": d_force * np.tan(beta), "eT_MPa": tangential,
-        "eM_Nm": tangential * geometry.piston_area * geometry.crank_radius,
-    }  # fmt: skip
-    return {"two_term": table}
-
-
-def scalars(engine: Engine) -> dict[str, float]:
-    """Greatest errors with the first angle at which each is reached, SI units."""
-    from kshm.nomenclature.quantity import quantity
-
-    table = columns(engine)["two_term"]
-    found: dict[str, float] = {"k_two_term": engine.geometry.relative_offset}
-    for error in _ERRORS:
-        unit = quantity(f"e{error}").si
-        name = error.split("_", maxsplit=1)[0]
-        most, at = first_extreme(np.abs(table[f"e{error}"]) / unit, table["phi_deg"])
-        found |= {f"e{name}_max": most * unit, f"phi_e{name}_deg": at}
-        whole = table.get(f"e{name}_exact_{error.partition('_')[2]}")
-        if whole is not None:
-            found[f"e{name}_rel"] = most * unit / float(np.abs(whole).max())
-    return found
+    tangential = table["ePj_MPa"] * (np.sin(phi) + np.cos(phi) * np.tan(beta))
+    table |= {
+        "eN_MPa": table["ePj_MPa"] * np.tan(beta),
+        "eT_MPa": tangential,
+        "eM_Nm": tangential * area * float(r),
+    }
+    scalars: Scalars = {"k_two_term": geometry.relative_offset}
+    for key in ("es_mm", "ev_m_s", "ej_m_s2", "ePj_MPa", "eN_MPa", "eT_MPa", "eM_Nm"):
+        most, at = first_extreme(np.abs(table[key]), phi, floor=quantity(key).si)
+        name = key.split("_", maxsplit=1)[0]
+        scalars |= {f"{name}_max": most, f"phi_{name}_deg": at}
+        if key in whole:
+            scalars[f"{name}_rel"] = most / whole[key]
+    return {"two_term": table}, scalars

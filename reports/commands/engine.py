@@ -91,11 +91,11 @@ def solve(source: Path, folder: Path | None, target: str | None, verbose: bool) 
     """Посчитать числа без документов."""
     from kshm import solve as solve_engine
     from reports.exports.numbers import csv_text, export_tables, json_text
-    from reports.inputs.to_si.engine import to_engine
+    from reports.inputs.to_si.engine import engine_and_cycle
     from reports.shared.files import atomic_path, make_dir, write_text
 
     loaded = load(source)
-    solution = solve_engine(to_engine(loaded.model))
+    solution = solve_engine(*engine_and_cycle(loaded.model))
     if folder is not None:
         make_dir(folder)
         for name, columns in export_tables(solution).items():

@@ -10,7 +10,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from kshm.nomenclature.quantity import quantity
-from kshm.results.solution import Solution, reference_tables
+from kshm.results.reference import reference_tables
+from kshm.results.solution import Solution
 from reports.inputs.fields import iter_fields
 from reports.inputs.sections.input_file import InputFile
 

@@ -7,12 +7,8 @@ from reports.inputs import units
 from reports.inputs.findings import Path
 from reports.inputs.meta import Meta, Strictly, find_meta, hints
 from reports.inputs.sections.cycle import CycleSection
-from reports.inputs.sections.input_file import (
-    CycleGasSection,
-    EngineSection,
-    GeometrySection,
-    RegimeSection,
-)
+from reports.inputs.sections.gas import CycleGasSection
+from reports.inputs.sections.input_file import EngineSection, GeometrySection, RegimeSection
 from reports.shared.russian import short
 
 # Inputs of the solver → keys of the file, where the names differ.

@@ -12,7 +12,7 @@ path                                  name
 crankshaft.firing_offsets_deg, i      ``firing_offset_<i+1>_deg``
 crankshaft.throw_angles_deg, i        ``throw_angle_<i+1>_deg``
 crankshaft.force_offsets_deg, i       ``force_offset_<i+1>_deg``
-crankshaft.main_lengths_mm, i         ``main_length_<i+1>_mm``
+crankshaft.main_lengths_mm, i         ``main_length_<i+1>_mm``, and so the other sizes
 crankshaft.webs, i, key               ``web_<i+1>_<key>``: ``web_3_mass_kg``
 crankshaft.arms, i, key               ``throw_<i+1>_<key>``: ``throw_1_l1_mm``,
                                       ``throw_1_left_web_mm``
@@ -32,46 +32,13 @@ from typing import Any
 from pydantic import BaseModel
 
 from reports.inputs.meta import Meta, find_meta, hints, submodel
+from reports.inputs.registry import SECTIONS
 from reports.inputs.sections.input_file import InputFile, RegimeSection, RegimeValues
 
 Path = tuple[str | int, ...]
 Value = str | int | float
 
-SECTIONS = {
-    "report": "Сведения о работе",
-    "engine": "Двигатель",
-    "calculation": "Расчет",
-    "geometry": "Геометрия",
-    "regime": "Режим",
-    "gas": "Газы",
-    "cycle": "Рабочий цикл",
-    "masses": "Массы",
-    "articulated": "Прицепной шатун",
-    "crankshaft": "Коленчатый вал",
-    "balance": "Уравновешивание и маховик",
-    "reference": "Справочные таблицы",
-}
-_LIST_SECTIONS = {
-    ("gas", "points"): "Индикаторная диаграмма по точкам",
-    ("crankshaft", "firing_offsets_deg"): "Начало рабочих ходов",
-    ("crankshaft", "throw_angles_deg"): "Углы колен",
-    ("crankshaft", "force_offsets_deg"): "Фазы сил",
-    ("crankshaft", "main_lengths_mm"): "Коренные шейки",
-    ("crankshaft", "webs"): "Щеки и противовесы",
-    ("crankshaft", "arms"): "Плечи колен",
-    ("reference", "lambdas"): "Справочные таблицы: значения λ",
-}
-_LIST_NAMES = {
-    "firing_offsets_deg": "firing_offset_{n}_deg",
-    "throw_angles_deg": "throw_angle_{n}_deg",
-    "force_offsets_deg": "force_offset_{n}_deg",
-    "main_lengths_mm": "main_length_{n}_mm",
-    "webs": "web_{n}_{key}",
-    "arms": "throw_{n}_{key}",
-    "points": "gas_point_{n}_{key}",
-    "lambdas": "reference_lambda_{n}_value",
-}
-_POINT_KEYS = ("deg", "mpa")
+POINT_KEYS = ("deg", "mpa")
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,8 +85,8 @@ def cell_name(path: Path) -> str:
         return f"{path[0]}_{path[1]}"
     key = path[3] if len(path) > 3 else ""
     if path[1] == "points":
-        key = _POINT_KEYS[int(path[3])]
-    return _LIST_NAMES[str(path[1])].format(n=int(path[2]) + 1, key=key)
+        key = POINT_KEYS[int(path[3])]
+    return SECTIONS[str(path[0])].lists[str(path[1])].cells.format(n=int(path[2]) + 1, key=key)
 
 
 def key_text(path: Path) -> str:
@@ -132,11 +99,11 @@ def key_text(path: Path) -> str:
 
 def iter_fields(model: InputFile) -> Iterator[Field]:
     """Yield the fields that are given or defaulted, in the order of the file."""
-    for section, title in SECTIONS.items():
-        part: BaseModel | None = getattr(model, section)
+    for section in SECTIONS.values():
+        part: BaseModel | None = getattr(model, section.name)
         if part is None:
             continue
-        yield from _fields_of(part, (section,), title, number=None)
+        yield from _fields_of(part, (section.name,), section.title, number=None)
     for index, regime in enumerate(model.regimes):
         yield from _regime_fields(regime, index)
 
@@ -174,7 +141,7 @@ def _fields_of(part: BaseModel, path: Path, section: str, number: int | None) ->
         here = (*path, key)
         optional = not type(part).model_fields[names[key]].is_required()
         if isinstance(value, tuple):
-            list_section = _LIST_SECTIONS[(str(path[0]), key)]
+            list_section = SECTIONS[str(path[0])].lists[key].title
             yield from _entries(value, annotation, here, list_section, optional)
             continue
         meta = find_meta(annotation)[0]

@@ -11,7 +11,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from kshm.engine.arrangement import Arrangement, in_line, opposed, throw_angle, v_shaped
+from kshm.engine.arrangement import Arrangement, fan, in_row, opposed, throw_angle
 from reports.inputs.findings import Finding
 from reports.inputs.units import number_text
 
@@ -31,17 +31,16 @@ def arrangement(
 ) -> Arrangement | None:
     """Return the places of the cylinders; None where the data do not make an engine."""
     if layout == "inline":
-        return in_line(cylinders)
+        return in_row(cylinders)
     if cylinders % 2 or cylinders < 2:
         return None
     if layout == "opposed":
         return opposed(cylinders)
     if bank_angle_deg is None:
         return None
-    split = None if split_pin_deg is None else math.radians(split_pin_deg)
-    return v_shaped(
-        cylinders, math.radians(bank_angle_deg), split_pin=split, articulated=articulated
-    )
+    split = None if split_pin_deg is None else (0.0, math.radians(split_pin_deg))
+    axes = (0.0, math.radians(bank_angle_deg))
+    return fan(cylinders // 2, axes, pin_angles=split, articulated=articulated)
 
 
 def expand(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[Finding]]:

@@ -18,60 +18,28 @@ from pydantic import ValidationError
 from reports.inputs import cells, load_regimes, messages
 from reports.inputs.checks import cross_checks
 from reports.inputs.diagram_file import with_points
-from reports.inputs.fields import SECTIONS, Path, key_text
+from reports.inputs.fields import Path, key_text
 from reports.inputs.findings import Finding, Values
 from reports.inputs.firing import FOLLOWING, expand
 from reports.inputs.meta import Strictly, hints, submodel
 from reports.inputs.ranges import read_ranges, split_ranges
-from reports.inputs.sections.articulated import ArticulatedSection
-from reports.inputs.sections.balance import BalanceSection
-from reports.inputs.sections.crankshaft import CrankshaftSection
-from reports.inputs.sections.cycle import CycleSection
-from reports.inputs.sections.gas import RoundedGasSection
-from reports.inputs.sections.input_file import (
+from reports.inputs.registry import GAS_MODELS, SECTIONS
+from reports.inputs.sections.gas import (
     SOURCES,
-    Calculation,
-    CycleGasSection,
-    DesignGeometrySection,
-    EngineSection,
-    GeometrySection,
-    InputFile,
     PolytropicGasSection,
-    Regime,
+)
+from reports.inputs.sections.input_file import (
+    DesignGeometrySection,
+    InputFile,
     RegimeSection,
     RegimeValues,
-    TableGasSection,
 )
-from reports.inputs.sections.masses import MassesSection
-from reports.inputs.sections.reference import ReferenceSection
-from reports.inputs.sections.report import Report
 from reports.inputs.source import read_text, refuse_bomb, refused
 from reports.shared.errors import InputError, Problem, one_line
 
 MAX_PROBLEMS = 200
 
 Locate = Callable[[Path], str]
-
-SECTION_MODELS: dict[str, type[Strictly]] = {
-    "report": Report,
-    "engine": EngineSection,
-    "calculation": Calculation,
-    "geometry": GeometrySection,
-    "regime": Regime,
-    "cycle": CycleSection,
-    "masses": MassesSection,
-    "articulated": ArticulatedSection,
-    "crankshaft": CrankshaftSection,
-    "balance": BalanceSection,
-    "reference": ReferenceSection,
-}
-_OPTIONAL_SECTIONS = ("report", "calculation", "cycle", "articulated", "balance", "reference")
-GAS_MODELS: dict[str, type[Strictly]] = {
-    "polytropic": PolytropicGasSection,
-    "table": TableGasSection,
-    "cycle": CycleGasSection,
-    "rounded": RoundedGasSection,
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,7 +152,8 @@ class _Reader:
     def from_cells(self, data: dict[str, Any]) -> dict[str, Any]:
         source = str(data["gas"].get("source")) if isinstance(data.get("gas"), dict) else ""
         source = next((key for key, label in SOURCES.items() if source == label), source)
-        known = {**SECTION_MODELS, "gas": GAS_MODELS.get(source, PolytropicGasSection)}
+        known = {name: section.model for name, section in SECTIONS.items()}
+        known["gas"] = GAS_MODELS.get(source, PolytropicGasSection)
         if self.regime is not None:
             known["regime"] = RegimeValues
         result, empty = cells.from_cells(data, known)
@@ -205,13 +174,13 @@ class _Reader:
             hint = f"возможно, имелся в виду [{likely}]" if likely else "удалите его"
             self.problems.append(self.problem((key,), "неизвестный раздел или ключ", hint))
         models = {}
-        for name in SECTIONS:
-            if name not in data and name not in _OPTIONAL_SECTIONS:
+        for name, about in SECTIONS.items():
+            if name not in data and not about.optional:
                 if name not in guessed:
                     hint = f"добавьте раздел [{name}]"
                     self.problems.append(self.problem((name,), "нет раздела", hint))
                 continue
-            if name in ("cycle", "articulated", "reference") and name not in data:
+            if about.absent and name not in data:
                 continue
             model = self._model_of(name, data.get(name, {}))
             if name == "geometry" and model is not None and _sizes_are_wanted(data):
@@ -258,7 +227,7 @@ class _Reader:
             self.problems.append(self.problem((name,), what))
             return None
         if name != "gas":
-            return SECTION_MODELS[name]
+            return SECTIONS[name].model
         source = raw.get("source")
         if isinstance(source, str) and source in GAS_MODELS:
             return GAS_MODELS[source]

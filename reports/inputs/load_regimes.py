@@ -10,7 +10,8 @@ from reports.inputs import messages
 from reports.inputs.checks.gas import check_gas
 from reports.inputs.findings import Finding, Path, Values
 from reports.inputs.meta import Strictly
-from reports.inputs.sections.input_file import CycleGasSection, RegimeSection, RegimeValues
+from reports.inputs.sections.gas import CycleGasSection
+from reports.inputs.sections.input_file import RegimeSection, RegimeValues
 
 MOST_REGIMES = 4
 

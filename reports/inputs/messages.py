@@ -11,39 +11,8 @@ from pydantic_core import ErrorDetails
 
 from reports.inputs import units
 from reports.inputs.meta import MAX_TEXT, Meta, Strictly, find_meta, hints, submodel
-from reports.inputs.sections.articulated import ArticulatedSection
-from reports.inputs.sections.crankshaft import ArmsSection, CrankshaftSection, WebSection
-from reports.inputs.sections.cycle import CycleSection
-from reports.inputs.sections.gas import RoundedGasSection
-from reports.inputs.sections.input_file import (
-    Calculation,
-    CycleGasSection,
-    EngineSection,
-    GeometrySection,
-    PolytropicGasSection,
-    Regime,
-    TableGasSection,
-)
-from reports.inputs.sections.masses import MassesSection
-from reports.inputs.sections.reference import ReferenceSection
-from reports.inputs.sections.report import Report
+from reports.inputs.registry import homes
 from reports.shared.errors import one_line
-
-_HOMES: dict[str, tuple[type[Strictly], ...]] = {
-    "[report]": (Report,),
-    "[engine]": (EngineSection,),
-    "[calculation]": (Calculation,),
-    "[geometry]": (GeometrySection,),
-    "[regime]": (Regime,),
-    "[gas]": (PolytropicGasSection, TableGasSection, CycleGasSection, RoundedGasSection),
-    "[cycle]": (CycleSection,),
-    "[masses]": (MassesSection,),
-    "[articulated]": (ArticulatedSection,),
-    "[reference]": (ReferenceSection,),
-    "[crankshaft]": (CrankshaftSection,),
-    "[[crankshaft.webs]]": (WebSection,),
-    "[[crankshaft.arms]]": (ArmsSection,),
-}
 
 
 def shown(value: object) -> str:
@@ -138,7 +107,7 @@ def likely_word(word: str, words: Iterable[str]) -> str | None:
 def unknown_key(key: str, model: type[Strictly]) -> tuple[str, str]:
     """Return (what, hint) for a key `model` does not know."""
     what = "неизвестный ключ"
-    for home, models in _HOMES.items():
+    for home, models in homes():
         if any(key in hints(candidate) for candidate in models):
             other = "при другом source" if model in models else f"в разделе {home}"
             return what, f"такой ключ есть {other}"

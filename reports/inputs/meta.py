@@ -16,6 +16,7 @@ from reports.inputs import units
 from reports.inputs.units import Unit
 
 MAX_TEXT = 300
+_MOST_LISTED = 8  # choices that a message lists one by one
 _REFUSED = {"Cc", "Cs", "Cn", "Zl", "Zp"}
 
 
@@ -79,7 +80,10 @@ class Meta:
         if self.choices is not None and len(self.choices) == 1:
             return "пока поддерживается только " + next(iter(self.choices))
         if self.choices is not None:
-            return "допустимо: " + ", ".join(self.choices)
+            names = list(self.choices)
+            if names == [str(n) for n in range(1, len(names) + 1)] and len(names) > _MOST_LISTED:
+                return f"допустимо от 1 до {names[-1]}"
+            return "допустимо: " + ", ".join(names)
         if self.minimum is None or self.maximum is None:
             return ""
         low = units.number_text(self.minimum)

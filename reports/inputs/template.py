@@ -10,14 +10,9 @@ from typing import Any
 import tomlkit
 from tomlkit.items import Table
 
-from reports.inputs.fields import SECTIONS
-from reports.inputs.load import SECTION_MODELS
 from reports.inputs.messages import likely_word, shown
-from reports.inputs.meta import Meta, Strictly, find_meta, hints, submodel
-from reports.inputs.sections.articulated import ArticulatedSection
-from reports.inputs.sections.cycle import CycleSection
-from reports.inputs.sections.input_file import PolytropicGasSection
-from reports.inputs.sections.reference import ReferenceSection
+from reports.inputs.meta import Meta, Strictly, find_meta, hints
+from reports.inputs.registry import SECTIONS, Section, records
 from reports.shared.errors import InputError, Problem
 from reports.shared.resources import samples_dir
 
@@ -28,37 +23,6 @@ _HEAD = (
     "Число пишется с точкой; окончание ключа называет единицу:",
     "_mm — мм, _kg — кг, _mpa — МПа, _deg — градусы, _rpm — мин⁻¹, _kw — кВт.",
 )
-
-
-_CYCLE_HINT = (
-    'Давления газов можно взять из расчета цикла: gas.source = "cycle" и раздел [cycle];',
-    "готовый пример дает команда kshm new --sample cycle-turbo-diesel.",
-)
-_ARTICULATED_HINT = ("Если шатуны правого ряда V-образного двигателя висят на главных:",)
-_REFERENCE_HINT = ("Таблицы 1–3, 5–8 и рисунки 3–10 учебника для любых λ; lambdas — список:",)
-_COMMENTED: dict[str, tuple[type[Strictly], tuple[str, ...]]] = {
-    "cycle": (CycleSection, _CYCLE_HINT),  # an alternative to the pressures of [gas]
-    "articulated": (ArticulatedSection, _ARTICULATED_HINT),
-    "reference": (ReferenceSection, _REFERENCE_HINT),
-}
-
-# Other ways to give a section's data, told above it.
-_MORE: dict[str, tuple[str, ...]] = {
-    "gas": (
-        'source = "rounded" — скругленная диаграмма рисунка 22 (kind = "petrol" или "diesel");',
-        'source = "table" — точки points, interpolation = "linear" или "monotone";',
-        'source = "file" — текстовая таблица рядом с этим файлом (CSV или результаты',
-        'DIESEL-RK, сохраненные как текст): file = "diagram.csv", pressure_unit = "bar",',
-        "angle_column и pressure_column — номер или заголовок столбца, firing_tdc_deg — угол",
-        "ВМТ сгорания в таблице.",
-        "Другие режимы того же двигателя — разделы [[regimes]] с [regimes.gas]: см. образец",
-        "gots-regimes.",
-    ),
-    "masses": (
-        "Шатун: rod_centre_mm, или rod_small_end_share, или взвешивание",
-        "rod_weighed_small_end_kg, или качания; чего нет — оценит estimate_fuel по таблице 4.",
-    ),
-}
 
 
 def list_samples() -> tuple[str, ...]:
@@ -105,27 +69,23 @@ def _explained() -> str:
     document = tomlkit.document()
     for line in _HEAD:
         document.add(tomlkit.comment(line))
-    models: dict[str, type[Strictly]] = {**SECTION_MODELS, "gas": PolytropicGasSection}
-    for name, title in SECTIONS.items():
-        if name in _COMMENTED:
-            document.add(tomlkit.nl())
-            for line in _commented(name):
+    for section in SECTIONS.values():
+        document.add(tomlkit.nl())
+        if section.absent:
+            for line in _commented(section):
                 document.add(tomlkit.comment(line))
             continue
-        document.add(tomlkit.nl())
-        document.add(tomlkit.comment(title))
-        for line in _MORE.get(name, ()):
+        for line in (section.title, *section.words):
             document.add(tomlkit.comment(line))
-        document.add(name, _table(models[name], values.get(name, {})))
+        document.add(section.name, _table(section.model, values.get(section.name, {})))
     return tomlkit.dumps(document)
 
 
-def _commented(name: str) -> Iterator[str]:
-    """An optional section as comments: its hint, its head, its keys."""
-    model, hint = _COMMENTED[name]
-    yield from hint
-    yield f"[{name}]"
-    for key, annotation in hints(model).items():
+def _commented(section: Section) -> Iterator[str]:
+    """An optional section as comments: its words, its head, its keys."""
+    yield from section.words
+    yield f"[{section.name}]"
+    for key, annotation in hints(section.model).items():
         yield f"{key} = … {_note(find_meta(annotation))}"
 
 
@@ -133,12 +93,12 @@ def _table(model: type[Strictly], values: dict[str, Any]) -> Table:
     table = tomlkit.table()
     defaults = model.model_construct()
     names = {info.alias or field: field for field, info in model.model_fields.items()}
+    inner = dict(records(model))
     for key, annotation in hints(model).items():
-        inner = submodel(annotation)
-        if inner is not None and issubclass(inner, Strictly):
+        if key in inner:
             entries = tomlkit.aot()
             for entry in values[key]:
-                entries.append(_table(inner, entry))
+                entries.append(_table(inner[key], entry))
             table.add(key, entries)
             continue
         note = _note(find_meta(annotation))

@@ -29,7 +29,7 @@ _REASONS = {
     errno.ENAMETOOLONG: "слишком длинное имя",
     errno.ENOENT: "нет такого файла или папки",
 }
-_ADVICE = "укажите другое место ключом -o"
+_ADVICE = "укажите другое место"
 
 
 def write_text(path: Path, text: str) -> None:

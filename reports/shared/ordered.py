@@ -67,7 +67,7 @@ def _on_cluster(
             "пакет dask", 'pip install "kshm[dask]"', purpose="для ключа --dask"
         ) from None
     try:
-        client = Client(address, timeout=_CONNECT_S, set_as_default=False)
+        client: Any = Client(address, timeout=_CONNECT_S, set_as_default=False)  # type: ignore[no-untyped-call]
     except (OSError, ValueError, TimeoutError):
         msg = (
             f"--dask {address}: планировщик не отвечает; проверьте адрес, например tcp://host:8786"

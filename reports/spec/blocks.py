@@ -6,11 +6,12 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal
+from typing import Any
 
 from kshm.nomenclature.quantity import Quantity, quantity
 from reports.inputs.fields import Field
 from reports.inputs.sections.input_file import InputFile
+from reports.spec.charts import ChartSpec
 
 _POINT = re.compile(r"gas_point_\d+_(?P<unit>deg|mpa)(?P<regime>_R\d+)?")
 
@@ -72,13 +73,18 @@ class Scalar:
 
 @dataclass(frozen=True, slots=True)
 class ScalarTable:
-    """A list of scalars, one below the other."""
+    """A list of scalars, one below the other.
+
+    ``verdicts``, the good word and the bad one, says that every value is followed by its
+    verdict, which stands in the same row.
+    """
 
     id: str
     title: str
     sheet: str
     scalars: tuple[Scalar, ...]
     note: str = ""
+    verdicts: tuple[str, str] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,29 +113,6 @@ class Grid:
 
 
 Block = TableSpec | ScalarTable | Grid
-
-
-@dataclass(frozen=True, slots=True)
-class Series:
-    """A curve: columns or grid rows as ``table.key``; ``name`` overrides the symbol."""
-
-    x: str
-    y: str
-    name: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class ChartSpec:
-    """A chart beside its table; ``figure`` is the number in the textbook."""
-
-    id: str
-    sheet: str
-    title: str
-    kind: Literal["line", "polar", "path", "scheme"]
-    series: tuple[Series, ...]
-    x_title: str
-    y_title: str
-    figure: str = ""
 
 
 @dataclass(frozen=True)
@@ -168,6 +151,11 @@ class Model:
         return {key: tuple(names) for key, names in runs.items()}
 
     @cached_property
+    def charts_by_id(self) -> Mapping[str, ChartSpec]:
+        """Charts of workbook and report by id."""
+        return {chart.id: chart for chart in self.charts}
+
+    @cached_property
     def sheets(self) -> tuple[str, ...]:
         """Titles of the sheets that carry blocks, in order."""
         return tuple(dict.fromkeys(block.sheet for block in self.blocks))
@@ -175,10 +163,7 @@ class Model:
     @cached_property
     def nodes(self) -> Mapping[str, Scalar | Column]:
         """Scalars by key and columns as ``table.column``."""
-        found: dict[str, Scalar | Column] = dict(self.scalars)
-        for table in self.tables.values():
-            found.update({f"{table.id}.{column.key}": column for column in table.columns})
-        return found
+        return {key: node for block in self.blocks for key, node in nodes_in(block)}
 
     @cached_property
     def grid_runs(self) -> Mapping[str, tuple[str, ...]]:
@@ -202,6 +187,13 @@ class Model:
         for name in ("tables", "scalars", "input_runs", "sheets", "nodes", "grid_runs", "programs"):
             made.__dict__[name] = getattr(self, name)
         return made
+
+
+def nodes_in(block: Block) -> Iterator[tuple[str, Scalar | Column]]:
+    """Columns as ``table.column`` or scalars by key."""
+    if isinstance(block, TableSpec):
+        yield from ((f"{block.id}.{column.key}", column) for column in block.columns)
+    yield from ((scalar.key, scalar) for scalar in scalars_of(block))
 
 
 def scalars_of(block: Block) -> Iterator[Scalar]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 
 from reports.formula.parse import names
-from reports.spec.blocks import Block, Grid, Model, TableSpec, scalars_of
+from reports.spec.blocks import Block, Model, nodes_in
 
 _KEPT = 8
 _graphs: dict[tuple[tuple[str, str | None], ...], Graph] = {}
@@ -13,7 +13,7 @@ _graphs: dict[tuple[tuple[str, str | None], ...], Graph] = {}
 
 def graph_of(model: Model) -> Graph:
     """The graph of a model; made once for a class, whose books differ in numbers only."""
-    key = tuple(_formulas(model).items())
+    key = tuple((name, node.expr) for name, node in model.nodes.items())
     found = _graphs.get(key)
     if found is None:
         if len(_graphs) >= _KEPT:
@@ -24,9 +24,7 @@ def graph_of(model: Model) -> Graph:
 
 def nodes_of(block: Block) -> list[str]:
     """Keys of all computed values of a block: scalars, and columns as ``table.column``."""
-    if isinstance(block, TableSpec):
-        return [f"{block.id}.{column.key}" for column in block.columns if column.expr is not None]
-    return [scalar.key for scalar in scalars_of(block)]
+    return [key for key, node in nodes_in(block) if node.expr is not None]
 
 
 def node_of(name: str, table: str, model: Model) -> str:
@@ -37,28 +35,12 @@ def node_of(name: str, table: str, model: Model) -> str:
     return name
 
 
-def _formulas(model: Model) -> dict[str, str | None]:
-    """Formula of every column and scalar; None for the column of angles."""
-    found: dict[str, str | None] = {}
-    for block in model.blocks:
-        if isinstance(block, TableSpec):
-            found.update({f"{block.id}.{c.key}": c.expr for c in block.columns})
-        else:
-            found.update({scalar.key: scalar.expr for scalar in scalars_of(block)})
-    return found
-
-
 class Graph:
     """Formulas of a model's nodes and what they refer to."""
 
     def __init__(self, model: Model) -> None:
-        self._formulas = _formulas(model)
-        self._runs = {
-            f"{block.id}.{row.of}": [cell.key for cell in row.cells if cell is not None]
-            for block in model.blocks
-            if isinstance(block, Grid)
-            for row in block.rows
-        }
+        self._formulas = {key: node.expr for key, node in model.nodes.items()}
+        self._runs = model.grid_runs
         self.owners = {node: block.id for block in model.blocks for node in nodes_of(block)}
         self._references: dict[str, frozenset[str]] = {}
         self._ancestors: dict[str, frozenset[str]] = {}

@@ -1,18 +1,21 @@
-"""Names within expressions: what a model lacks is replaced by what stands in for it."""
+"""Names within expressions: the one place that replaces them."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import partial
+from typing import TypeVar
 
 from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec
 
-_TOKEN = re.compile(r'"[^"]*"|[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)?')
+Names = Callable[[str], str]
+Node = TypeVar("Node", Scalar, Column)
+_TOKEN = re.compile(r'"[^"]*"|(?<![\w.])[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)?')
 
 
-def renamed(expr: str, names: Callable[[str], str]) -> str:
+def renamed(expr: str, names: Names) -> str:
     """An expression with its names passed through ``names``; texts in quotes stay."""
 
     def swap(match: re.Match[str]) -> str:
@@ -22,29 +25,57 @@ def renamed(expr: str, names: Callable[[str], str]) -> str:
     return _TOKEN.sub(swap, expr)
 
 
-def with_names(block: Block, change: Callable[[str], str]) -> Block:
-    """A block with ``change`` applied to every expression."""
+def substituted(blocks: tuple[Block, ...], names: Mapping[str, str]) -> tuple[Block, ...]:
+    """Blocks in which each name of ``names`` is replaced by the one that stands in for it."""
+    if not names:
+        return blocks
+    change = _Expressions(lambda name: names.get(name, name))
+    return tuple(_changed(block, change, change) for block in blocks)
+
+
+def copied(block: Block, names: Names) -> Block:
+    """A block under other names: its id, its scalars and all that its formulas name.
+
+    The columns of a table keep their keys.
+    """
+    own = {column.key for column in block.columns} if isinstance(block, TableSpec) else set()
+    change = _Expressions(lambda name: name if name in own else names(name))
 
     def scalar(item: Scalar) -> Scalar:
-        return replace(item, expr=change(item.expr))
+        return replace(change(item), key=names(item.key), of=item.of or item.key)
 
-    def column(item: Column) -> Column:
-        return item if item.expr is None else replace(item, expr=change(item.expr))
+    return replace(_changed(block, scalar, change), id=names(block.id))
 
+
+def copied_chart(chart: ChartSpec, names: Names) -> ChartSpec:
+    """A chart of what ``copied`` made of its tables."""
+    return replace(
+        chart,
+        series=tuple(replace(s, x=names(s.x), y=names(s.y)) for s in chart.series),
+        levels=tuple(map(names, chart.levels)),
+        hole=names(chart.hole),
+    )
+
+
+class _Expressions:
+    """Changes the expression of a scalar or column."""
+
+    def __init__(self, names: Names) -> None:
+        self._names = names
+
+    def __call__(self, item: Node) -> Node:
+        return item if item.expr is None else replace(item, expr=renamed(item.expr, self._names))
+
+
+def _changed(
+    block: Block, scalar: Callable[[Scalar], Scalar], column: Callable[[Column], Column]
+) -> Block:
     if isinstance(block, TableSpec):
         return replace(block, columns=tuple(map(column, block.columns)))
     if isinstance(block, ScalarTable):
         return replace(block, scalars=tuple(map(scalar, block.scalars)))
     rows = tuple(
-        replace(row, cells=tuple(None if c is None else scalar(c) for c in row.cells))
+        replace(row, cells=tuple(None if cell is None else scalar(cell) for cell in row.cells))
         for row in block.rows
     )
     return replace(block, rows=rows)
-
-
-def substituted(blocks: tuple[Block, ...], names: Mapping[str, str]) -> tuple[Block, ...]:
-    """Blocks in which each name of ``names`` is replaced by the one that stands in for it."""
-    if not names:
-        return blocks
-    change = partial(renamed, names=lambda name: names.get(name, name))
-    return tuple(with_names(block, change) for block in blocks)

@@ -22,6 +22,7 @@ class Shape:
     arrangement: Arrangement
     strokes: int
     offset: bool
+    own_pins: bool = False  # crankpins of sizes of their own
 
     @classmethod
     def of(cls, model: InputFile) -> Shape:
@@ -30,7 +31,10 @@ class Shape:
         offset = isinstance(given, GeometrySection) and (
             given.crank_offset_mm is not None or given.pin_offset_mm is not None
         )
-        return cls(arrangement_of(model), model.engine.strokes, offset)
+        shaft = model.crankshaft
+        lists = (shaft.pin_diameters_mm, shaft.pin_lengths_mm)
+        own_pins = any(len(set(sizes or ())) > 1 for sizes in lists)
+        return cls(arrangement_of(model), model.engine.strokes, offset, own_pins)
 
     @property
     def cylinders(self) -> int:
@@ -54,9 +58,10 @@ class Shape:
 
     @cached_property
     def pins(self) -> tuple[tuple[int, ...], ...]:
-        """Cylinders on every crankpin that has a table: one pin where all carry one rod."""
-        found = _numbered(pins(self.arrangement))
-        return found[:1] if all(len(group) == 1 for group in found) else found
+        """Cylinders on every crankpin that has a table: one where all are alike with one rod."""
+        groups = _numbered(pins(self.arrangement))
+        single = all(len(group) == 1 for group in groups)
+        return groups[:1] if single and not self.own_pins else groups
 
     @property
     def period(self) -> int:
@@ -77,12 +82,6 @@ class Shape:
     def banks(self) -> bool:
         """Whether the cylinders stand in two rows."""
         return any(place.axis for place in self.arrangement) or not self.single_rods
-
-    @property
-    def basic(self) -> bool:
-        """Four-stroke, in line, central: what the companion sources are about."""
-        in_line = [place.throw for place in self.arrangement] == list(range(self.cylinders))
-        return in_line and not self.banks and self.strokes == 4 and not self.offset
 
     @property
     def by_orders(self) -> bool:
@@ -138,14 +137,14 @@ class Shape:
                 f"(sqrt((1/lam + 1)**2 - k_offset**2) - (cos(rad({phi}))"
                 f" + sqrt(1 - lam**2*(sin(rad({phi})) - k_offset)**2)/lam))"
             )
-        return f"((1 - cos(rad({phi}))) + (1 - sqrt(1 - lam**2*sin(rad({phi}))**2))/lam)"
+        return _central(phi)
 
     def volume_ratio(self, phi: str) -> str:
         """V/V_c from the exact displacement."""
         if self.offset:
             scale = "(geometry_compression_ratio - 1)*r_crank/S_stroke"
             return f"1 + {scale}*{self.displacement(phi)}"
-        return f"1 + (geometry_compression_ratio - 1)/2*{self.displacement(phi)}"
+        return central_volume_ratio(phi)
 
     def axis(self, cylinder: int) -> str:
         """Angle of the cylinder's axis from that of cylinder 1 [deg]."""
@@ -154,6 +153,15 @@ class Shape:
 
 def _numbered(groups: tuple[tuple[int, ...], ...]) -> tuple[tuple[int, ...], ...]:
     return tuple(tuple(i + 1 for i in group) for group in groups)
+
+
+def _central(phi: str) -> str:
+    return f"((1 - cos(rad({phi}))) + (1 - sqrt(1 - lam**2*sin(rad({phi}))**2))/lam)"
+
+
+def central_volume_ratio(phi: str) -> str:
+    """V/V_c of a central mechanism from the exact displacement, Gots (1)."""
+    return f"1 + (geometry_compression_ratio - 1)/2*{_central(phi)}"
 
 
 def rods_table(throw: int) -> str:

@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kshm.chain.solve import solve_chunks
+from kshm.cycle.run import CycleRun
 from kshm.engine.engine import Engine
 from reports.inputs.fields import Path, set_value
 from reports.inputs.load import load_mapping
-from reports.inputs.to_si.engine import to_engine
+from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.errors import KshmError
 from reports.studies.plan import Plan
 from reports.studies.quantities import Wanted, of_batch
@@ -53,12 +54,13 @@ def solved(task: Task) -> Chunk:
     """Every combination is checked like an input file; those that fail keep their reason."""
     errors = [""] * len(task.rows)
     engines, places = _engines(task, errors)
+    cycles = [cycle for _, cycle in engines]
     values = {name: np.full(len(task.rows), np.nan) for name in task.wanted.names}
     begin = 0
-    for raw in solve_chunks(engines):
-        here = places[begin : begin + len(raw.batch.engines)]
-        begin += len(here)
-        for name, numbers in of_batch(raw, task.wanted).items():
+    for raw in solve_chunks(engine for engine, _ in engines):
+        these = slice(begin, begin + len(raw.batch.engines))
+        begin, here = these.stop, places[these]
+        for name, numbers in of_batch(raw, task.wanted, cycles[these]).items():
             values[name][here] = numbers
     for row in places:
         if not all(np.isfinite(each[row]) for each in values.values()):
@@ -66,14 +68,16 @@ def solved(task: Task) -> Chunk:
     return Chunk(task.rows, values, errors)
 
 
-def _engines(task: Task, errors: list[str]) -> tuple[list[Engine], list[int]]:
+def _engines(
+    task: Task, errors: list[str]
+) -> tuple[list[tuple[Engine, CycleRun | None]], list[int]]:
     raw = copy.deepcopy(task.raw)
-    engines: list[Engine] = []
+    engines: list[tuple[Engine, CycleRun | None]] = []
     places: list[int] = []
     for number, row in enumerate(task.rows):
         _put(raw, task.paths, row)
         try:
-            engines.append(to_engine(load_mapping(raw, source=task.source).model))
+            engines.append(engine_and_cycle(load_mapping(raw, source=task.source).model))
         except KshmError as error:
             errors[number] = error.lines()[0]
         else:

@@ -9,11 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from kshm.chain.solve import BatchSolution
+from kshm.chain.result import ChainArrays
+from kshm.cycle.run import CycleRun
 from kshm.nomenclature.quantity import quantity
+from kshm.results.extremes import first_extremes
 from kshm.results.forces import force_tables
-from kshm.results.solution import Solution
-from kshm.results.summary import chain_scalars, first_extremes
+from kshm.results.loads import chain_scalars
+from kshm.results.solution import Solution, in_units
 from reports.shared.errors import InputError, Problem, one_line
 from reports.workbook.styles import excel_format
 
@@ -40,12 +42,13 @@ class Wanted:
         return [*self.scalars, *pairs]
 
 
-def choose(base: BatchSolution, asked: Sequence[str]) -> Wanted:
+def choose(base: ChainArrays, asked: Sequence[str], cycle: CycleRun | None = None) -> Wanted:
     """What is asked for, or what the chain of forces gives for every engine at once.
 
     Args:
         base: the solved base, which tells what there is.
         asked: keys of scalars, ``M_mean``, and of columns, ``P4_1.N_MPa``.
+        cycle: the calculation that the base's gas comes from.
 
     Raises:
         InputError: there is no such quantity.
@@ -60,7 +63,7 @@ def choose(base: BatchSolution, asked: Sequence[str]) -> Wanted:
             if _summed_up(key)
         )
         return Wanted(scalars, columns, slow=False)
-    solution = Solution(base.batch.engines[0], base)
+    solution = Solution(base.batch.engines[0], base, cycle=cycle)
     pairs = {
         f"{table}.{key}": (table, key)
         for table, columns in solution.columns.items()
@@ -94,16 +97,28 @@ def _unknown(name: str, known: list[str]) -> InputError:
     return InputError(Problem(where, "нет такой величины", hint))
 
 
-def of_batch(raw: BatchSolution, wanted: Wanted) -> dict[str, Array]:
-    """Values of all engines of a batch in the units of the tables, by name."""
+def of_batch(
+    raw: ChainArrays, wanted: Wanted, cycles: Sequence[CycleRun | None]
+) -> dict[str, Array]:
+    """Values of all engines of a batch in the units of the tables, by name.
+
+    Args:
+        raw: the solved engines.
+        wanted: what they give.
+        cycles: the calculation that the gas of each comes from.
+    """
     if wanted.slow:
-        each = [_of_one(Solution(e, raw, i), wanted) for i, e in enumerate(raw.batch.engines)]
+        each = [
+            _of_one(Solution(engine, raw, i, cycle), wanted)
+            for i, (engine, cycle) in enumerate(zip(raw.batch.engines, cycles, strict=True))
+        ]
         return {name: np.array([one[name] for one in each]) for name in wanted.names}
     found = chain_scalars(raw)
     values = {key: found[key] / quantity(key).si for key in wanted.scalars}
     tables = force_tables(raw) if wanted.columns else {}
     for table, key in wanted.columns:
-        values |= _summary(table, key, tables[table][key], tables[table]["phi_deg"])
+        columns = in_units({name: tables[table][name] for name in ("phi_deg", key)})
+        values |= _summary(table, key, columns[key], columns["phi_deg"])
     return values
 
 
@@ -146,4 +161,4 @@ def format_of(name: str) -> str:
     """Number format of a name; the grid's angles may be fractions of a degree."""
     if name.endswith("_deg") and "." in name:
         return "0.##"
-    return excel_format(quantity(name.split(".")[1] if "." in name else name).digits)
+    return excel_format(quantity(name.split(".")[1] if "." in name else name))

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from kshm.chain.solve import chunk_size, solve_batch
 from reports.exports.build import load_input
-from reports.inputs.to_si.engine import to_engine
+from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.errors import KshmError, OutputError
 from reports.shared.files import atomic_path
 from reports.shared.ordered import in_order
@@ -63,8 +63,8 @@ def sweep(
         raise KshmError(msg)
     model = load_input(source).model
     plan = make_plan(model, source.name, vary, pairwise=pairwise)
-    engine = to_engine(model)
-    wanted = choose(solve_batch([engine]), quantities)
+    engine, cycle = engine_and_cycle(model)
+    wanted = choose(solve_batch([engine]), quantities, cycle)
     size = options.chunk or chunk_size(engine)
     jobs = options.jobs or len(os.sched_getaffinity(0))
     if plan.count <= _FEW and not options.jobs:

@@ -4,78 +4,73 @@ from __future__ import annotations
 
 from reports.inputs.fields import iter_fields
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Block, ChartSpec, Model
+from reports.spec.blocks import Model
+from reports.spec.parts import Part, PartOf, Scope, joined
 from reports.spec.rename import substituted
-from reports.spec.shape import Shape
-from reports.tables.gas.cycle import process_blocks
-from reports.tables.gas.cycle_results import result_blocks
-from reports.tables.gas.cycle_speed import cycle_charts, speed_blocks
-from reports.tables.loads.comparison import comparison_blocks, comparison_charts
-from reports.tables.loads.cylinder import cylinder_blocks
-from reports.tables.loads.journals import journal_blocks
+from reports.tables.balance.balance import balance
+from reports.tables.balance.inertia import inertia
+from reports.tables.balance.torque_orders import torque_orders
+from reports.tables.gas.cycle import processes
+from reports.tables.gas.cycle_names import cycle_stand_ins
+from reports.tables.gas.cycle_results import results
+from reports.tables.gas.cycle_speed import speed
+from reports.tables.gas.indicator import indicator
+from reports.tables.loads.bearings import bearings
+from reports.tables.loads.comparison import comparison
+from reports.tables.loads.continuous import continuous
+from reports.tables.loads.crankpins import crankpins
+from reports.tables.loads.cylinder import cylinders
+from reports.tables.loads.journals import journals
 from reports.tables.loads.regimes import regime_models
-from reports.tables.loads.torques import torque_tables
-from reports.tables.loads.wear import wear_blocks
-from reports.tables.motion import mechanism
-from reports.tables.motion.offset import offset_tables
-from reports.tables.motion.rod_masses import mass_blocks, stand_ins
-from reports.tables.overview.charts import charts
-from reports.tables.overview.companions import companion_blocks, companion_charts
-from reports.tables.overview.scheme import scheme_blocks, scheme_charts
-from reports.tables.overview.summary import summary_blocks
+from reports.tables.loads.throws import throws
+from reports.tables.loads.torques import torques
+from reports.tables.loads.wear import wear
+from reports.tables.motion.articulated import articulated
+from reports.tables.motion.mechanism import dimensions, kinematics, size_stand_ins
+from reports.tables.motion.neiman import neiman
+from reports.tables.motion.offset import offset
+from reports.tables.motion.reference import reference
+from reports.tables.motion.rod_masses import mass_stand_ins, masses
+from reports.tables.motion.segal import segal
+from reports.tables.motion.two_term import two_term
+from reports.tables.overview.scheme import scheme
+from reports.tables.overview.summary import summary
 
-
-def angle_rows(step_deg: int, last: int) -> tuple[float, ...]:
-    """Angles of the grid from 0 to ``last`` [deg]."""
-    return tuple(float(angle) for angle in range(0, last + step_deg, step_deg))
+# Files of tables in the order of their sheets.
+BEFORE: tuple[PartOf, ...] = (scheme, processes, results, speed)
+# Chapters 1 and 2: all that speed and gas decide, and more; every regime has them.
+CHAIN: tuple[PartOf, ...] = (
+    dimensions, masses, kinematics, offset, articulated, indicator, cylinders, torques,
+    crankpins, throws, journals,
+    wear, summary,
+)  # fmt: skip
+AFTER: tuple[PartOf, ...] = (
+    balance, inertia, torque_orders, segal, neiman, reference, bearings, continuous,
+    two_term,
+)  # fmt: skip
 
 
 def build_model(model: InputFile) -> Model:
     """Specifications of every table, scalar and chart for the input's structure."""
-    cycle = angle_rows(model.calculation.step_deg, Shape.of(model).period)
-    blocks, shown = chain(model)
-    further = regime_models(model, chain)
-    blocks = (
-        *scheme_blocks(Shape.of(model)),
-        *process_blocks(model),
-        *result_blocks(model),
-        *speed_blocks(model),
-        *blocks,
-        *comparison_blocks(model, further),
-        *(block for regime in further for block in regime.renamed_blocks()),
-        *substituted(companion_blocks(model, cycle), stand_ins(model)),
+    scope, regimes = Scope(model), regime_models(model, chain)
+    parts = (
+        joined(scope, BEFORE),
+        chain(model),
+        comparison(model, regimes),
+        *(regime.part() for regime in regimes),
+        joined(scope, AFTER),
     )
-    return Model(
-        model,
-        tuple(iter_fields(model)),
-        blocks,
-        (
-            *scheme_charts(),
-            *cycle_charts(model),
-            *shown,
-            *comparison_charts(model),
-            *(chart for regime in further for chart in regime.renamed_charts()),
-            *companion_charts(model),
-        ),
-    )
+    blocks = tuple(block for part in parts for block in part.blocks)
+    charts = tuple(chart for part in parts for chart in part.charts)
+    return Model(model, tuple(iter_fields(model)), substituted(blocks, stand_ins(model)), charts)
 
 
-def chain(model: InputFile) -> tuple[tuple[Block, ...], tuple[ChartSpec, ...]]:
-    """Blocks and charts of chapters 1 and 2: all that speed and gas decide, and more."""
-    shape = Shape.of(model)
-    rays = model.calculation.wear_rays
-    cycle = angle_rows(model.calculation.step_deg, shape.period)
-    turn = angle_rows(model.calculation.step_deg, 360)
-    forced = model.crankshaft.force_offsets_deg is not None
-    blocks = (
-        mechanism.geometry(model),
-        mechanism.masses(model),
-        *mass_blocks(model),
-        *(offset_tables(turn) if shape.offset else mechanism.kinematic_tables(turn)),
-        *cylinder_blocks(model, cycle),
-        *torque_tables(shape, cycle),
-        *journal_blocks(shape, cycle, forced=forced),
-        *wear_blocks(shape.throws + 1, rays, cycle, len(shape.pins)),
-        *summary_blocks(model, shape),
-    )
-    return substituted(blocks, stand_ins(model)), charts(shape)
+def stand_ins(model: InputFile) -> dict[str, str]:
+    """Inputs that the file leaves out and the scalars that take their place."""
+    return {**size_stand_ins(model), **mass_stand_ins(model), **cycle_stand_ins(model)}
+
+
+def chain(model: InputFile) -> Part:
+    """Blocks and charts that a regime has too."""
+    part = joined(Scope(model), CHAIN)
+    return Part(substituted(part.blocks, stand_ins(model)), part.charts)

@@ -28,7 +28,7 @@ def segal_displacements() -> Lookup:
 
     def look(row: str, column: str) -> float:
         alpha, lam = np.radians(float(row)), np.array(float(column))
-        return float(dimensionless.displacement(alpha, lam))
+        return float(dimensionless.exact(alpha, lam).s)
 
     return look
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,15 +14,16 @@ Array = NDArray[np.float64]
 
 _DEGREES = np.arange(0.0, 360.0)
 _PHI = np.radians(_DEGREES)
+_SYMBOLS = {"displacement": "s", "velocity": "v", "acceleration": "j"}
 
 
 def _two_term(name: str, phi: Array, lam: float) -> Array:
-    values: Array = getattr(dimensionless, f"{name}_two_term")(phi, np.array(lam))
+    values: Array = getattr(dimensionless.two_term(phi, np.array(lam)), _SYMBOLS[name])
     return values
 
 
 def _exact(name: str, phi: Array, lam: float) -> Array:
-    values: Array = getattr(dimensionless, name)(phi, np.array(lam))
+    values: Array = getattr(dimensionless.exact(phi, np.array(lam)), _SYMBOLS[name])
     return values
 
 
@@ -131,7 +130,6 @@ ILCHENKO: dict[str, Number] = {
 }
 
 _D50 = 19.2  # specific imbalance of the Д-50 [kg/m]: 192 gf·cm/cm²
-_KGF = 98100.0  # Pa in kgf/cm² with the text's g = 981 cm/s²
 _RPM = np.pi / 30
 
 
@@ -140,16 +138,15 @@ def _second_of_unit() -> float:
     return torque_harmonics.inertia_coefficients(0.25)[1]
 
 
-@lru_cache(maxsize=1)
 def _gas_second() -> float:
     """t_г2 that ψ = 0.4 at 1630 min⁻¹ implies [Pa]; the paper's curve is not printed."""
-    return solution("d-240").scalars["d50_t_gas2"] * _KGF
+    return float((1 - 0.4) * torque_harmonics.inertia_second(_D50, np.array(1630 * _RPM)))
 
 
 def _full_helps_from() -> float:
     """Speed from which ψ = 1 leaves less than ψ = 0 [min⁻¹]."""
     rpm = np.arange(1200.0, 3001.0)
-    t_j = torque_harmonics.inertia_second(np.array(_D50), rpm * _RPM)
+    t_j = torque_harmonics.inertia_second(_D50, rpm * _RPM)
     gas = np.array(_gas_second())
     helps = torque_harmonics.residual(gas, t_j, 1.0) < torque_harmonics.residual(gas, t_j, 0.0)
     return float(rpm[helps][0])

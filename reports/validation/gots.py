@@ -7,7 +7,7 @@ import numpy as np
 from kshm.cycle.diagram import indicator_diagram
 from kshm.mechanics.wear import components, ray_loads, ray_sums
 from kshm.nomenclature.dizdn_listing import value_of
-from kshm.results.solution import reference_tables
+from kshm.results.reference import reference_tables
 from reports.validation.checks import Lookup, Ours
 from reports.validation.printed import rows_of
 from reports.validation.runs import DINN_STEP, by_angle, listing, solution

@@ -17,7 +17,7 @@ from kshm.cycle.result import Cycle
 from kshm.nomenclature.dizdn_listing import INPUTS
 from kshm.results.solution import Solution
 from reports.inputs.load import load_toml
-from reports.inputs.to_si.engine import to_engine
+from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.resources import samples_dir
 from reports.validation.checks import Lookup, Ours
 from reports.validation.printed import rows_of
@@ -28,10 +28,10 @@ DINN_STEP = 3  # degrees of the program's grid
 @lru_cache(maxsize=8)
 def solution(sample: str, step_deg: int | None = None) -> Solution:
     """A sample solved, on its own or another grid of angles."""
-    engine = to_engine(load_toml(samples_dir() / f"{sample}.toml").model)
+    engine, run = engine_and_cycle(load_toml(samples_dir() / f"{sample}.toml").model)
     if step_deg is not None:
         engine = replace(engine, step_deg=step_deg)
-    return solve(engine)
+    return solve(engine, run)
 
 
 def on_grid(label: str, step: float = DINN_STEP) -> float:

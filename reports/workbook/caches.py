@@ -71,6 +71,10 @@ def finish(book: bytes, caches: CacheValues | None = None) -> bytes:
     return result.getvalue()
 
 
+def _written(root: etree._Element) -> bytes:
+    return bytes(etree.tostring(root, xml_declaration=True, encoding="UTF-8", standalone=True))
+
+
 def _fill(data: bytes, title: str, caches: CacheValues) -> bytes:
     root = etree.fromstring(data)
     values = caches.values.get(title, {})
@@ -88,7 +92,7 @@ def _fill(data: bytes, title: str, caches: CacheValues) -> bytes:
             cell.attrib.pop("t", None)
             element.text = repr(float(value))
     _add_columns(root, title, caches.columns.get(title, []))
-    return bytes(etree.tostring(root, xml_declaration=True, encoding="UTF-8", standalone=True))
+    return _written(root)
 
 
 def _checked(value: float | str | None, where: str) -> float | str:
@@ -138,7 +142,7 @@ def _fill_chart(data: bytes, ranges: dict[str, list[float]]) -> bytes:
                 f'<ptCount val="{len(numbers)}"/>{points}</numCache>'
             )
         )
-    return bytes(etree.tostring(root, xml_declaration=True, encoding="UTF-8", standalone=True))
+    return _written(root)
 
 
 # openpyxl writes the parts of a font in another order than the schema names them.
@@ -149,9 +153,8 @@ _FONT_ORDER = ("b", "i", "strike", "condense", "extend", "outline", "shadow", "u
 def _order_fonts(data: bytes) -> bytes:
     root = etree.fromstring(data)
     for font in root.iter(f"{{{_MAIN}}}font"):
-        parts = sorted(font, key=lambda part: _FONT_ORDER.index(etree.QName(part).localname))
-        font[:] = parts
-    return bytes(etree.tostring(root, xml_declaration=True, encoding="UTF-8", standalone=True))
+        font[:] = sorted(font, key=lambda part: _FONT_ORDER.index(etree.QName(part).localname))
+    return _written(root)
 
 
 def _fix_times(data: bytes) -> bytes:
@@ -159,4 +162,4 @@ def _fix_times(data: bytes) -> bytes:
     for name in ("created", "modified"):
         for element in root.iter(f"{{{_DCTERMS}}}{name}"):
             element.text = "2006-02-21T00:00:00Z"
-    return bytes(etree.tostring(root, xml_declaration=True, encoding="UTF-8", standalone=True))
+    return _written(root)

@@ -23,8 +23,8 @@ from openpyxl.drawing.text import (
 )
 
 from kshm.nomenclature.quantity import quantity
-from reports.spec.blocks import ChartSpec
-from reports.spec.blocks import Series as SeriesSpec
+from reports.spec.charts import ChartSpec
+from reports.spec.charts import Series as SeriesSpec
 from reports.spec.evaluation import Values
 from reports.workbook.layout import Layout
 
@@ -38,20 +38,21 @@ _COLOURS = ("1F3864", "C00000", "2E7D32", "7F6000")
 
 def size(spec: ChartSpec) -> tuple[float, float]:
     """Width and height of a chart [cm]."""
-    return (WIDE, HIGH) if spec.kind == "line" else (SQUARE, SQUARE)
+    return (SQUARE, SQUARE) if spec.equal_axes else (WIDE, HIGH)
 
 
 def make_chart(spec: ChartSpec, layout: Layout, values: Values) -> ScatterChart:
-    """A scatter chart with straight lines; polar and path charts are square.
+    """A scatter chart with straight lines, square where both axes have one scale.
 
     It comes without numbers: openpyxl takes long for each, see ``ranges_of``.
     """
     title = f"{spec.title} (рис. {spec.figure})" if spec.figure else spec.title
     chart = _empty(title, size(spec))
-    for number, series in enumerate(spec.series):
-        chart.series.append(_series(series, number, layout, spec))
+    curves = spec.drawn_by("workbook")
+    for number, series in enumerate(curves):
+        chart.series.append(_series(series, number, layout))
     _axes(chart, spec, values)
-    _legend(chart, shown=spec.kind == "line" and len(spec.series) > 1)
+    _legend(chart, shown=not spec.equal_axes and len(curves) > 1)
     return chart
 
 
@@ -123,34 +124,34 @@ def _titles(chart: ScatterChart, x_title: str, y_title: str) -> None:
 
 def _axes(chart: ScatterChart, spec: ChartSpec, values: Values) -> None:
     _titles(chart, spec.x_title, spec.y_title)
-    if spec.x_title.startswith(("φ", "α")):
+    if spec.x_is_angle:
         table, column = spec.series[0].x.split(".")
-        last = float(values.columns[table][column][-1])
-        chart.x_axis.scaling.min, chart.x_axis.scaling.max = 0, last
-        chart.x_axis.majorUnit = last / 12
-    if spec.kind == "line":
+        first, last = values.columns[table][column][[0, -1]].tolist()
+        if first == 0:  # a whole turn or cycle; of a part the axis is the program's choice
+            chart.x_axis.scaling.min, chart.x_axis.scaling.max = 0, last
+            chart.x_axis.majorUnit = last / 12
+    for axis, is_reversed in ((chart.x_axis, spec.x_reversed), (chart.y_axis, spec.y_reversed)):
+        if is_reversed:
+            axis.scaling.orientation = "maxMin"
+    if not spec.equal_axes:
         return
-    # Square plot, equal axes; journal axes run to the left, K runs down to the crank axis.
     chart.layout = PlotLayout(
         manualLayout=ManualLayout(
             layoutTarget="inner", xMode="edge", yMode="edge", x=0.16, y=0.17, w=0.74, h=0.74
         )
     )
-    if spec.kind in ("path", "scheme"):
+    if spec.kind != "polar":  # drawn in a unit square
         for axis in (chart.x_axis, chart.y_axis):
             axis.scaling.min, axis.scaling.max = -1, 1
             axis.majorUnit = 0.5
             axis.number_format = "0.0"
-    if spec.kind == "path" or spec.series[0].x.endswith(("Rx_MPa", "block_x_MPa")):
-        chart.x_axis.scaling.orientation = "maxMin"
-    if spec.series[0].y.endswith("Krod_MPa"):
-        chart.y_axis.scaling.orientation = "maxMin"
 
 
-def _series(series: SeriesSpec, number: int, layout: Layout, spec: ChartSpec) -> XYSeries:
-    name = series.name or quantity(series.y.split(".")[1]).symbol
-    hidden = spec.kind == "polar" and number == len(spec.series) - 1
-    line = LineProperties(noFill=True) if hidden else _look(number)
+def _series(series: SeriesSpec, number: int, layout: Layout) -> XYSeries:
+    node = layout.model.nodes.get(series.y)  # a column; rows of grids are called by quantity
+    known = node.quantity if node is not None else quantity(series.y.split(".")[1])
+    name = series.name or known.symbol
+    line = LineProperties(noFill=True) if series.invisible else _look(number)
     return _curve(number, Curve(name, layout.range_of(series.x), layout.range_of(series.y)), line)
 
 
@@ -176,7 +177,7 @@ def _look(number: int) -> LineProperties:
 def ranges_of(spec: ChartSpec, layout: Layout, values: Values) -> dict[str, list[float]]:
     """Range of each series → its numbers, which the finishing pass puts into the chart."""
     found = {}
-    for key in (key for series in spec.series for key in (series.x, series.y)):
+    for key in (key for series in spec.drawn_by("workbook") for key in (series.x, series.y)):
         table, column = key.split(".")
         if table in values.columns:
             numbers = values.columns[table][column].astype(float).tolist()

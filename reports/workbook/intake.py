@@ -82,12 +82,9 @@ def _check_parts(name: str, package: Package) -> None:
         _refuse(name, "книга ссылается на другие файлы", "разорвите связи и сохраните")
     total = 0
     for info in infos:
-        part = package.small(info)
-        size = len(part) if part is not None else 0
-        if part is None or total + size > MAX_UNPACKED:
-            part, size = _unpacked(name, package, info, total)
+        part, size = _unpacked(name, package, info, total)
         total += size
-        if size > 2**20 and size > MAX_RATIO * max(1, info.compress_size):
+        if size > _CHUNK and size > MAX_RATIO * max(1, info.compress_size):
             _refuse(name, "книга распаковывается сверх меры", "это не книга kshm")
         if info.filename.endswith((".xml", ".rels")):
             if re.search(rb"<!(DOCTYPE|ENTITY)", part[:_HEAD]):

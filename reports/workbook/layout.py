@@ -14,7 +14,7 @@ from openpyxl.utils import get_column_letter
 
 from reports.formula.excel import number
 from reports.inputs.fields import Field
-from reports.spec.blocks import Block, Grid, Model, ScalarTable, TableSpec, scalars_of
+from reports.spec.blocks import Grid, Model, ScalarTable, TableSpec
 
 INPUT_SHEET = "Исходные данные"
 CONTENTS_SHEET = "Содержание"
@@ -53,17 +53,6 @@ class Cell:
         return f"{quoted(self.sheet)}!${letter}${self.row}"
 
 
-@dataclass(frozen=True, slots=True)
-class Place:
-    """Upper left corner of a block and the extent that it takes."""
-
-    sheet: str
-    row: int
-    column: int
-    rows: int
-    columns: int
-
-
 def quoted(sheet: str) -> str:
     """Sheet title as a formula writes it."""
     return "'" + sheet.replace("'", "''") + "'"
@@ -75,6 +64,11 @@ def column_range(sheet: str, column: int, first: int, last: int) -> str:
     return f"{quoted(sheet)}!${letter}${first}:${letter}${last}"
 
 
+def area(first: Cell, last: Cell) -> str:
+    """Range between two cells of a sheet, without the sheet."""
+    return f"{first.coordinate}:{last.coordinate}"
+
+
 @dataclass
 class Layout:
     """Addresses of a model's inputs, scalars and columns."""
@@ -82,7 +76,7 @@ class Layout:
     model: Model
     cells: dict[str, Cell] = field(default_factory=dict)  # scalars and inputs
     named: set[str] = field(default_factory=set)
-    places: dict[str, Place] = field(default_factory=dict)  # blocks by id
+    places: dict[str, Cell] = field(default_factory=dict)  # upper left corners of blocks by id
     columns: dict[str, tuple[TableSpec, int]] = field(default_factory=dict)  # table.column
     next_row: dict[str, int] = field(default_factory=dict)
     next_column: dict[str, int] = field(default_factory=dict)
@@ -97,8 +91,11 @@ class Layout:
             if isinstance(block, TableSpec):
                 layout._table(block)
         for block in model.blocks:
-            if not isinstance(block, TableSpec):
-                layout._scalars(block, beside_table=block.sheet in angle_sheets)
+            beside_table = block.sheet in angle_sheets
+            if isinstance(block, ScalarTable):
+                layout._list(block, beside_table=beside_table)
+            elif isinstance(block, Grid):
+                layout._grid(block, below_table=beside_table)
         return layout
 
     # --- assignment -------------------------------------------------------------------
@@ -110,7 +107,7 @@ class Layout:
             if item.section != section:
                 row += 2 if section else 0
                 section, entry = item.section, None
-                self.places[f"input:{section}"] = Place(INPUT_SHEET, row, 1, 1, 1)
+                self.places[f"input:{section}"] = Cell(INPUT_SHEET, row, 1)
                 row += 2 if listed else 1
             if listed:
                 # Lists of records stand as small tables: a row an entry, a column a key.
@@ -131,53 +128,33 @@ class Layout:
 
     def _table(self, table: TableSpec) -> None:
         column = self.next_column.get(table.sheet, 1)
-        count = len(table.columns)
-        self.places[table.id] = Place(table.sheet, HEADER_ROW, column, len(table.rows) + 2, count)
+        self.places[table.id] = Cell(table.sheet, HEADER_ROW, column)
         for offset, item in enumerate(table.columns):
             self.columns[f"{table.id}.{item.key}"] = (table, column + offset)
-        self.next_column[table.sheet] = column + count + 1
+        self.next_column[table.sheet] = column + len(table.columns) + 1
         bottom = FIRST_ROW + len(table.rows) + 1
         self.next_row[table.sheet] = max(self.next_row.get(table.sheet, 0), bottom)
-
-    def _scalars(self, block: Block, *, beside_table: bool) -> None:
-        if isinstance(block, ScalarTable):
-            self._list(block, beside_table=beside_table)
-        elif isinstance(block, Grid):
-            self._grid(block, below_table=beside_table)
 
     def _list(self, block: ScalarTable, *, beside_table: bool) -> None:
         row = HEADER_ROW if beside_table else self.next_row.get(block.sheet, HEADER_ROW)
         column = self.next_column.get(block.sheet, 1) if beside_table else 1
-        self.places[block.id] = Place(block.sheet, row, column, len(block.scalars) + 1, 5)
-        offset = 1
-        if block.id in ("checks", "cycle_ranges"):
-            self._checks(block, row)
-            return
-        for scalar in block.scalars:
-            self.cells[scalar.key] = Cell(block.sheet, row + offset, column + VALUE_COLUMN - 1)
+        self.places[block.id] = Cell(block.sheet, row, column)
+        in_row = 1 if block.verdicts is None else 2  # a verdict beside its value
+        for index, scalar in enumerate(block.scalars):
+            at = column + VALUE_COLUMN - 1 + index % in_row
+            self.cells[scalar.key] = Cell(block.sheet, row + 1 + index // in_row, at)
             self.named.add(scalar.key)
-            offset += 1
         if beside_table:
             self.next_column[block.sheet] = column + 6
         else:
-            self.next_row[block.sheet] = row + offset + 1
-
-    def _checks(self, block: ScalarTable, row: int) -> None:
-        """Value and verdict of a check stand in one row."""
-        for index, scalar in enumerate(block.scalars):
-            column = VALUE_COLUMN if scalar.of == "check_value" else UNIT_COLUMN
-            self.cells[scalar.key] = Cell(block.sheet, row + 1 + index // 2, column)
-            self.named.add(scalar.key)
-        self.next_row[block.sheet] = row + len(block.scalars) // 2 + 2
+            self.next_row[block.sheet] = row + len(block.scalars) // in_row + 2
 
     def _grid(self, grid: Grid, *, below_table: bool) -> None:
         row = self.next_row.get(grid.sheet, HEADER_ROW)
         if any(cell.row == row - 2 for cell in self.cells.values() if cell.sheet == grid.sheet):
             row += 1  # the title stands above the header: keep it off the list before
         first = 2 if below_table else 3  # aligned with the columns of the table above
-        self.places[grid.id] = Place(
-            grid.sheet, row, 1, len(grid.rows) + 1, len(grid.labels) + first - 1
-        )
+        self.places[grid.id] = Cell(grid.sheet, row, 1)
         for r, grid_row in enumerate(grid.rows):
             for c, scalar in enumerate(grid_row.cells):
                 if scalar is not None:
@@ -210,31 +187,15 @@ class Layout:
         return f"{first.absolute}:{ends}"
 
     def _run_of(self, key: str) -> list[Cell]:
-        if key.startswith("gas_points_"):
-            return [self.cells[name] for name in self.model.input_runs[key]]
-        grid_id, quantity = key.split(".")
-        for block in self.model.blocks:
-            if isinstance(block, Grid) and block.id == grid_id:
-                row = next(row for row in block.rows if row.of == quantity)
-                return [self.cells[cell.key] for cell in row.cells if cell is not None]
-        raise KeyError(key)
+        return [self.cells[name] for name in self.keys_of_run(key)]
 
-    def keys_of_run(self, key: str) -> list[str]:
-        """Scalar keys of a grid's row ``grid.quantity``, for the caches of charts."""
-        grid_id, quantity = key.split(".")
-        for block in self.model.blocks:
-            if isinstance(block, Grid) and block.id == grid_id:
-                row = next(row for row in block.rows if row.of == quantity)
-                return [cell.key for cell in row.cells if cell is not None]
-        raise KeyError(key)
+    def keys_of_run(self, key: str) -> tuple[str, ...]:
+        """Scalars of a grid's row ``grid.quantity``, or the inputs of a diagram's points.
 
-    def input_at(self, sheet: str, coordinate: str) -> str | None:
-        """Name of the input whose cell this is."""
-        for item in self.model.inputs:
-            cell = self.cells[item.name]
-            if cell.sheet == sheet and cell.coordinate == coordinate:
-                return item.name
-        return None
+        Raises:
+            KeyError: there is no such run.
+        """
+        return self.model.input_runs.get(key) or self.model.grid_runs[key]
 
     def step_formula(self, table: TableSpec, row: int, column: int) -> str:
         """First column of a row from the row above and the step of the table's grid."""
@@ -243,18 +204,9 @@ class Layout:
         step = "calculation_step_deg" if table.step is None else own or number(table.step)
         return f"={Cell('', row - 1, column).coordinate}+{step}"
 
-    def area(self, first: Cell, last: Cell) -> str:
-        """Range between two cells of a sheet, without the sheet."""
-        return f"{first.coordinate}:{last.coordinate}"
-
     def defined_names(self) -> Mapping[str, str]:
         """Defined name → absolute address."""
         return {name: self.cells[name].absolute for name in sorted(self.named)}
-
-    def end_of(self, sheet: str) -> tuple[int, int]:
-        """First free row and column of a sheet, for charts and print areas."""
-        row = self.next_row.get(sheet, HEADER_ROW)
-        return row, self.next_column.get(sheet, 7)
 
 
 class RowReferences:
@@ -334,8 +286,3 @@ def check_names(layout: Layout) -> None:
         if other != name:
             msg = f"names {other} and {name} differ only in case"
             raise ValueError(msg)
-
-
-def scalar_keys(block: Block) -> list[str]:
-    """Keys of a block's scalars, in order."""
-    return [scalar.key for scalar in scalars_of(block)]

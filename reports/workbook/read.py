@@ -10,39 +10,18 @@ from __future__ import annotations
 import io
 import re
 import warnings
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from reports.inputs.fields import POINT_KEYS
 from reports.inputs.load import Loaded, load_mapping
+from reports.inputs.registry import SECTIONS
 from reports.shared.errors import InputError, Problem
 from reports.workbook.intake import check_package
 from reports.workbook.layout import INPUT_SHEET, quoted
 
 _ADDRESS = re.compile(r"\$?([A-Z]{1,3})\$?([0-9]+)")
-_LISTS = {
-    "firing_offset": ("crankshaft", "firing_offsets_deg"),
-    "throw_angle": ("crankshaft", "throw_angles_deg"),
-    "force_offset": ("crankshaft", "force_offsets_deg"),
-    "main_length": ("crankshaft", "main_lengths_mm"),
-    "web": ("crankshaft", "webs"),
-    "throw": ("crankshaft", "arms"),
-    "gas_point": ("gas", "points"),
-    "reference_lambda": ("reference", "lambdas"),
-}
-_SECTIONS = (
-    "report",
-    "engine",
-    "calculation",
-    "geometry",
-    "regime",
-    "gas",
-    "cycle",
-    "masses",
-    "articulated",
-    "crankshaft",
-    "balance",
-    "reference",
-)
 
 
 def load_workbook_input(path: Path) -> Loaded:
@@ -124,20 +103,24 @@ def _path_of(name: str) -> tuple[str | int, ...] | None:
         if path is None or path[0] not in ("regime", "gas") or int(further[2]) < 2:
             return None
         return ("regimes", int(further[2]) - 2, *path[path[0] == "regime" :])
-    for prefix, (section, key) in _LISTS.items():
-        match = re.fullmatch(rf"{prefix}_([0-9]+)_(\w+)", name)
-        if match is None:
-            continue
-        index, part = int(match.group(1)) - 1, match.group(2)
-        if prefix == "gas_point":
-            return section, key, index, {"deg": 0, "mpa": 1}[part]
-        if prefix in ("web", "throw") and not (prefix == "throw" and part == "angle"):
-            return section, key, index, part
-        return section, key, index
-    for section in _SECTIONS:
-        if name.startswith(section + "_"):
-            return section, name.removeprefix(section + "_")
+    for section in SECTIONS.values():
+        for key, about in section.lists.items():
+            match = re.fullmatch(_cell_pattern(about.cells), name)
+            if match is None:
+                continue
+            index, part = int(match["n"]) - 1, match.groupdict().get("key")
+            if part is None:
+                return section.name, key, index
+            return section.name, key, index, POINT_KEYS.index(part) if part in POINT_KEYS else part
+    for section in SECTIONS.values():
+        if name.startswith(section.name + "_"):
+            return section.name, name.removeprefix(section.name + "_")
     return None
+
+
+@lru_cache
+def _cell_pattern(cells: str) -> str:
+    return cells.replace("{n}", r"(?P<n>[0-9]+)").replace("{key}", r"(?P<key>\w+)")
 
 
 def _put(raw: dict[str, Any], path: tuple[str | int, ...], value: Any) -> None:  # noqa: ANN401

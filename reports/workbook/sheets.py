@@ -93,7 +93,7 @@ class Writer:
                 else None
                 for row in rows
             ]
-            look = (style, styles.excel_format(column.quantity.digits))
+            look = (style, styles.excel_format(column.quantity))
             self.column(sheet, index, texts, values.astype(float).tolist(), look)
 
     def column(
@@ -140,7 +140,7 @@ class Writer:
         self.formula(sheet, at.row, at.column, text, self.values.scalars[scalar.key])
         cell = sheet.cell(at.row, at.column)
         cell.style = styles.CHECK if scalar.of == "check" else styles.FORMULA
-        cell.number_format = styles.excel_format(scalar.quantity.digits)
+        cell.number_format = styles.excel_format(scalar.quantity)
 
     def list(self, sheet: Worksheet, block: ScalarTable) -> None:
         """A list of scalars: title, symbol, value, unit, source."""

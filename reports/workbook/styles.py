@@ -6,7 +6,7 @@ from openpyxl.cell.cell import Cell
 from openpyxl.styles import Alignment, Border, Font, NamedStyle, PatternFill, Protection, Side
 from openpyxl.workbook import Workbook
 
-from kshm.nomenclature.digits import Digits
+from kshm.nomenclature.quantity import Quantity
 
 FONT = "Times New Roman"
 INPUT, STRUCTURE, FORMULA, HELPER = "kshm_input", "kshm_structure", "kshm_formula", "kshm_helper"
@@ -33,8 +33,9 @@ _COLOURS = {
 }
 
 
-def excel_format(digits: Digits) -> str:
+def excel_format(quantity: Quantity) -> str:
     """Number format of the cells of a quantity."""
+    digits = quantity.digits
     plain = "0." + "0" * digits.decimals if digits.decimals else "0"
     if digits.kind != "fixed":
         return {"scientific": plain + "E+00", "minutes": '0"°"00"′"', "text": "@"}[digits.kind]

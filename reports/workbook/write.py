@@ -23,7 +23,7 @@ from reports.shared.files import temporary_failure
 from reports.spec.blocks import Grid, Model, ScalarTable, TableSpec
 from reports.spec.evaluation import Values, evaluate_model
 from reports.tables.gas.cycle_names import SHEET as CYCLE_SHEET
-from reports.tables.gas.cycle_speed import INSIDE, OUTSIDE, RANGE_SHEET
+from reports.tables.gas.cycle_speed import RANGE_SHEET
 from reports.workbook import styles
 from reports.workbook.caches import finish
 from reports.workbook.charts import make_chart, ranges_of, size
@@ -37,9 +37,11 @@ from reports.workbook.layout import (
     NUMBER_ROW,
     SOURCE_COLUMN,
     TITLE_ROW,
+    UNIT_COLUMN,
     VALUE_COLUMN,
     Cell,
     Layout,
+    area,
     check_names,
     quoted,
 )
@@ -50,6 +52,7 @@ _COLUMN_CM = 1.95
 _CHARACTER_CM = 0.25
 _SLOT = 16  # rows that a chart takes, so that pages hold whole charts
 _PORTRAIT_COLUMNS = 9
+_MOST_CHECKS = 40
 _CYCLE_TITLES = {CYCLE_SHEET: "Расчет рабочего цикла"}
 _CYCLE_WIDTHS = {2: 20, 4: 17, SOURCE_COLUMN: 28, 6: 17, 7: 17, 8: 17}
 _RANGE_WIDTHS = {1: 76, 2: 4, 4: 16, SOURCE_COLUMN: 42}
@@ -130,22 +133,23 @@ def _blocks(sheet: Worksheet, model: Model, writer: Writer) -> None:
             writer.table(sheet, block)
         elif isinstance(block, ScalarTable):
             writer.list(sheet, block)
+            if block.verdicts is not None:
+                _colour_verdicts(sheet, *block.verdicts)
         elif isinstance(block, Grid):
             writer.grid(sheet, block)
     if notes:
         _note(sheet, " ".join(dict.fromkeys(notes)))
-    if sheet.title == "Проверки":
-        _colour_checks(sheet, "да", "НЕТ")
-    elif sheet.title == RANGE_SHEET:
-        _colour_checks(sheet, INSIDE, OUTSIDE)
 
 
-def _colour_checks(sheet: Worksheet, good: str, bad: str) -> None:
-    area = f"{get_column_letter(4)}{HEADER_ROW}:{get_column_letter(4)}{HEADER_ROW + 40}"
+def _colour_verdicts(sheet: Worksheet, good: str, bad: str) -> None:
+    first, last = (
+        Cell(sheet.title, row, UNIT_COLUMN) for row in (HEADER_ROW, HEADER_ROW + _MOST_CHECKS)
+    )
+    place = area(first, last)
     green, red = PatternFill(bgColor="C6EFCE"), PatternFill(bgColor="FFC7CE")
-    sheet.conditional_formatting.add(area, CellIsRule("equal", [f'"{good}"'], fill=green))
+    sheet.conditional_formatting.add(place, CellIsRule("equal", [f'"{good}"'], fill=green))
     sheet.conditional_formatting.add(
-        area, CellIsRule("equal", [f'"{bad}"'], fill=red, font=Font(bold=True, color="9C0006"))
+        place, CellIsRule("equal", [f'"{bad}"'], fill=red, font=Font(bold=True, color="9C0006"))
     )
 
 
@@ -205,7 +209,7 @@ def _charts(sheet: Worksheet, model: Model, writer: Writer) -> None:
     last = Cell(sheet.title, FIRST_ROW + offset - 1, column + columns)
     sheet.print_area = [
         str(sheet.print_area).replace("$", "").split("!")[-1],
-        layout.area(Cell(sheet.title, FIRST_ROW, column), last),
+        area(Cell(sheet.title, FIRST_ROW, column), last),
     ]
     rows = max(offset, sheet.max_row)
     for row in range(FIRST_ROW - 1 + page.rows, FIRST_ROW + rows, page.rows):

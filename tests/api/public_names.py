@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import kshm
 from kshm import solve
-from reports.inputs.to_si.engine import to_engine
+from reports.inputs.to_si.engine import engine_and_cycle
 from tests.conftest import sample, sample_names
 
 
@@ -16,7 +16,7 @@ def lines() -> Iterator[str]:
         yield f"kshm.{name}"
     found: dict[str, list[str]] = {}
     for name in sample_names():
-        solution = solve(to_engine(sample(name)))
+        solution = solve(*engine_and_cycle(sample(name)))
         for table, columns in solution.columns.items():
             found.setdefault(f"table {table}: {' '.join(columns)}", []).append(name)
         for key in solution.scalars:

@@ -13,7 +13,7 @@ import pytest
 
 import kshm
 from kshm import end_mass, in_line, points, polytropic, quantity, solve, throw
-from reports.inputs.to_si.engine import to_engine
+from reports.inputs.to_si.engine import engine_and_cycle
 from tests.api.public_names import lines
 from tests.conftest import sample
 from tests.manual.pages import DOCS, ROOT, blocks
@@ -36,7 +36,7 @@ def test_the_examples_of_the_page_give_the_book(ran: tuple[dict, str]) -> None:
     """The engine made without a file is the sample's, number for number."""
     names, said = ran
     assert len(blocks(PAGE, "python")) >= 6
-    book = solve(to_engine(sample("gots-diesel"))).scalars
+    book = solve(*engine_and_cycle(sample("gots-diesel"))).scalars
     made = names["solution"].scalars
     for key in ("M_mean", "Rpin_max", "Rmain2_max", "c_m", "throw1_RTCL"):
         assert made[key] == pytest.approx(book[key], rel=1e-12)

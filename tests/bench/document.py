@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -27,9 +28,12 @@ def figures() -> Iterator[Figure]:
         again = {"KSHM_CACHE": str(folder / "cache")}
         html, pdf = run(build("html"), again), run(build("pdf"), again)
         cells = len(re.findall(r"<t[dh][ >]", (folder / "gots-diesel.html").read_text("utf-8")))
+        yield from costs("отчёт PDF, рисунки и формулы уже есть", pdf)
+        if shutil.which("pdfinfo") is None:
+            print("страницы не посчитаны: нет pdfinfo (пакет poppler-utils)")
+            return
         told = poppler("pdfinfo", str(folder / "gots-diesel.pdf"))
         pages = int(re.search(r"Pages:\s+(\d+)", told)[1])
-        yield from costs("отчёт PDF, рисунки и формулы уже есть", pdf)
         yield Figure("страниц", pages)
         yield Figure("ячеек таблиц", cells)
         layout = pdf.wall - html.wall

@@ -4,7 +4,7 @@ A crank mechanism needs sin φ, cos φ, sin β and cos β of every cylinder at e
 the measure is numpy's sin and cos of two arrays (engines × cylinders × angles), φ and β,
 taken in the same chunks of engines: 4 × 3 × 73 values an engine for the textbook's diesel
 with a table every 10°.  Nothing else is counted on that side, while the solver's side
-gives all arrays of ``BatchSolution``: pressures, forces, torques, reactions of all
+gives all arrays of ``ChainArrays``: pressures, forces, torques, reactions of all
 journals, crankpin loads and the sums of all wear diagrams.  The ten thousand engines differ in
 speed, bore, length of the rod and reciprocating mass.
 """
@@ -12,6 +12,8 @@ speed, bore, length of the rod and reciprocating mass.
 from __future__ import annotations
 
 import itertools
+import subprocess
+import sys
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -21,6 +23,7 @@ from kshm import solve
 from kshm.chain.solve import chunk_size, solve_batch, solve_chunks, solve_stacked
 from kshm.chain.stack import stack
 from kshm.engine.engine import Engine
+from kshm.mechanics import wear
 from reports.inputs.load import load_toml
 from reports.inputs.to_si.engine import to_engine
 from reports.shared.resources import samples_dir
@@ -52,6 +55,25 @@ def solve_all() -> None:
     """All engines, one chunk after another."""
     for _ in solve_chunks(family()):
         pass
+
+
+_FIRST_RUN = """
+import sys, time
+import kshm.chain.solve as chain
+from tests.bench.solver import family
+chain.KEPT_BYTES = int(sys.argv[1]) or chain.KEPT_BYTES
+engines = list(family())
+begin = time.process_time()
+for _ in chain.solve_chunks(engines):
+    pass
+print(time.process_time() - begin)
+"""
+
+
+def first_run(kept_bytes: int) -> float:
+    """Seconds of the first study of a process that frees a block of that size before it."""
+    command = [sys.executable, "-c", _FIRST_RUN, str(kept_bytes)]
+    return float(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
 
 
 def figures() -> Iterator[Figure]:
@@ -107,4 +129,14 @@ def figures() -> Iterator[Figure]:
     yield Figure("один двигатель / sin и cos", ratio(single, "batch", "bare"), "раз",
                  "почти всё время — вызовы numpy")  # fmt: skip
     yield Figure("один двигатель со всеми таблицами", median(single["tables"]) * 1e3, "мс")
+    memory_kept = [(first_run(1), first_run(0)) for _ in range(5)]
+    yield Figure("первое исследование без удержанной памяти / с нею",
+                 median(without / kept for without, kept in memory_kept), "раз")  # fmt: skip
+    raw = solve_batch(engines[:100])
+    up, against, size = raw.pin_up, -raw.pin_side, raw.pin_load
+    sums = interleaved(
+        {"rays": lambda: wear.ray_loads(up, against, 12)[..., :-1, :].sum(axis=-2),
+         "sectors": lambda: wear.ray_sums(up, against, size, 12)}
+    )  # fmt: skip
+    yield Figure("износ по лучам / по секторам", ratio(sums, "rays", "sectors"), "раз")
     yield memory(f"{count} двигателей", "from tests.bench.solver import solve_all; solve_all()")

@@ -33,9 +33,9 @@ def test_orders_add_up_to_the_inertia_forces_of_all_pistons(name: str) -> None:
         moment += place * direction * thrown
     scale = m_j * float(r) * engine.omega**2
     for which, direct in enumerate((force, moment)):
-        for side, key in enumerate(("up", "right")):
+        for side in (0, 1):
             total = sum(
-                np.real(getattr(part[which], key) * wave)
+                np.real(part[which][side] * wave)
                 for part, wave in zip(parts, waves.values(), strict=True)
             )
             assert np.abs(total - direct[side]).max() < 1e-6 * scale
@@ -69,7 +69,7 @@ def test_a_v_of_90_degrees_is_balanced_in_the_first_order_by_counterweights() ->
     scale = abs(balance.turning_parts(force)[0]) + 1.0
     assert abs(against) < 1e-9 * scale
     weights, _ = balance.ideal_counterweights(engine)
-    rest = balance.added(force, balance.turning(0.5 * weights))
+    rest = force + balance.turning(0.5 * weights)
     assert balance.ellipse(rest).largest < 1e-9 * scale + 1e-6
 
 

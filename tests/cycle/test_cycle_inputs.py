@@ -9,7 +9,7 @@ import pytest
 
 from reports.inputs.load import load_mapping
 from reports.inputs.to_si.cycle import cycle_run
-from reports.inputs.to_si.engine import to_engine
+from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.errors import InputError
 from tests.conftest import sample
 from tests.cycle.cycle_engines import turbo_diesel
@@ -44,18 +44,18 @@ def test_the_listing_reaches_the_solver_in_si() -> None:
 def test_samples_start_from_power_and_speed_alone(name: str) -> None:
     data = sample(name)
     assert not hasattr(data.geometry, "bore_mm")
-    engine = to_engine(data)
-    assert engine.geometry.bore == pytest.approx(engine.cycle.design.bore)
-    assert 2 * engine.geometry.crank_radius == pytest.approx(engine.cycle.design.stroke)
+    engine, run = engine_and_cycle(data)
+    assert engine.geometry.bore == pytest.approx(run.design.bore)
+    assert 2 * engine.geometry.crank_radius == pytest.approx(run.design.stroke)
     assert engine.geometry.lam == pytest.approx(data.geometry.lambda_)
-    assert engine.gas.p_max == engine.cycle.cycle.combustion.p_z
+    assert engine.gas.p_max == run.cycle.combustion.p_z
 
 
 def test_without_a_cycle_nothing_of_it_is_there() -> None:
     data = sample("gots-diesel")
     assert data.cycle is None
     assert cycle_run(data) is None
-    assert to_engine(data).cycle is None
+    assert engine_and_cycle(data)[1] is None
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ from reports.grading.pages.pages import student_page
 from reports.grading.reading.submissions import Submission
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import Loaded, load_mapping, load_toml
-from reports.inputs.to_si.engine import to_engine
+from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.errors import KshmError
 from reports.shared.resources import samples_dir
 from reports.tables.registry import build_model
@@ -78,7 +78,7 @@ def _answer(load: Callable[[], Loaded]) -> str:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")  # a warning would stand between the messages
-            solve(to_engine(load().model))
+            solve(*engine_and_cycle(load().model))
     except KshmError as error:
         assert error.problems
         for line in error.lines():

@@ -14,7 +14,8 @@ from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.judging.marking import Marker
 from reports.grading.reading.submissions import Submission
-from reports.spec.blocks import ChartSpec, TableSpec
+from reports.spec.blocks import TableSpec
+from reports.spec.charts import ChartSpec
 from reports.spec.evaluation import Values, evaluate_model
 from reports.workbook.layout import Cell, Layout
 from tests.grading.classroom import issue_class

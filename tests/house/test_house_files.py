@@ -80,7 +80,7 @@ def test_a_refusal_is_one_russian_line(tmp_path, monkeypatch, number, reason):
         files.write_bytes(target, b"new")
     assert caught.value.exit_code == 2
     assert caught.value.lines() == [
-        f"{target}: не удается записать: {reason}; укажите другое место ключом -o"
+        f"{target}: не удается записать: {reason}; укажите другое место"
     ]
     assert target.read_bytes() == b"old"
     assert names(tmp_path) == ["a.bin"]

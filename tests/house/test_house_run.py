@@ -39,7 +39,7 @@ class House:
             shutil.copy2(ROOT / name, self.root / name)
         (self.root / ".ci").mkdir()
         shutil.copy2(ROOT / ".ci/run", self.root / ".ci/run")
-        for tool in ("kshm", "ruff", "mypy"):
+        for tool in ("kshm", "ruff", "mypy", "lint-imports"):
             self.tool(self.root / ".venv/bin" / tool)
         self.tool(self.root / ".venv/bin/python")
         self.tool(self.bin / "apt-get")
@@ -170,9 +170,13 @@ def test_the_test_command_runs_all_and_fails_if_one_fails(house):
         "ruff check .",
         "ruff format --check .",
         "mypy",
+        "lint-imports --no-logo --no-cache",
         "python -m pytest -n auto --dist loadgroup -k x",
     ]
     assert (done.returncode, house.calls()) == (0, checks)
+    house.log.write_text("")
+    house.run("test", "--quick", KSHM_NO_SYSTEM="1")
+    assert house.calls()[-1] == "python -m pytest -n auto --dist loadgroup -m not slow"
     house.log.write_text("")
     house.tool(house.root / ".venv/bin/mypy", status=1)
     assert house.run("test", KSHM_NO_SYSTEM="1").returncode == 1

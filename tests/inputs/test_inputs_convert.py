@@ -4,7 +4,9 @@ import math
 
 import pytest
 
-from kshm.engine.engine import DirectMasses, PolytropicGas, RodMasses, TabulatedGas, Web
+from kshm.engine.crankshaft import Web
+from kshm.engine.gas import PolytropicGas, TabulatedGas
+from kshm.engine.masses import DirectMasses, RodMasses
 from reports.inputs import units
 from reports.inputs.load import load_mapping, load_toml
 from reports.inputs.to_si.engine import to_engine
@@ -64,7 +66,8 @@ def test_the_shaft_in_si(raw):
     assert second.angle == math.radians(120)
     assert (shaft.nose.mass, shaft.nose.angle, shaft.nose.arm) == (0.426, math.radians(210), 0.13)
     assert (shaft.rear.mass, shaft.rear.angle, shaft.rear.arm) == (0.426, math.radians(200), 0.08)
-    assert (shaft.pin_diameter, shaft.pin_length, shaft.main_diameter) == (0.056, 0.028, 0.064)
+    assert (shaft.pin_diameters, shaft.pin_lengths) == ((0.056,) * 3, (0.028,) * 3)
+    assert shaft.main_diameters == (0.064,) * 4
     assert shaft.main_lengths == (0.032,) * 4
     assert [throw.pin_mass for throw in shaft.throws] == [0.425] * 3
 

@@ -5,10 +5,9 @@ from datetime import UTC, datetime
 
 import pytest
 
-from reports.inputs.fields import SECTIONS
-from reports.inputs.load import SECTION_MODELS, load_text
+from reports.inputs.load import load_text
 from reports.inputs.meta import hints
-from reports.inputs.sections.input_file import PolytropicGasSection
+from reports.inputs.registry import SECTIONS
 from reports.inputs.template import list_samples, new_file
 from reports.shared.errors import InputError
 from reports.shared.resources import samples_dir
@@ -37,7 +36,7 @@ def test_samples():
 
 def test_the_blank_file_explains_every_key():
     text = new_file()
-    models = {**SECTION_MODELS, "gas": PolytropicGasSection}
+    models = {name: section.model for name, section in SECTIONS.items()}
     for section in SECTIONS:
         for key in hints(models[section]):
             assert key in text

@@ -9,22 +9,16 @@ from hypothesis import strategies as st
 from kshm.engine.arrangement import (
     Arrangement,
     ArticulatedRod,
-    in_line,
+    fan,
+    hung,
+    in_row,
     opposed,
     throw_angle,
-    v_shaped,
 )
-from kshm.engine.engine import (
-    Crankshaft,
-    DirectMasses,
-    EndMass,
-    Engine,
-    Geometry,
-    PolytropicGas,
-    RodMasses,
-    Throw,
-    Web,
-)
+from kshm.engine.crankshaft import Crankshaft, EndMass, Throw, Web
+from kshm.engine.engine import Engine, Geometry
+from kshm.engine.gas import PolytropicGas
+from kshm.engine.masses import DirectMasses, RodMasses
 
 
 def numbers(low: float, high: float) -> st.SearchStrategy[float]:
@@ -58,7 +52,7 @@ def phased(draw: st.DrawFn, layout: str, strokes: int) -> tuple[Arrangement, lis
     if layout == "inline":
         count = draw(st.integers(1, 6))
         rest = draw(st.permutations([period / count * i for i in range(1, count)]))
-        return in_line(count), [0.0, *rest]
+        return in_row(count), [0.0, *rest]
     pairs = draw(st.integers(1, 3))
     # Any firing offset of whole degrees fits an own throw; the right bank's follows.
     left = [0.0, *(float(draw(st.integers(0, period - 1))) for _ in range(pairs - 1))]
@@ -66,8 +60,8 @@ def phased(draw: st.DrawFn, layout: str, strokes: int) -> tuple[Arrangement, lis
         places = opposed(2 * pairs)
         return places, left + [float(draw(st.integers(0, period - 1))) for _ in range(pairs)]
     bank = math.radians(draw(st.integers(0, 180)))
-    split = math.radians(draw(st.integers(-40, 40))) if layout == "split" else None
-    places = v_shaped(2 * pairs, bank, split_pin=split, articulated=layout == "articulated")
+    split = (0.0, math.radians(draw(st.integers(-40, 40)))) if layout == "split" else None
+    places = fan(pairs, (0.0, bank), pin_angles=split, articulated=layout == "articulated")
     right = []
     for offset, place in zip(left, places[pairs:], strict=True):
         behind = math.degrees(place.axis - place.pin_angle) + 360 * draw(st.integers(0, turns - 1))
@@ -157,17 +151,17 @@ def engines(
         throws=tuple(shaft_throws),
         nose=draw(end_masses),
         rear=draw(end_masses),
-        pin_diameter=0.06,
-        pin_length=0.03,
-        main_diameter=0.07,
+        pin_diameters=(0.06,) * count,
+        pin_lengths=(0.03,) * count,
+        main_diameters=(0.07,) * (count + 1),
         main_lengths=(0.03,) * (count + 1),
     )
     shifted = draw(st.booleans()) if offset is None else offset
     crank_offset = radius * draw(numbers(-0.3, 0.3)) if shifted else None
     pin_offset = radius * draw(numbers(-0.05, 0.05)) if shifted else None
-    rod = None
+    rods = ()
     if layout == "articulated":
-        rod = draw(articulated_rods(radius, lam, places[-1].axis))
+        rods = (draw(articulated_rods(radius, lam, places[-1].axis)),) * len(hung(places))
     return Engine(
         geometry=Geometry(
             draw(numbers(0.05, 0.3)), radius, radius / lam, eps, crank_offset, pin_offset
@@ -182,7 +176,7 @@ def engines(
         step_deg=step_deg,
         rays=draw(st.sampled_from([12, 18])),
         arrangement=places,
-        articulated=rod,
+        articulated=rods,
     )
 
 

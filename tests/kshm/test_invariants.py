@@ -10,17 +10,18 @@ from hypothesis import given, settings
 from numpy.typing import NDArray
 
 from kshm import solve
-from kshm.chain.solve import BatchSolution, solve_batch
+from kshm.chain.result import ChainArrays
+from kshm.chain.solve import solve_batch
 from kshm.chain.stack import stack
-from kshm.engine.engine import EndMass, Engine
+from kshm.engine.crankshaft import EndMass
+from kshm.engine.engine import Engine
 from kshm.mechanics import articulated, kinematics
-from kshm.mechanics.journals import positions
 from tests.kshm.engines import engines
 
 Array = NDArray[np.float64]
 
 
-def gas_work(raw: BatchSolution, engine: Engine) -> float:
+def gas_work(raw: ChainArrays, engine: Engine) -> float:
     """Closed integral of p dV of all cylinders over the cycle [J], trapezoidal."""
     p, volume = raw.p[0], raw.displacement[0] * engine.geometry.piston_area
     return float(np.sum((p[:, 1:] + p[:, :-1]) / 2 * np.diff(volume)))
@@ -66,7 +67,7 @@ def test_reactions_balance_the_loads_of_the_cranks(engine: Engine) -> None:
     area = engine.geometry.piston_area
     unit = engine.geometry.crank_radius * engine.omega**2
     m_2 = float(batch.m_2[0, 0, 0])
-    place = positions(batch.throws)
+    place = batch.throws.places
     force = np.zeros((2, raw.phi.size))
     moment = np.zeros_like(force)
     start, bearings = 0.0, [0.0]
@@ -87,7 +88,7 @@ def test_reactions_balance_the_loads_of_the_cranks(engine: Engine) -> None:
             cylinder = engine.arrangement[n]
             out, along = directions(throw.angle + cylinder.pin_angle)
             K, T = raw.K[0, n] * area, raw.T[0, n] * area
-            rod = start + (place.right_rod if cylinder.rod_place else place.rod)[0, i]
+            rod = start + place.rod_at(cylinder.rod_place)[0, i]
             add(rod, -K * out[0] + T * along[0], -K * out[1] + T * along[1])
             add(rod, *(m_2 * unit * out * (cylinder.master is None)))
             add(start + place.pin[0, i], *(throw.pin_mass / len(carried) * unit * out))
@@ -226,7 +227,7 @@ def test_torque_is_the_moment_of_what_acts_on_pistons_and_rods(engine: Engine) -
             sine = (geometry.crank_radius * np.sin(alpha) - e) / rod
             of_master = geometry.crank_radius * np.cos(alpha) + rod * np.sqrt(1 - sine**2)
             total += hung.on_pin.N_added[0, row] * of_master * area
-            inertia = -engine.articulated.big_end * engine.omega**2
+            inertia = -engine.articulated[0].big_end * engine.omega**2
             along, across = motion.pin.along, motion.pin.across
             total += inertia * (along[0] * across[2] - across[0] * along[2])[0, row]
             height = motion.height[0][0, row]
@@ -255,7 +256,7 @@ def test_crankpins_carry_what_pistons_and_walls_put_on_the_rods(engine: Engine) 
         if place.master is not None:
             row = raw.batch.articulated.cylinders.index(n)
             pin_path = raw.hung.motion.pin
-            unit = engine.articulated.big_end * engine.omega**2 / engine.geometry.piston_area
+            unit = engine.articulated[0].big_end * engine.omega**2 / engine.geometry.piston_area
             inertia = (-unit * part[2][0, row] for part in (pin_path.across, pin_path.along))
             total -= turned(place.axis, *inertia)
             total[0] -= raw.hung.on_pin.N_added[0, row]

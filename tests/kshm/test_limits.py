@@ -8,14 +8,17 @@ import numpy as np
 from hypothesis import given, settings
 
 from kshm import solve
-from kshm.chain.solve import BatchSolution, solve_batch
-from kshm.engine.arrangement import in_line, v_shaped
-from kshm.engine.engine import DirectMasses, Engine, PolytropicGas
+from kshm.chain.result import ChainArrays
+from kshm.chain.solve import solve_batch
+from kshm.engine.arrangement import fan, in_row
+from kshm.engine.engine import Engine
+from kshm.engine.gas import PolytropicGas
+from kshm.engine.masses import DirectMasses
 from kshm.mechanics.masses import point_masses
 from tests.kshm.engines import engines
 
 
-def arrays(raw: BatchSolution) -> dict[str, np.ndarray]:
+def arrays(raw: ChainArrays) -> dict[str, np.ndarray]:
     values = {field.name: getattr(raw, field.name) for field in fields(raw)}
     return {name: value for name, value in values.items() if isinstance(value, np.ndarray)}
 
@@ -51,7 +54,7 @@ def test_v_engine_without_bank_angle_is_in_line_with_everything_doubled(engine: 
     count = engine.cylinders
     pair = replace(
         engine,
-        arrangement=v_shaped(2 * count, 0.0),
+        arrangement=fan(count, (0.0, 0.0)),
         firing_offsets=engine.firing_offsets * 2,
     )
     m_j, m_2 = point_masses(engine.masses, engine.geometry.rod_length)
@@ -88,15 +91,15 @@ def test_articulated_rod_on_the_crankpin_is_a_rod_of_its_own(engine: Engine) -> 
     """With ρ = 0, the same length and masses: a V engine with two rods at one place."""
     m_j, m_2 = point_masses(engine.masses, engine.geometry.rod_length)
     rod = replace(
-        engine.articulated,
+        engine.articulated[0],
         radius=0.0,
         rod_length=engine.geometry.rod_length,
         reciprocating=m_j,
         big_end=m_2,
     )
-    hung = replace(engine, articulated=rod)
+    hung = replace(engine, articulated=(rod,) * len(engine.articulated))
     places = tuple(replace(c, master=None) for c in engine.arrangement)
-    plain = replace(engine, arrangement=places, articulated=None)
+    plain = replace(engine, arrangement=places, articulated=())
     one, other = solve_batch([hung]), solve_batch([plain])
     np.testing.assert_allclose(one.displacement, other.displacement, atol=1e-12)
     for name in ("p", "p_inertia", "N", "S", "journal", "journal_load"):
@@ -125,4 +128,4 @@ def test_two_strokes_repeat_after_one_turn(engine: Engine) -> None:
 
 
 def test_a_basic_engine_is_one_without_any_of_this() -> None:
-    assert in_line(3)[2].throw == 2
+    assert in_row(3)[2].throw == 2

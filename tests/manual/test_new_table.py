@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import io
 import tomllib
-from dataclasses import replace
 from pathlib import Path
 
 import openpyxl
 import pytest
 
-from reports.grading.issuing import issue
 from reports.grading.issuing.issue import assignment_for
 from reports.grading.judging.marking import Marker
 from reports.grading.reading.submissions import Submission
-from reports.tables.registry import build_model
+from reports.tables import registry
 from tests.grading.classroom import issue_class
 from tests.grading.fill import filled_book
 from tests.manual.pages import DOCS, ROOT, blocks
@@ -43,6 +41,8 @@ def test_the_sheet_has_live_formulas(example):
     (recalculated,) = Formualizer().recalculate([book])
     assert errors_in(recalculated) == []
     assert differences_from_caches(book, recalculated) == []
+    (chart,) = openpyxl.load_workbook(io.BytesIO(book))[SHEET]._charts
+    assert len(chart.series) == 1
 
 
 def test_the_report_takes_the_formula_from_the_description(example):
@@ -55,12 +55,7 @@ def test_the_table_is_graded_by_its_name_in_the_rubric(example, monkeypatch, tmp
     (rubric,) = blocks(PAGE, "toml")
     assert "tilting" in tomllib.loads(rubric)["work"]["fill"]
 
-    def with_table(model):
-        built = build_model(model)
-        table = example["tilting_table"](built.tables["P4_1"].rows)
-        return replace(built, blocks=(*built.blocks, table))
-
-    monkeypatch.setattr(issue, "build_model", with_table)
+    monkeypatch.setattr(registry, "AFTER", (*registry.AFTER, example["tilting"]))
     register = issue_class(tmp_path, 1, rubric).register
     (book,) = register.books
     handout = (tmp_path / "issued" / book.folder / book.file).read_bytes()

@@ -6,7 +6,7 @@ import numpy as np
 
 from kshm import solve
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.to_si.engine import to_engine
+from reports.inputs.to_si.engine import engine_and_cycle
 from reports.spec.blocks import Model
 from reports.tables.registry import build_model
 from reports.workbook.layout import FIRST_ROW, Layout
@@ -40,7 +40,7 @@ def differences_from_caches(book: bytes, recalculated: Book) -> list[str]:
 
 def differences_from_solver(model: Model, recalculated: Book) -> tuple[int, list[str]]:
     """Cells compared with the solver and those that differ by more than the tolerance."""
-    solution = solve(to_engine(model.input))
+    solution = solve(*engine_and_cycle(model.input))
     layout = Layout.of(model)
     compared, wrong = 0, []
     for table in model.tables.values():

@@ -14,7 +14,7 @@ from kshm.mechanics.masses import point_masses
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.to_si.engine import to_engine
+from reports.inputs.to_si.engine import engine_and_cycle, to_engine
 from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from reports.workbook.write import workbook_bytes
@@ -144,7 +144,7 @@ def test_three_moments_agree_for_any_shaft(engine: Engine) -> None:
 
 def test_corrections_carry_no_force_and_no_moment() -> None:
     """Support moments only shift load between the supports: force and couple stay."""
-    solution = solve(to_engine(made("d-240")))
+    solution = solve(*engine_and_cycle(made("d-240")))
     spans = [t.length for t in solution.engine.crankshaft.throws]
     places = np.concatenate([[0.0], np.cumsum(spans)])
     table = solution.columns["continuous"]
@@ -162,12 +162,12 @@ def test_a_massless_rod_presses_its_bearing_along_its_axis() -> None:
     """Without m_2 the load on the big end is the rod force S itself, nothing across."""
     raw = to_mapping(made())
     raw["masses"] = {"reciprocating_kg": 2.0, "rod_big_end_kg": 0.001}
-    solution = solve(to_engine(load_mapping(raw, source="b").model))
+    solution = solve(*engine_and_cycle(load_mapping(raw, source="b").model))
     table, forces = solution.columns["rod_bearing"], solution.columns["P4_1"]
     spin = solution.scalars["K_r_rod"]
     np.testing.assert_allclose(table["By_MPa"], forces["S_MPa"], atol=spin + 1e-9)
     np.testing.assert_allclose(table["Bx_MPa"], 0, atol=spin + 1e-9)
-    whole = solve(to_engine(made())).columns
+    whole = solve(*engine_and_cycle(made())).columns
     np.testing.assert_allclose(whole["rod_bearing"]["B_MPa"], whole["crankpin"]["Rpin_MPa"])
 
 

@@ -13,7 +13,7 @@ from kshm.mechanics.cubic_diagrams import periodic_nodes
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_toml
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.to_si.engine import to_engine
+from reports.inputs.to_si.engine import engine_and_cycle, to_engine
 from reports.shared.errors import InputError
 from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
@@ -47,7 +47,7 @@ def made(gas: dict[str, Any], ratio: float = 18.0, step: int = 5) -> InputFile:
 
 
 def points_of(data: InputFile, every: int) -> list[list[float]]:
-    gas = solve(to_engine(data)).columns["gas"]
+    gas = solve(*engine_and_cycle(data)).columns["gas"]
     pairs = zip(gas["phi_deg"].tolist(), gas["p_MPa"].tolist(), strict=True)
     return [[angle, round(pressure, 9)] for angle, pressure in pairs][::every]
 
@@ -71,7 +71,7 @@ def test_points_statements_agree(interpolation: str) -> None:
 def test_the_diagram_has_the_points_of_figure_22_and_no_overshoot(kind: str) -> None:
     gas, ratio = ENGINES[kind]
     data = made(gas, ratio, step=1)
-    solution = solve(to_engine(data))
+    solution = solve(*engine_and_cycle(data))
     phi, p = solution.columns["gas"]["phi_deg"], solution.columns["gas"]["p_MPa"]
     s = solution.scalars
     share = 0.85 if kind == "petrol" else 1.0
@@ -117,7 +117,7 @@ def test_smooth_points_meet_every_point_and_never_leave_their_neighbours() -> No
 
 
 def test_mean_indicated_pressure_is_the_area_over_the_swept_volume() -> None:
-    solution = solve(to_engine(made(DIESEL, step=1)))
+    solution = solve(*engine_and_cycle(made(DIESEL, step=1)))
     gas, s = solution.columns["gas"], solution.scalars
     area = np.trapezoid(gas["p_MPa"], gas["volume_dm3"])
     assert s["p_i_area"] == pytest.approx(area / s["V_h"], rel=1e-12)

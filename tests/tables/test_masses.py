@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from kshm.engine.masses import (
+from kshm.engine.masses import Swinging
+from kshm.mechanics.rod_masses import (
     GRAVITY,
-    Swinging,
     pendulum_inertia,
     swung_centre,
     swung_inertia,

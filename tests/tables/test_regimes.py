@@ -15,7 +15,7 @@ from kshm import solve
 from reports.inputs.fields import iter_fields, to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.to_si.engine import to_engine
+from reports.inputs.to_si.engine import engine_and_cycle, to_engine
 from reports.shared.errors import InputError
 from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
@@ -41,11 +41,11 @@ def read(raw: dict[str, Any]) -> InputFile:
 def test_a_regime_is_the_engine_with_its_speed_and_gas() -> None:
     """Every table of the second regime is the one of a file that has it as its main regime."""
     raw = coarse()
-    both = solve(to_engine(read(raw)))
+    both = solve(*engine_and_cycle(read(raw)))
     other = raw.pop("regimes")[0]
     raw["gas"] = other.pop("gas")
     raw["regime"] = {k: v for k, v in other.items() if k != "name"}
-    alone = solve(to_engine(read(raw)))
+    alone = solve(*engine_and_cycle(read(raw)))
     for table in ("gas", "P4_1", "P4_2", "P4_3_3", "crankpin", "table_14", "P4_5s"):
         for key, column in alone.columns[table].items():
             np.testing.assert_array_equal(both.columns[f"{table}_R2"][key], column)
@@ -68,7 +68,7 @@ def test_one_regime_is_the_model_it_was() -> None:
 
 def test_different_kinds_of_gas_in_one_file() -> None:
     raw = coarse()
-    gas = solve(to_engine(sample("gots-diesel"))).columns["gas"]
+    gas = solve(*engine_and_cycle(sample("gots-diesel"))).columns["gas"]
     points = [[float(a), round(float(p), 9)] for a, p in zip(gas["phi_deg"], gas["p_MPa"],
                                                             strict=True)]  # fmt: skip
     raw["regimes"][0]["gas"] = {
@@ -92,7 +92,7 @@ def test_different_kinds_of_gas_in_one_file() -> None:
 
 def test_the_governing_regime_is_named_for_each_load() -> None:
     data = read(coarse())
-    values, solution = evaluate_model(build_model(data)).scalars, solve(to_engine(data))
+    values, solution = evaluate_model(build_model(data)).scalars, solve(*engine_and_cycle(data))
     names = ["максимальная мощность", "максимальный момент", "холостой ход"]
     for key in ("Rpin_max", "Rmain1_max", "Rmain4_mean", "M_max", "dM_pin3", "q_pin_mean"):
         found = [solution.scalars[key + end] for end in ("", "_R2", "_R3")]

@@ -9,7 +9,7 @@ from kshm import solve
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.to_si.engine import to_engine
+from reports.inputs.to_si.engine import engine_and_cycle
 from reports.spec.blocks import Model, TableSpec
 from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
@@ -30,7 +30,7 @@ def variant(name: str, **changes: object) -> InputFile:
 
 def assert_agree(data: InputFile) -> None:
     model = build_model(data)
-    values, solution = evaluate_model(model), solve(to_engine(data))
+    values, solution = evaluate_model(model), solve(*engine_and_cycle(data))
     for table in model.tables.values():
         for column in table.columns[1:]:
             if column.helper or table.helper:
@@ -58,7 +58,7 @@ def test_every_sample_on_every_grid(name: str, step: int, method: str) -> None:
 def test_every_result_of_the_solver_stands_in_a_table() -> None:
     """Nothing the solver computes is left out of the workbook, nor the other way round."""
     data = sample("gots-diesel")
-    model, solution = build_model(data), solve(to_engine(data))
+    model, solution = build_model(data), solve(*engine_and_cycle(data))
     aliases = {"P4_3"}  # the most loaded journal once more, in the shape of the print
     assert set(solution.columns) - aliases == results_of(model)
     for table, columns in solution.columns.items():
@@ -71,7 +71,7 @@ def test_every_result_of_the_solver_stands_in_a_table() -> None:
 
 def test_table_of_points_instead_of_polytropes() -> None:
     """A diagram given by points: sampled from the polytropes it gives the same forces at them."""
-    polytropic = solve(to_engine(sample("gots-diesel")))
+    polytropic = solve(*engine_and_cycle(sample("gots-diesel")))
     gas = polytropic.columns["gas"]
     raw = to_mapping(sample("gots-diesel"))
     points = [[float(a), float(p)] for a, p in zip(gas["phi_deg"], gas["p_MPa"], strict=True)]
@@ -79,7 +79,7 @@ def test_table_of_points_instead_of_polytropes() -> None:
     data = load_mapping(raw, source="points").model
     assert_agree(data)
     np.testing.assert_allclose(
-        solve(to_engine(data)).columns["P4_1"]["Ps_MPa"],
+        solve(*engine_and_cycle(data)).columns["P4_1"]["Ps_MPa"],
         polytropic.columns["P4_1"]["Ps_MPa"],
         atol=1e-12,
     )
@@ -106,7 +106,7 @@ def test_every_layout(name: str, method: str) -> None:
     step, rays = (5, 12) if method == "exact" else (10, 18)
     data = made(name, method=method, step_deg=step, wear_rays=rays)
     assert_agree(data)
-    model, solution = build_model(data), solve(to_engine(data))
+    model, solution = build_model(data), solve(*engine_and_cycle(data))
     assert set(solution.columns) - {"P4_3"} == results_of(model)
     for table in results_of(model):
         spec = model.tables[table]

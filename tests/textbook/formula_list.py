@@ -15,6 +15,7 @@ ROOT = Path(__file__).parents[2]
 LAST = 60
 LONGEST = 20
 _RANGE = re.compile(r"\((\d+)[аa]?\)\s*[-–]\s*\((\d+)[аa]?\)")
+_SOURCE = re.compile(r"(?:\A|\| )(Гоц[^\n]*)")
 _ONE = re.compile(r"\((\d+)[аa]?\)")
 _NAMED = re.compile(r"(?:Gots|Гоц)[^\n]*")
 
@@ -113,11 +114,11 @@ def _docstrings(tree: ast.Module) -> Iterator[tuple[str, str]]:
 
 
 def _sources(tree: ast.Module) -> Iterator[str]:
-    """Texts of the specifications that begin with the author's name."""
+    """Sources that begin with the author's name: texts of their own or at the ends of lines."""
     for node in ast.walk(tree):
         text = node.value if isinstance(node, ast.Constant) else None
-        if isinstance(text, str) and text.startswith("Гоц"):
-            yield text
+        if isinstance(text, str):
+            yield from _SOURCE.findall(text)
 
 
 def places() -> dict[int, tuple[list[str], list[str]]]:

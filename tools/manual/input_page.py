@@ -7,9 +7,8 @@ from typing import Any
 
 from pydantic_core import PydanticUndefined
 
-from reports.inputs.fields import SECTIONS
-from reports.inputs.load import GAS_MODELS, SECTION_MODELS
-from reports.inputs.meta import Meta, Strictly, find_meta, hints, submodel
+from reports.inputs.meta import Meta, Strictly, find_meta, hints
+from reports.inputs.registry import GAS_MODELS, SECTIONS, records
 from reports.inputs.units import number_text
 from tools.manual.markdown import escaped, table
 from tools.manual.words import FILE_KEYS, INPUT_HEAD, SECTION_NOTES
@@ -21,13 +20,13 @@ _PAIR = 2
 def input_page() -> str:
     """The whole page."""
     parts = [INPUT_HEAD]
-    for name, title in SECTIONS.items():
-        parts.append(f"## [{name}] — {title.lower()}")
+    for name, section in SECTIONS.items():
+        parts.append(f"## [{name}] — {section.title.lower()}")
         parts += SECTION_NOTES.get(name, ())
         if name == "gas":
             parts += _gases()
         else:
-            parts += _section(name, SECTION_MODELS[name])
+            parts += _section(name, section.model)
     for name, title in (("regimes", "дальнейшие режимы"), ("variants", "варианты для группы")):
         parts.append(f"## {'[[regimes]]' if name == 'regimes' else '[variants]'} — {title}")
         parts += SECTION_NOTES[name]
@@ -46,11 +45,7 @@ def _gases() -> Iterator[str]:
 
 def _section(path: str, model: type[Strictly]) -> Iterator[str]:
     """The keys of a section as one table, those of its lists of records as further ones."""
-    inner = {
-        key: found
-        for key, annotation in hints(model).items()
-        if (found := submodel(annotation)) is not None and issubclass(found, Strictly)
-    }
+    inner = dict(records(model))
     yield table(_HEADER, _rows(model, skipped=inner))
     for key, found in inner.items():
         yield f"### [[{path}.{key}]]"

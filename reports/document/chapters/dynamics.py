@@ -17,8 +17,7 @@ from reports.document.page.blocks import TableBlock
 from reports.document.page.spec_tables import scalar_table
 from reports.document.page.writer import Figure, TablePlan
 from reports.document.text.terms import Terms
-from reports.inputs.sections.gas import RoundedGasSection
-from reports.inputs.sections.input_file import TableGasSection
+from reports.inputs.sections.gas import RoundedGasSection, TableGasSection
 from reports.tables.gas.diagram import is_smooth
 
 

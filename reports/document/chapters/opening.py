@@ -16,7 +16,8 @@ from reports.document.text.symbols import inline_html
 from reports.document.text.terms import input_text, plain_number
 from reports.formula.tex import input_symbol_tex
 from reports.inputs.fields import Field
-from reports.inputs.sections.input_file import InputFile, TableGasSection
+from reports.inputs.sections.gas import TableGasSection
+from reports.inputs.sections.input_file import InputFile
 from reports.spec.shape import Shape
 from reports.tables.gas.diagram import is_smooth
 

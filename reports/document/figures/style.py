@@ -34,7 +34,7 @@ GRID: dict[str, Any] = {"color": "#c4c4c4", "linewidth": 0.45}
 AXIS: dict[str, Any] = {"color": "#000000", "linewidth": 0.8}
 HALO: dict[str, Any] = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
 
-_RC = {
+_RC: dict[Any, Any] = {
     "font.family": "STIXGeneral",
     "font.size": FONT_SIZE,
     "mathtext.fontset": "stix",

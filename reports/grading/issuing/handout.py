@@ -14,7 +14,8 @@ from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.grading.issuing.assignment import Assignment
-from reports.spec.blocks import Block, ChartSpec, Grid, Model, TableSpec, scalars_of
+from reports.spec.blocks import Block, Grid, Model, TableSpec, scalars_of
+from reports.spec.charts import ChartSpec
 from reports.spec.evaluation import Evaluation, Values
 from reports.workbook import styles
 from reports.workbook.layout import CONTENTS_SHEET, INPUT_SHEET, Cell, Layout, check_names

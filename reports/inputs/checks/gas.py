@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from reports.inputs.checks.rounded import check_rounded
+from reports.inputs.checks.volume import volume_ratio
 from reports.inputs.findings import Finding, Path, Values, radius_and_rod
 from reports.inputs.units import MPA, number_text
 
@@ -80,8 +80,8 @@ def _pressures(values: Values) -> Iterator[Finding]:
     begin, lam = ratio, pair[0] / pair[1]
     if values.get("engine", "strokes") == 2:  # compression begins where the exhaust closes
         closes = values.get("gas", "exhaust_end_after_bdc_deg") or 0.0
-        begin = _volume(180 + closes, lam, ratio)
-    end = intake * (begin / _volume(start, lam, ratio)) ** exponent
+        begin = volume_ratio(180 + closes, lam, ratio)
+    end = intake * (begin / volume_ratio(start, lam, ratio)) ** exponent
     pure = intake * begin**exponent
     path = ("gas", "max_pressure_mpa")
     if highest < end:
@@ -93,13 +93,6 @@ def _pressures(values: Values) -> Iterator[Finding]:
     elif highest < pure:
         what = f"p_z = {MPA.text(highest)} ниже давления чистого сжатия в ВМТ"
         yield Finding(path, what, f"оно равно {MPA.text(round(pure, 3))}", warning=True)
-
-
-def _volume(angle_deg: float, lam: float, ratio: float) -> float:
-    # V/V_c from the exact displacement, Gots (1); only to judge p_z before there is an engine.
-    phi = math.radians(angle_deg)
-    rod = (1 - math.sqrt(1 - (lam * math.sin(phi)) ** 2)) / lam
-    return 1 + (ratio - 1) / 2 * (1 - math.cos(phi) + rod)
 
 
 def _odd_pressures(values: Values) -> Iterator[Finding]:

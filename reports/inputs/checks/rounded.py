@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
+from reports.inputs.checks.volume import volume_ratio
 from reports.inputs.findings import Finding, Path, Values, radius_and_rod
 from reports.inputs.sections.gas import JOIN_DEG, PEAK_DEG, PEAK_SHARE
 from reports.inputs.units import MPA, number_text
@@ -63,11 +63,11 @@ def _pressures(values: Values, kind: str) -> Iterator[Finding]:
     lam = pair[0] / pair[1]
     share = values.get("gas", "peak_share")
     top = p_z * (PEAK_SHARE[kind] if share is None else share)
-    at_start = p_a * (ratio / _volume(start, lam, ratio)) ** n_1
+    at_start = p_a * (ratio / volume_ratio(start, lam, ratio)) ** n_1
     at_tdc = rise * p_a * ratio**n_1
 
     def expanded(angle: float) -> float:
-        return float(p_z * (rho / _volume(angle, lam, ratio)) ** n_2)
+        return float(p_z * (rho / volume_ratio(angle, lam, ratio)) ** n_2)
 
     join = expanded(_TDC + _place(values, "expansion_after_tdc_deg", JOIN_DEG[kind]))
     opening, bottom = expanded(_BDC - before), (expanded(_BDC) + p_r) / 2
@@ -99,10 +99,3 @@ def _start(values: Values) -> float | None:
 def _place(values: Values, key: str, usual: float) -> float:
     found = values.get("gas", key)
     return usual if found is None else float(found)
-
-
-def _volume(angle_deg: float, lam: float, ratio: float) -> float:
-    # V/V_c from the exact displacement, Gots (1); only to judge the order of the pressures.
-    phi = math.radians(angle_deg)
-    rod = (1 - math.sqrt(1 - (lam * math.sin(phi)) ** 2)) / lam
-    return 1 + (ratio - 1) / 2 * (1 - math.cos(phi) + rod)

@@ -1,37 +1,46 @@
-"""[gas], source = "rounded": the rounded real diagram of figure 22, and ways to read points."""
+"""The [gas] section of the input file, by its source: polytropes, points, a cycle, figure 22."""
 
 from __future__ import annotations
 
 from typing import Annotated, Literal
 
+from pydantic import Strict
+
 from reports.inputs.meta import Strictly, choice, number
 from reports.inputs.sections.cycle import KINDS
 from reports.inputs.units import DEG, MPA, NONE
 
-ROUNDED = {"rounded": "скругленная действительная диаграмма"}
+SOURCES = {
+    "polytropic": "по политропам",
+    "table": "по точкам диаграммы",
+    "cycle": "по расчету цикла",
+    "rounded": "скругленная действительная диаграмма",
+}
 INTERPOLATIONS = {"linear": "прямыми", "monotone": "гладко, без выбросов"}
 PEAK_SHARE = {"petrol": 0.85, "diesel": 1.0}
 PEAK_DEG = {"petrol": 12.0, "diesel": 10.0}
 JOIN_DEG = {"petrol": 40.0, "diesel": 45.0}
+_SOURCE = choice("Индикаторная диаграмма", SOURCES, structural=True)
+_ROUNDED = choice("Индикаторная диаграмма", {"rounded": SOURCES["rounded"]}, structural=True)
 
 
-class RoundedGasSection(Strictly):
-    """[gas], source = "rounded": c', c'', z_д, b', b'' and r of figure 22 joined smoothly."""
+class _Ambient(Strictly):
+    """What every source has."""
 
-    source: Annotated[
-        Literal["rounded"], choice("Индикаторная диаграмма", ROUNDED, structural=True)
-    ]
-    kind: Annotated[Literal["petrol", "diesel"], choice("Вид двигателя", KINDS, structural=True)]
+    source: Annotated[str, _SOURCE]
     ambient_pressure_mpa: Annotated[
         float, number("Давление окружающей среды", "p_0", MPA, 0.01, 0.5)
     ] = 0.1
+
+
+class _Pressures(_Ambient):
+    """Pressures and exponents of the polytropes."""
+
     intake_pressure_mpa: Annotated[float, number("Давление впуска", "p_a", MPA, 0.01, 3)]
     residual_pressure_mpa: Annotated[
         float, number("Давление остаточных газов", "p_r", MPA, 0.01, 3)
     ]
-    max_pressure_mpa: Annotated[
-        float, number("Расчетное давление конца сгорания в точке z", "p_z", MPA, 0.2, 60)
-    ]
+    max_pressure_mpa: Annotated[float, number("Максимальное давление цикла", "p_z", MPA, 0.2, 60)]
     compression_exponent: Annotated[
         float, number("Показатель политропы сжатия", "n_1", NONE, 1, 1.7)
     ]
@@ -40,13 +49,95 @@ class RoundedGasSection(Strictly):
     ]
     preexpansion_ratio: Annotated[
         float, number("Степень предварительного расширения", "ρ", NONE, 1, 6)
-    ] = 1.0
+    ]
+
+
+class _Ignition(_Ambient):
+    """When the charge takes fire."""
+
     injection_advance_deg: Annotated[
         float, number("Угол опережения впрыска (зажигания)", "θ_оп", DEG, 0.5, 90)
     ]
     ignition_delay_deg: Annotated[
         float, number("Период задержки воспламенения", "Δφ_з", DEG, 0, 90)
     ]
+
+
+class _Timing(_Ignition):
+    """The angles of Dinn's diagram."""
+
+    combustion_start_deg: Annotated[
+        float | None, number("Угол начала сгорания", "φ_c", DEG, 270, 360)
+    ] = None
+    exhaust_start_before_bdc_deg: Annotated[
+        float, number("Начало выпуска до НМТ", "φ_в1", DEG, 0, 150)
+    ]
+    exhaust_end_after_bdc_deg: Annotated[
+        float, number("Конец выпуска после НМТ", "φ_в2", DEG, 0, 180)
+    ]
+
+
+class PolytropicGasSection(_Timing, _Pressures):
+    """[gas], source = "polytropic": indicator diagram by polytropes, as Dinn built it."""
+
+    source: Annotated[Literal["polytropic"], _SOURCE]
+    scavenge_start_before_bdc_deg: Annotated[
+        float | None, number("Начало продувки до НМТ (двухтактный двигатель)", "φ_пр", DEG, 0, 150)
+    ] = None
+
+
+class TableGasSection(_Ambient):
+    """[gas], source = "table": points (φ, absolute pressure)."""
+
+    source: Annotated[Literal["table"], _SOURCE]
+    interpolation: Annotated[
+        Literal["linear", "monotone"],
+        choice("Соединение точек", INTERPOLATIONS, structural=True),
+    ] = "linear"
+    points: Annotated[
+        tuple[
+            Annotated[
+                tuple[
+                    Annotated[float, number("Точка {n}: угол", "φ_{n}", DEG, 0, 720)],
+                    Annotated[float, number("Точка {n}: давление", "p_{n}", MPA, 0.001, 60)],
+                ],
+                Strict(False),
+            ],
+            ...,
+        ],
+        Strict(False),
+    ]
+
+
+class CycleGasSection(_Timing):
+    """[gas], source = "cycle": pressures from the [cycle] section, the angles of Dinn."""
+
+    source: Annotated[Literal["cycle"], _SOURCE]
+    ambient_pressure_mpa: Annotated[
+        float, number("Давление окружающей среды", "p_0", MPA, 0.03, 0.2)
+    ] = 0.1
+    exhaust_end_after_bdc_deg: Annotated[
+        float, number("Конец свободного выпуска после НМТ", "φ_в2", DEG, 0, 180)
+    ]
+
+
+class _Kind(Strictly):
+    """The kind of engine stands before its pressures."""
+
+    source: Annotated[str, _ROUNDED]
+    kind: Annotated[Literal["petrol", "diesel"], choice("Вид двигателя", KINDS, structural=True)]
+
+
+class RoundedGasSection(_Ignition, _Pressures, _Kind):
+    """[gas], source = "rounded": c', c'', z_д, b', b'' and r of figure 22 joined smoothly."""
+
+    source: Annotated[Literal["rounded"], _ROUNDED]
+    max_pressure_mpa: Annotated[
+        float, number("Расчетное давление конца сгорания в точке z", "p_z", MPA, 0.2, 60)
+    ]
+    preexpansion_ratio: Annotated[
+        float, number("Степень предварительного расширения", "ρ", NONE, 1, 6)
+    ] = 1.0
     tdc_rise: Annotated[
         float, number("Давление в точке c'' к давлению конца сжатия", "p_c''/p_c", NONE, 1, 2)
     ] = 1.2
@@ -68,3 +159,6 @@ class RoundedGasSection(Strictly):
     intake_settle_deg: Annotated[
         float, number("Угол после ВМТ, при котором устанавливается p_a", "φ_a'", DEG, 2, 90)
     ] = 30.0
+
+
+GasSection = PolytropicGasSection | TableGasSection | CycleGasSection | RoundedGasSection

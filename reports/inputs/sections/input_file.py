@@ -9,20 +9,20 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field, Strict
+from pydantic import Field
 
 from reports.inputs.meta import Strictly, choice, number, text
 from reports.inputs.sections.articulated import ArticulatedSection
 from reports.inputs.sections.balance import BalanceSection
 from reports.inputs.sections.crankshaft import CrankshaftSection
 from reports.inputs.sections.cycle import CycleSection
-from reports.inputs.sections.gas import INTERPOLATIONS, ROUNDED, RoundedGasSection
+from reports.inputs.sections.gas import GasSection
 from reports.inputs.sections.masses import MassesSection
 from reports.inputs.sections.reference import ReferenceSection
 from reports.inputs.sections.report import Report
-from reports.inputs.units import DEG, KW, MM, MPA, NONE, RPM
+from reports.inputs.units import KW, MM, NONE, RPM
 
-MAX_CYLINDERS = 12
+MAX_CYLINDERS = 24
 STEPS = (1, 2, 3, 5, 10, 15, 30)
 LAMBDA_MIN, LAMBDA_MAX = 0.01, 0.99
 
@@ -32,12 +32,6 @@ METHODS = {
 }
 LAYOUTS = {"inline": "рядный", "v": "V-образный", "opposed": "оппозитный"}
 STROKES = {"4": "4", "2": "2"}
-SOURCES = {
-    "polytropic": "по политропам",
-    "table": "по точкам диаграммы",
-    "cycle": "по расчету цикла",
-    **ROUNDED,
-}
 
 
 class EngineSection(Strictly):
@@ -128,102 +122,6 @@ class Regime(Strictly):
         float | None, number("Индикаторная мощность по расчету цикла", "N_i", KW, 0.01, 1e5)
     ] = None
     fullness: Annotated[float, number("Коэффициент полноты диаграммы", "φ_п", NONE, 0.5, 1)] = 1.0
-
-
-class PolytropicGasSection(Strictly):
-    """[gas], source = "polytropic": indicator diagram by polytropes, as Dinn built it."""
-
-    source: Annotated[
-        Literal["polytropic"], choice("Индикаторная диаграмма", SOURCES, structural=True)
-    ]
-    ambient_pressure_mpa: Annotated[
-        float, number("Давление окружающей среды", "p_0", MPA, 0.01, 0.5)
-    ] = 0.1
-    intake_pressure_mpa: Annotated[float, number("Давление впуска", "p_a", MPA, 0.01, 3)]
-    residual_pressure_mpa: Annotated[
-        float, number("Давление остаточных газов", "p_r", MPA, 0.01, 3)
-    ]
-    max_pressure_mpa: Annotated[float, number("Максимальное давление цикла", "p_z", MPA, 0.2, 60)]
-    compression_exponent: Annotated[
-        float, number("Показатель политропы сжатия", "n_1", NONE, 1, 1.7)
-    ]
-    expansion_exponent: Annotated[
-        float, number("Показатель политропы расширения", "n_2", NONE, 1, 1.7)
-    ]
-    preexpansion_ratio: Annotated[
-        float, number("Степень предварительного расширения", "ρ", NONE, 1, 6)
-    ]
-    injection_advance_deg: Annotated[
-        float, number("Угол опережения впрыска (зажигания)", "θ_оп", DEG, 0.5, 90)
-    ]
-    ignition_delay_deg: Annotated[
-        float, number("Период задержки воспламенения", "Δφ_з", DEG, 0, 90)
-    ]
-    combustion_start_deg: Annotated[
-        float | None, number("Угол начала сгорания", "φ_c", DEG, 270, 360)
-    ] = None
-    exhaust_start_before_bdc_deg: Annotated[
-        float, number("Начало выпуска до НМТ", "φ_в1", DEG, 0, 150)
-    ]
-    exhaust_end_after_bdc_deg: Annotated[
-        float, number("Конец выпуска после НМТ", "φ_в2", DEG, 0, 180)
-    ]
-    scavenge_start_before_bdc_deg: Annotated[
-        float | None, number("Начало продувки до НМТ (двухтактный двигатель)", "φ_пр", DEG, 0, 150)
-    ] = None
-
-
-class TableGasSection(Strictly):
-    """[gas], source = "table": points (φ, absolute pressure)."""
-
-    source: Annotated[Literal["table"], choice("Индикаторная диаграмма", SOURCES, structural=True)]
-    ambient_pressure_mpa: Annotated[
-        float, number("Давление окружающей среды", "p_0", MPA, 0.01, 0.5)
-    ] = 0.1
-    interpolation: Annotated[
-        Literal["linear", "monotone"],
-        choice("Соединение точек", INTERPOLATIONS, structural=True),
-    ] = "linear"
-    points: Annotated[
-        tuple[
-            Annotated[
-                tuple[
-                    Annotated[float, number("Точка {n}: угол", "φ_{n}", DEG, 0, 720)],
-                    Annotated[float, number("Точка {n}: давление", "p_{n}", MPA, 0.001, 60)],
-                ],
-                Strict(False),
-            ],
-            ...,
-        ],
-        Strict(False),
-    ]
-
-
-class CycleGasSection(Strictly):
-    """[gas], source = "cycle": pressures from the [cycle] section, the angles of Dinn."""
-
-    source: Annotated[Literal["cycle"], choice("Индикаторная диаграмма", SOURCES, structural=True)]
-    ambient_pressure_mpa: Annotated[
-        float, number("Давление окружающей среды", "p_0", MPA, 0.03, 0.2)
-    ] = 0.1
-    injection_advance_deg: Annotated[
-        float, number("Угол опережения впрыска (зажигания)", "θ_оп", DEG, 0.5, 90)
-    ]
-    ignition_delay_deg: Annotated[
-        float, number("Период задержки воспламенения", "Δφ_з", DEG, 0, 90)
-    ]
-    combustion_start_deg: Annotated[
-        float | None, number("Угол начала сгорания", "φ_c", DEG, 270, 360)
-    ] = None
-    exhaust_start_before_bdc_deg: Annotated[
-        float, number("Начало выпуска до НМТ", "φ_в1", DEG, 0, 150)
-    ]
-    exhaust_end_after_bdc_deg: Annotated[
-        float, number("Конец свободного выпуска после НМТ", "φ_в2", DEG, 0, 180)
-    ]
-
-
-GasSection = PolytropicGasSection | TableGasSection | CycleGasSection | RoundedGasSection
 
 
 class RegimeValues(Regime):

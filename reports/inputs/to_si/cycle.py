@@ -12,7 +12,9 @@ from kshm.cycle.speed_characteristic import LEIDERMAN, Leiderman, from_adaptabil
 from reports.inputs.cycle_texts import path_of, text_of
 from reports.inputs.findings import Finding
 from reports.inputs.sections.cycle import CycleSection
-from reports.inputs.sections.input_file import CycleGasSection, GeometrySection, InputFile
+from reports.inputs.sections.gas import CycleGasSection
+from reports.inputs.sections.input_file import GeometrySection, InputFile
+from reports.inputs.to_si.geometry import crank_radius_mm, rod_length_mm
 from reports.inputs.units import KELVIN, KJ_KG_K, KW, MJ_KG, MM, MPA, RPM
 
 
@@ -50,8 +52,6 @@ def size_step_mm(section: CycleSection) -> float:
 
 def cycle_inputs(model: InputFile, section: CycleSection, gas: CycleGasSection) -> CycleInputs:
     """The solver's inputs in SI; bore and stroke stay open when a power is wanted."""
-    from reports.inputs.to_si.engine import crank_radius_mm, rod_length_mm
-
     geometry = model.geometry
     bore = stroke = None
     if isinstance(geometry, GeometrySection):

@@ -4,36 +4,25 @@ from __future__ import annotations
 
 from kshm.cycle.diagram import polytropic_gas
 from kshm.cycle.run import CycleRun
-from kshm.engine.arrangement import Arrangement, ArticulatedRod
-from kshm.engine.engine import (
-    Balancing,
-    Crankshaft,
-    EndMass,
-    Engine,
-    Gas,
-    Geometry,
-    PolytropicGas,
-    Regime,
-    TabulatedGas,
-    Throw,
-    Web,
-)
+from kshm.engine.arrangement import Arrangement, ArticulatedRod, hung
+from kshm.engine.crankshaft import Crankshaft, EndMass, Throw, Web
+from kshm.engine.engine import Balancing, Engine, Geometry, OperatingPoint
+from kshm.engine.gas import Gas, PolytropicGas, TabulatedGas
 from reports.inputs.firing import arrangement
 from reports.inputs.sections.articulated import ArticulatedSection
 from reports.inputs.sections.balance import BalanceSection
 from reports.inputs.sections.crankshaft import ArmsSection, CrankshaftSection, WebSection
-from reports.inputs.sections.gas import RoundedGasSection
-from reports.inputs.sections.input_file import (
+from reports.inputs.sections.gas import (
     CycleGasSection,
     GasSection,
-    GeometrySection,
-    InputFile,
     PolytropicGasSection,
-    RegimeSection,
+    RoundedGasSection,
     TableGasSection,
 )
+from reports.inputs.sections.input_file import GeometrySection, InputFile, RegimeSection
 from reports.inputs.to_si.cycle import cycle_run
 from reports.inputs.to_si.gas import rounded_gas
+from reports.inputs.to_si.geometry import crank_radius_mm, rod_length_mm
 from reports.inputs.to_si.masses import to_masses, with_masses
 from reports.inputs.units import DEG, KG, KW, MM, MPA, RPM
 
@@ -44,20 +33,30 @@ FIRING_TDC_DEG = 360.0
 
 def to_engine(model: InputFile) -> Engine:
     """Return the engine in SI units; the input must have passed `reports.inputs.load`."""
-    regime, reference = model.regime, model.reference
+    return engine_and_cycle(model)[0]
+
+
+def engine_and_cycle(model: InputFile) -> tuple[Engine, CycleRun | None]:
+    """Return the engine in SI units and the cycle calculation that its gas comes from."""
     run = cycle_run(model)
+    return _engine(model, run), run
+
+
+def _engine(model: InputFile, run: CycleRun | None) -> Engine:
+    regime, reference = model.regime, model.reference
     geometry = _geometry(model, run)
     shaft = with_masses(model, geometry)
     forces = shaft.force_offsets_deg
     power, efficiency, fullness = _power(model, run)
+    places = arrangement_of(model)
     return Engine(
         geometry=geometry,
         omega=RPM.to_si(regime.speed_rpm),
         gas=_gas(model.gas, run, strokes=model.engine.strokes),
         masses=to_masses(model, geometry),
         crankshaft=_crankshaft(shaft),
-        arrangement=arrangement_of(model),
-        articulated=_articulated(model.articulated),
+        arrangement=places,
+        articulated=_articulated(model.articulated, len(hung(places))),
         firing_offsets=tuple(DEG.to_si(value) for value in shaft.firing_offsets_deg),
         strokes=model.engine.strokes,
         method=model.calculation.method,
@@ -69,7 +68,6 @@ def to_engine(model: InputFile) -> Engine:
         force_offsets=None if forces is None else tuple(DEG.to_si(value) for value in forces),
         balancing=_balancing(model.balance),
         name=model.engine.name,
-        cycle=run,
         oil_hole=None if shaft.oil_hole_deg is None else DEG.to_si(shaft.oil_hole_deg),
         regimes=tuple(_regime(regime, model.engine.strokes) for regime in model.regimes),
         reference_lambdas=() if reference is None else reference.lambdas,
@@ -77,9 +75,9 @@ def to_engine(model: InputFile) -> Engine:
     )
 
 
-def _regime(section: RegimeSection, strokes: int) -> Regime:
+def _regime(section: RegimeSection, strokes: int) -> OperatingPoint:
     power = section.indicated_power_kw
-    return Regime(
+    return OperatingPoint(
         name=section.name,
         omega=RPM.to_si(section.speed_rpm),
         gas=_gas(section.gas, None, strokes=strokes),
@@ -105,16 +103,17 @@ def arrangement_of(model: InputFile) -> Arrangement:
     return places
 
 
-def _articulated(section: ArticulatedSection | None) -> ArticulatedRod | None:
+def _articulated(section: ArticulatedSection | None, count: int) -> tuple[ArticulatedRod, ...]:
     if section is None:
-        return None
-    return ArticulatedRod(
+        return ()
+    rod = ArticulatedRod(
         rod_length=MM.to_si(section.rod_length_mm),
         radius=MM.to_si(section.radius_mm),
         angle=DEG.to_si(section.angle_deg),
         reciprocating=KG.to_si(section.reciprocating_kg),
         big_end=KG.to_si(section.big_end_kg),
     )
+    return (rod,) * count
 
 
 def _geometry(model: InputFile, run: CycleRun | None) -> Geometry:
@@ -145,28 +144,6 @@ def _power(model: InputFile, run: CycleRun | None) -> tuple[float | None, float,
     power = regime.indicated_power_kw
     efficiency, fullness = float(regime.mechanical_efficiency), float(regime.fullness)
     return None if power is None else KW.to_si(power), efficiency, fullness
-
-
-def crank_radius_mm(geometry: GeometrySection) -> float:
-    """Return r [mm] from r, S = 2r, or λ and L."""
-    if geometry.crank_radius_mm is not None:
-        return float(geometry.crank_radius_mm)
-    if geometry.stroke_mm is not None:
-        return geometry.stroke_mm / 2
-    if geometry.lambda_ is None or geometry.rod_length_mm is None:
-        msg = "geometry does not fix the crank radius"
-        raise ValueError(msg)
-    return geometry.lambda_ * geometry.rod_length_mm
-
-
-def rod_length_mm(geometry: GeometrySection) -> float:
-    """Return L [mm] as given, or from r and λ."""
-    if geometry.rod_length_mm is not None:
-        return float(geometry.rod_length_mm)
-    if geometry.lambda_ is None:
-        msg = "geometry does not fix the rod length"
-        raise ValueError(msg)
-    return crank_radius_mm(geometry) / geometry.lambda_
 
 
 def _gas(gas: GasSection, run: CycleRun | None, *, strokes: int) -> Gas:
@@ -233,6 +210,7 @@ def _balancing(section: BalanceSection) -> Balancing:
 
 
 def _crankshaft(shaft: CrankshaftSection) -> Crankshaft:
+    throws, journals = len(shaft.throw_angles_deg), len(shaft.main_lengths_mm)
     return Crankshaft(
         throws=tuple(
             _throw(shaft, angle, arms, shaft.webs[2 * index], shaft.webs[2 * index + 1])
@@ -250,11 +228,16 @@ def _crankshaft(shaft: CrankshaftSection) -> Crankshaft:
             angle=DEG.to_si(shaft.rear_angle_deg),
             arm=MM.to_si(shaft.rear_arm_mm),
         ),
-        pin_diameter=MM.to_si(shaft.pin_diameter_mm),
-        pin_length=MM.to_si(shaft.pin_length_mm),
-        main_diameter=MM.to_si(shaft.main_diameter_mm),
+        pin_diameters=_sizes(shaft.pin_diameter_mm, shaft.pin_diameters_mm, throws),
+        pin_lengths=_sizes(shaft.pin_length_mm, shaft.pin_lengths_mm, throws),
+        main_diameters=_sizes(shaft.main_diameter_mm, shaft.main_diameters_mm, journals),
         main_lengths=tuple(MM.to_si(length) for length in shaft.main_lengths_mm),
     )
+
+
+def _sizes(one: float | None, each: tuple[float, ...] | None, count: int) -> tuple[float, ...]:
+    """Sizes of all journals [m] from one for all or one each."""
+    return tuple(MM.to_si(size) for size in each or (one or 0.0,) * count)
 
 
 def _throw(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kshm.engine.engine import RoundedGas
+from kshm.engine.gas import RoundedGas
 from reports.inputs.sections.gas import JOIN_DEG, PEAK_DEG, PEAK_SHARE, RoundedGasSection
 from reports.inputs.units import DEG, MPA
 

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from kshm.engine.engine import DirectMasses, Geometry, Masses, RodMasses
-from kshm.engine.masses import (
-    Estimate,
-    Swinging,
-    Weighing,
+from kshm.engine.engine import Geometry
+from kshm.engine.masses import DirectMasses, Estimate, Masses, RodMasses, Swinging, Weighing
+from kshm.mechanics.rod_masses import (
     area_masses,
     reduced_web,
     swung_centre,

@@ -4,17 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from reports.spec.blocks import (
-    Block,
-    ChartSpec,
-    Column,
-    Grid,
-    GridRow,
-    Scalar,
-    ScalarTable,
-    Series,
-    TableSpec,
-)
+from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, Series, columns_of, over_phi, polar
+from reports.spec.listing import column_list, corners
+from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape
 from reports.tables.balance.balance_sums import (
     NOTHING,
@@ -44,14 +37,21 @@ def _amplitude() -> str:
 
 def _orders(shape: Shape) -> TableSpec:
     far = "max(" + ", ".join(f"abs({place(shape, i)})" for i in numbers(shape)) + ")"
-    columns = [Column("order", None), Column("order_amplitude", _amplitude(), "Нейман (36)")]
+    columns = [
+        *column_list(f"""
+        order
+        order_amplitude = {_amplitude()} | Нейман (36)
+    """)
+    ]
     for across, letter, unit, scale in (("order", "F", "kN", "1"), ("arm", "M", "Nm", far)):
         columns += _order_columns(shape, across, letter, unit, scale)
     first, second = "balance_first_shafts_share", "balance_second_shafts_share"
     rest = f"(1 - {first} if order == 1 else 1 - {second} if order == 2 else 1)"
     columns += [
-        Column("F_left_kN", f"F_order_kN*{rest}", "балансирные валы"),
-        Column("M_left_Nm", f"M_order_Nm*{rest}", "балансирные валы"),
+        *column_list(f"""
+            F_left_kN = F_order_kN*{rest} | балансирные валы
+            M_left_Nm = M_order_Nm*{rest} | балансирные валы
+        """),
     ]
     directed = (
         "Силы складываются по осям цилиндров, вверх — вдоль оси цилиндра 1; вектор порядка "
@@ -183,19 +183,21 @@ def numbers(shape: Shape) -> range:
     return range(1, shape.cylinders + 1)
 
 
-def balance_blocks(shape: Shape, cycle: tuple[float, ...], *, forced: bool) -> tuple[Block, ...]:
+def balance(scope: Scope) -> Part:
     """Sheets of the balance; for pistons that Neiman's series describes."""
-    turn = tuple(angle for angle in cycle if angle <= 360)
+    shape = scope.shape
+    if not shape.by_orders:
+        return Part()
     blocks: list[Block] = [
-        _turn(shape, turn), *_boxes(shape), devices_table(shape), vectors_table(shape),
+        _turn(shape, scope.turn), *_boxes(shape), devices_table(shape), vectors_table(shape),
         sums_table(shape), throws_grid(shape), _orders(shape),
     ]  # fmt: skip
     if shape.strokes == 4 and shape.cylinders <= MAX_CYLINDERS:
-        loads = has_loads(shape, forced=forced)
+        loads = has_loads(shape, forced=scope.forced)
         blocks.append(firing_table(shape, loads=loads))
         if loads and shape.throws > 1:
-            blocks.append(firing_loads(shape, cycle))
-    return tuple(blocks)
+            blocks.append(firing_loads(shape, scope.cycle))
+    return Part(tuple(blocks), _charts(shape))
 
 
 def _boxes(shape: Shape) -> Iterator[Block]:
@@ -206,46 +208,43 @@ def _boxes(shape: Shape) -> Iterator[Block]:
                  f"{key}right_after_{unit}")  # fmt: skip
         ends = ", ".join(f"col_max(balance.{name}), -(col_min(balance.{name}))" for name in names)
         size = f"balance_{key}_size"
-        cells = (
-            Scalar(f"balance_{key}_box1", f"-{size}", "оси диаграммы", of="box"),
-            Scalar(f"balance_{key}_box2", size, "оси диаграммы", of="box"),
-        )
-        title = "Наибольшая составляющая"
         found = Scalar(size, f"max({ends}, {NOTHING})", "оси диаграммы", of="box")
-        yield ScalarTable(f"balance_{key}_sizes", title, RESULTS, (found,))
-        yield Grid(
-            f"balance_{key}_box", "Оси диаграммы", RESULTS, ("−", "+"), (GridRow("box", cells),)
-        )
+        yield ScalarTable(f"balance_{key}_sizes", "Наибольшая составляющая", RESULTS, (found,))
+        box = f"balance_{key}_box"
+        yield corners(box, "Оси диаграммы", RESULTS, box, size)
 
 
-def balance_charts(shape: Shape) -> tuple[ChartSpec, ...]:
+def _charts(shape: Shape) -> tuple[ChartSpec, ...]:
     """Forces and moments over a turn, vector diagrams."""
-    x = "balance.phi_deg"
+    forces, moments = "F, кН", "M, Н·м"
 
-    def over(chart: str, title: str, y: str, *keys: str) -> ChartSpec:
-        series = tuple(Series(x, f"balance.{key}") for key in keys)
-        return ChartSpec(chart, SHEET, title, "line", series, "φ, ° ПКВ", y)
+    def over(chart: str, title: str, y: str, keys: str, caption: str = "") -> ChartSpec:
+        columns = columns_of("balance", *keys.split())
+        return over_phi(f"balance_{chart}", SHEET, title, y, *columns, caption=caption)
 
     return (
-        over("balance_F", "Свободные силы по порядкам", "F, кН", "F1_kN", "F2_kN", "F4_kN"),
-        over("balance_L", "Свободные продольные моменты по порядкам", "M, Н·м",
-             "L1_Nm", "L2_Nm", "L4_Nm"),
-        over("balance_F_after", "Вертикальная сила до и после уравновешивания", "F, кН",
-             "Fup_kN", "Fup_after_kN"),
-        over("balance_L_after", "Продольный момент до и после уравновешивания", "M, Н·м",
-             "Lup_Nm", "Lup_after_Nm"),
+        over("F", "Свободные силы по порядкам", forces, "F1_kN F2_kN F4_kN"),
+        over("L", "Свободные продольные моменты по порядкам", moments, "L1_Nm L2_Nm L4_Nm"),
+        over("F_after", "Вертикальная сила до и после уравновешивания", forces,
+             "Fup_kN Fup_after_kN", "Вертикальная свободная сила до и после уравновешивания"),
+        over("L_after", "Продольный момент до и после уравновешивания", moments,
+             "Lup_Nm Lup_after_Nm", "Продольный свободный момент до и после уравновешивания"),
         _vector(shape, "F", "kN", "Вектор свободной силы: до и после уравновешивания",
-                "вправо, кН", "вверх, кН"),
+                ("вправо, кН", "вверх, кН"), "свободной силы"),
         _vector(shape, "L", "Nm", "Вектор продольного момента: до и после",
-                "в горизонтальной плоскости, Н·м", "в вертикальной плоскости, Н·м"),
+                ("в горизонтальной плоскости, Н·м", "в вертикальной плоскости, Н·м"),
+                "продольного момента"),
     )  # fmt: skip
 
 
-def _vector(shape: Shape, key: str, unit: str, title: str, x: str, y: str) -> ChartSpec:
+def _vector(
+    shape: Shape, key: str, unit: str, title: str, axes: tuple[str, str], of: str
+) -> ChartSpec:
     right = "right" if shape.banks else "rot_right"
-    series = (
-        Series(f"balance.{key}{right}_{unit}", f"balance.{key}up_{unit}", "до"),
-        Series(f"balance.{key}right_after_{unit}", f"balance.{key}up_after_{unit}", "после"),
-        Series(f"balance_{key}_box.box", f"balance_{key}_box.box", "оси"),
-    )
-    return ChartSpec(f"balance_{key}_vector", SHEET, title, "polar", series, x, y)
+    at = f"balance.{key}"
+    return polar(
+        f"balance_{key}_vector", SHEET, title, axes, f"balance_{key}_box.box",
+        Series(f"{at}{right}_{unit}", f"{at}up_{unit}", "до"),
+        Series(f"{at}right_after_{unit}", f"{at}up_after_{unit}", "после", only="workbook"),
+        caption=f"Конец вектора {of} за оборот до уравновешивания",
+    )  # fmt: skip

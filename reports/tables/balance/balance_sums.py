@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from reports.spec.blocks import Grid, GridRow, Scalar, ScalarTable
+from reports.spec.listing import scalar_list
 from reports.spec.shape import Shape
 
 RESULTS = "Уравновешивание, итоги"
@@ -179,21 +180,17 @@ def vectors_table(shape: Shape) -> ScalarTable:
             least = f"min({n}_along, {n}_against) <= {NOTHING}*{scale}"
             angle = f"(deg(atan2({n}_im, {n}_re)) + deg(atan2({back_sin}, {back_cos})))/2"
             scalars += [
-                Scalar(f"{n}_re", f"{half}*{cos}{rest} + {key}rot_re{add['re']}", "разложение"),
-                Scalar(f"{n}_im", f"{key}rot_im{add['im']} - {half}*{sin}{rest}", "разложение"),
-                Scalar(f"{n}_along", f"sqrt({n}_re**2 + {n}_im**2)", "вектор по вращению"),
-                Scalar(
-                    f"{n}_against",
-                    f"{half}*sqrt({back_cos}**2 + {back_sin}**2){rest}",
-                    "вектор против вращения",
-                ),
-                Scalar(f"{n}_max", f"{n}_along + {n}_against", "большая полуось"),
-                Scalar(f"{n}_min", f"abs({n}_along - {n}_against)", "малая полуось"),
-                Scalar(
-                    f"{n}_deg",
-                    f"0 if {least} else 90 - mod(90 - {angle} + 0.000001, 180) + 0.000001",
-                    "направление",
-                ),
+                *scalar_list(f"""
+                    {n}_re = {half}*{cos}{rest} + {key}rot_re{add["re"]} | разложение
+                    {n}_im = {key}rot_im{add["im"]} - {half}*{sin}{rest} | разложение
+                    {n}_along = sqrt({n}_re**2 + {n}_im**2) | вектор по вращению
+                    {n}_against = {half}*sqrt({back_cos}**2 + {back_sin}**2){rest}
+                        | вектор против вращения
+                    {n}_max = {n}_along + {n}_against | большая полуось
+                    {n}_min = abs({n}_along - {n}_against) | малая полуось
+                    {n}_deg = 0 if {least} else 90 - mod(90 - {angle} + 0.000001, 180) + 0.000001
+                        | направление
+                """),
             ]
     title = "Векторы 1-го порядка вместе с вращающимися массами"
     return ScalarTable("balance_vectors", title, RESULTS, tuple(scalars))
@@ -204,10 +201,10 @@ def devices_table(shape: Shape) -> ScalarTable:
     radius = "of_mm(balance_shaft_radius_mm)"
     rods = "" if shape.single_rods else "2*"
     scalars = [
-        Scalar(
-            "counterweight_needed", f"m_r + {rods}balance_counterweight_share*m_j", "доля масс mj"
-        ),
-        Scalar("counterweight_web", "counterweight_needed/2", "на щёку"),
+        *scalar_list(f"""
+            counterweight_needed = m_r + {rods}balance_counterweight_share*m_j | доля масс mj
+            counterweight_web = counterweight_needed/2 | на щёку
+        """),
     ]
     for n, share in ((1, "first"), (2, "second")):
         size = "1" if n == 1 else "4*neiman_p2"
@@ -217,13 +214,11 @@ def devices_table(shape: Shape) -> ScalarTable:
             found.append((f"shaft{n}_back", back_cos, back_sin))
         for key, one, other in found:
             scalars += [
-                Scalar(
-                    f"{key}_moment",
-                    f"balance_{share}_shafts_share*m_j*r_crank*({size})"
-                    f"*sqrt({one}**2 + {other}**2)/{2 * n * n}",
-                    f"2·mб·e·({n}ω)² = F{n}",
-                ),
-                Scalar(f"{key}_mass", f"{key}_moment/{radius}", "mб"),
+                *scalar_list(f"""
+                    {key}_moment = balance_{share}_shafts_share*m_j*r_crank*({size})*sqrt({one}**2
+                        + {other}**2)/{2 * n * n} | 2·mб·e·({n}ω)² = F{n}
+                    {key}_mass = {key}_moment/{radius} | mб
+                """),
             ]
     title = "Противовесы и балансирные валы"
     return ScalarTable("balance_devices", title, RESULTS, tuple(scalars))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from reports.spec.blocks import Column, TableSpec
+from reports.spec.listing import column_list
 from reports.spec.shape import Shape
 
 FIRING_SHEET = "Порядки работы"
@@ -24,15 +25,13 @@ def firing_loads(shape: Shape, cycle: tuple[float, ...]) -> TableSpec:
             for axis in "xy"
         }
         columns += [
-            Column(f"after_x{k}_MPa", f"{t}.bTcos_MPa - {t}.bKsin_MPa", "Гоц (56)", helper=True),
-            Column(f"after_y{k}_MPa", f"{t}.bTsin_MPa + {t}.bKcos_MPa", "Гоц (57)", helper=True),
-            Column(
-                f"Rturned{k}_MPa",
-                f"sqrt(({t}.Rx_MPa - after_x{k}_MPa + {later['x']})**2"
-                f" + ({t}.Ry_MPa - after_y{k}_MPa + {later['y']})**2)",
-                "Гоц (59)",
-                helper=True,
-            ),
+            *column_list(f"""
+                helpers:
+                after_x{k}_MPa = {t}.bTcos_MPa - {t}.bKsin_MPa | Гоц (56)
+                after_y{k}_MPa = {t}.bTsin_MPa + {t}.bKcos_MPa | Гоц (57)
+                Rturned{k}_MPa = sqrt(({t}.Rx_MPa - after_x{k}_MPa + {later["x"]})**2 + ({t}.Ry_MPa
+                    - after_y{k}_MPa + {later["y"]})**2) | Гоц (59)
+            """),
         ]
     return TableSpec(
         "firing_loads",
@@ -97,12 +96,14 @@ def firing_table(shape: Shape, *, loads: bool) -> TableSpec:
         return f"sqrt(total({terms['cos']})**2 + total({terms['sin']})**2)"
 
     columns += [
-        Column("order_code", " + ".join(digits), "по возрастанию θ"),
-        Column("gap_max_deg", f"max({', '.join(gaps)})", "промежутки"),
-        Column("gap_min_deg", f"min({', '.join(gaps)})", "промежутки"),
-        Column("unevenness", f"(gap_max_deg - gap_min_deg)/(720/{cylinders})", "промежутки"),
-        Column("half_order_sum", vector("0.5"), "сложение векторов"),
-        Column("first_order_sum", vector("1"), "сложение векторов"),
+        *column_list(f"""
+            order_code = {" + ".join(digits)} | по возрастанию θ
+            gap_max_deg = max({", ".join(gaps)}) | промежутки
+            gap_min_deg = min({", ".join(gaps)}) | промежутки
+            unevenness = (gap_max_deg - gap_min_deg)/(720/{cylinders}) | промежутки
+            half_order_sum = {vector("0.5")} | сложение векторов
+            first_order_sum = {vector("1")} | сложение векторов
+        """),
     ]
     if loads:
         columns.append(Column("Rorder_max_kN", _load(shape), "Гоц (59)"))

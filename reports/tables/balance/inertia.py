@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
+from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, columns_of, over_phi
+from reports.spec.listing import column_list, scalar_list
+from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape
 from reports.tables.loads.cylinder import cylinder_table_id
 
@@ -64,28 +67,29 @@ def _table(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
         "Приведённый момент инерции и ход двигателя за цикл",
         SHEET,
         (
-            Column("phi_deg", None),
-            Column("I_rod_kgm2", rod, "Ильченко (5)–(10)"),
-            Column("I_piston_kgm2", piston, "Ильченко (13), (15)"),
-            Column("I_exact_kgm2", "I_crank + I_rod_kgm2 + I_piston_kgm2", "Ильченко (18)"),
-            Column("I_approx_kgm2", near, "Ильченко (19), последняя масса — поршня"),
-            Column("I_error", "(I_approx_kgm2/I_exact_kgm2 - 1)*100", "погрешность (19)"),
+            *column_list(f"""
+                phi_deg
+                I_rod_kgm2 = {rod} | Ильченко (5)–(10)
+                I_piston_kgm2 = {piston} | Ильченко (13), (15)
+                I_exact_kgm2 = I_crank + I_rod_kgm2 + I_piston_kgm2 | Ильченко (18)
+                I_approx_kgm2 = {near} | Ильченко (19), последняя масса — поршня
+                I_error = (I_approx_kgm2/I_exact_kgm2 - 1)*100 | погрешность (19)
+            """),
             Column(
                 "I_engine_kgm2",
-                f"{shape.throws}*I_crank + I_counterweights + "
+                f"{_cranks(shape)} + I_counterweights + "
                 + " + ".join(f"moving{i}" for i in numbers),
                 "сумма по цилиндрам",
             ),
             Column("Mgas_Nm", f"F_piston*r_crank*({' + '.join(gas)})", "Гоц (37) без сил инерции"),
             work,
             gas_work,
-            Column(
-                "omega_1_s",
-                "sqrt(2*((I_flywheel + I_engine_mean)*omega**2/2 + Wgas_J - col_mean(Wgas_J))"
-                "/(I_flywheel + I_engine_kgm2))",
-                "закон кинетической энергии",
-            ),
-            Column("Msum", "P4_2.Msum_Nm", "П4.2", helper=True, of="Msum_Nm"),
+            *column_list("""
+                omega_1_s = sqrt(2*((I_flywheel + I_engine_mean)*omega**2/2 + Wgas_J
+                    - col_mean(Wgas_J))/(I_flywheel + I_engine_kgm2)) | закон кинетической энергии
+                helpers:
+                Msum of Msum_Nm = P4_2.Msum_Nm | П4.2
+            """),
             d_work,
             d_gas,
             *moving,
@@ -98,7 +102,36 @@ def _table(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
     )
 
 
-def _parts(model: InputFile) -> ScalarTable:
+def _cranks(shape: Shape) -> str:
+    """Moments of inertia of all throws."""
+    if not shape.own_pins:
+        return f"{shape.throws}*I_crank"
+    return " + ".join(["I_crank", *(f"I_crank_throw{i}" for i in range(2, shape.throws + 1))])
+
+
+def _main_journals(model: InputFile, count: int) -> tuple[str, str]:
+    """Mean diameter of the main journals [m] and the inertia of the mean one [kg·m²]."""
+    lengths = [f"main_length_{k}_mm" for k in range(1, count + 1)]
+    if model.crankshaft.main_diameters_mm is None:
+        d_k, total = "of_mm(crankshaft_main_diameter_mm)", f"total({', '.join(lengths)})"
+        return d_k, f"pi*{d_k}**4/32*of_mm({total})/{count}*{_STEEL}"
+    sizes = [f"main_diameter_{k}_mm" for k in range(1, count + 1)]
+    each = (f"of_mm({d})**4*of_mm({length})" for d, length in zip(sizes, lengths, strict=True))
+    return f"(of_mm({' + '.join(sizes)})/{count})", f"pi/32*({' + '.join(each)})/{count}*{_STEEL}"
+
+
+def _throw(number: int, d_k: str) -> tuple[str, str]:
+    """Moments of inertia of a throw's pin and of one of its webs [kg·m²]."""
+    d_sh, length = f"of_mm(pin_diameter_{number}_mm)", f"of_mm(pin_length_{number}_mm)"
+    bore = "2*sqrt(F_piston/pi)"
+    height = f"(r_crank + {d_sh}/2 + {d_k}/2 + 1/100)"
+    wide, thick = f"(balance_web_width_share*{bore})", f"(balance_web_thickness_share*{bore})"
+    web = f"{height}*{wide}*{thick}*{_STEEL}"
+    pin = f"pi*{d_sh}**4/32*{length}*{_STEEL} + pi*{d_sh}**2/4*{length}*{_STEEL}*r_crank**2"
+    return pin, f"{web}/12*({height}**2 + {wide}**2) + {web}*r_crank**2/4"
+
+
+def _parts(model: InputFile, shape: Shape) -> ScalarTable:
     masses = model.masses
     share = "balance_rod_small_end_share"
     if masses.reciprocating_kg is not None:
@@ -112,41 +145,34 @@ def _parts(model: InputFile) -> ScalarTable:
             else "(1 - masses_rod_small_end_share)*L_rod"
         )
     lengths = len(model.crankshaft.main_lengths_mm)
-    main = "total(" + ", ".join(f"main_length_{k + 1}_mm" for k in range(lengths)) + ")"
-    d_k, d_sh = "of_mm(crankshaft_main_diameter_mm)", "of_mm(crankshaft_pin_diameter_mm)"
-    bore, pin = "2*sqrt(F_piston/pi)", "of_mm(crankshaft_pin_length_mm)"
-    height = f"(r_crank + {d_sh}/2 + {d_k}/2 + 1/100)"
-    wide, thick = f"(balance_web_width_share*{bore})", f"(balance_web_thickness_share*{bore})"
-    web = f"{height}*{wide}*{thick}*{_STEEL}"
+    d_k, main = _main_journals(model, lengths)
+    own = range(2, shape.throws + 1) if shape.own_pins else ()
+    others = [
+        f"I_crank_throw{i} of I_crank = I_main + {pin} + 2*({web}) | Ильченко (35)"
+        for i, (pin, web) in ((i, _throw(i, d_k)) for i in own)
+    ]
+    pin, web = _throw(1, d_k)
     webs = " + ".join(f"web_{k}_counterweight_kg" for k in range(1, 2 * (lengths - 1) + 1))
     return ScalarTable(
         "inertia_parts",
         "Звенья одного цилиндра",
         RESULTS,
         (
-            Scalar(
-                "I_main", f"pi*{d_k}**4/32*of_mm({main})/{lengths}*{_STEEL}", "Ильченко (32), d⁴"
-            ),
-            Scalar(
-                "I_pin",
-                f"pi*{d_sh}**4/32*{pin}*{_STEEL} + pi*{d_sh}**2/4*{pin}*{_STEEL}*r_crank**2",
-                "Ильченко (33), d⁴",
-            ),
-            Scalar(
-                "I_web",
-                f"{web}/12*({height}**2 + {wide}**2) + {web}*r_crank**2/4",
-                "Ильченко (34), толщина h",
-            ),
-            Scalar("I_crank", "I_main + I_pin + 2*I_web", "Ильченко (35)"),
-            Scalar("rod_mass", rod, "исходные данные или m₂ и доля"),
-            Scalar("rod_x", centre, "исходные данные или доля"),
+            *scalar_list(f"""
+                I_main = {main} | Ильченко (32), d⁴
+                I_pin = {pin} | Ильченко (33), d⁴
+                I_web = {web} | Ильченко (34), толщина h
+                I_crank = I_main + I_pin + 2*I_web | Ильченко (35)
+                rod_mass = {rod} | исходные данные или m₂ и доля
+                rod_x = {centre} | исходные данные или доля
+            """),
+            *(scalar for text in others for scalar in scalar_list(text)),
             _rod_inertia(model),
-            Scalar("piston_mass", piston, "исходные данные или m_j"),
-            Scalar(
-                "I_counterweights",
-                f"({webs} + crankshaft_nose_mass_kg + crankshaft_rear_mass_kg)*r_crank**2",
-                "массы на радиусе R",
-            ),
+            *scalar_list(f"""
+                piston_mass = {piston} | исходные данные или m_j
+                I_counterweights = ({webs} + crankshaft_nose_mass_kg
+                    + crankshaft_rear_mass_kg)*r_crank**2 | массы на радиусе R
+            """),
         ),
     )
 
@@ -163,10 +189,12 @@ def _results() -> ScalarTable:
 
     def extremes(name: str, column: str, delta: str, source: str) -> list[Scalar]:
         return [
-            Scalar(f"{name}_max", f"col_max({t}.{column})", source),
-            Scalar(f"{name}_min", f"col_min({t}.{column})", source),
-            Scalar(f"{name}_mean", f"col_mean({t}.{column})", source),
-            Scalar(delta, f"({name}_max - {name}_min)/({name}_max + {name}_min)", source),
+            *scalar_list(f"""
+                {name}_max = col_max({t}.{column}) | {source}
+                {name}_min = col_min({t}.{column}) | {source}
+                {name}_mean = col_mean({t}.{column}) | {source}
+                {delta} = ({name}_max - {name}_min)/({name}_max + {name}_min) | {source}
+            """),
         ]
 
     inertia = "(I_engine_mean + I_flywheel)"
@@ -176,27 +204,21 @@ def _results() -> ScalarTable:
         RESULTS,
         (
             *extremes("I", "I_exact_kgm2", "delta_I", "один цилиндр"),
-            Scalar(
-                "I_error_max",
-                f"max(col_max({t}.I_error), -col_min({t}.I_error))",
-                "приближение (19)",
-            ),
+            *scalar_list(f"""
+                I_error_max = max(col_max({t}.I_error), -col_min({t}.I_error)) | приближение (19)
+            """),
             *extremes("I_engine", "I_engine_kgm2", "delta_I_engine", "двигатель без маховика"),
-            Scalar("W_range", f"col_max({t}.W_J) - col_min({t}.W_J)", "избыточная работа"),
-            Scalar("Wgas_range", f"col_max({t}.Wgas_J) - col_min({t}.Wgas_J)", "избыточная работа"),
-            Scalar(
-                "I_flywheel",
-                "max(0, W_range/(balance_irregularity*omega**2) - I_engine_mean)",
-                "δ = ΔA/(Iω²)",
-            ),
-            Scalar("delta_work", f"W_range/({inertia}*omega**2)", "δ = ΔA/(Iω²)"),
-            Scalar("omega_max", f"col_max({t}.omega_1_s)", "закон кинетической энергии"),
-            Scalar("omega_min", f"col_min({t}.omega_1_s)", "закон кинетической энергии"),
-            Scalar(
-                "delta_speed",
-                f"(omega_max - omega_min)/col_mean({t}.omega_1_s)",
-                "закон кинетической энергии",
-            ),
+            *scalar_list(f"""
+                W_range = col_max({t}.W_J) - col_min({t}.W_J) | избыточная работа
+                Wgas_range = col_max({t}.Wgas_J) - col_min({t}.Wgas_J) | избыточная работа
+                I_flywheel = max(0, W_range/(balance_irregularity*omega**2) - I_engine_mean)
+                    | δ = ΔA/(Iω²)
+                delta_work = W_range/({inertia}*omega**2) | δ = ΔA/(Iω²)
+                omega_max = col_max({t}.omega_1_s) | закон кинетической энергии
+                omega_min = col_min({t}.omega_1_s) | закон кинетической энергии
+                delta_speed = (omega_max - omega_min)/col_mean({t}.omega_1_s)
+                    | закон кинетической энергии
+            """),
         ),
     )
 
@@ -206,67 +228,39 @@ def _rod_model() -> ScalarTable:
     area = "({h}*rm_width - (rm_width - rm_wall)*({h} - 2*rm_wall))"
     r, big = "rod_model_small", "rod_model_big"
     scalars = [
-        Scalar("rm_small_bore", "0.25*2*sqrt(F_piston/pi)", "табл. 1: (0,22…0,28)D"),
-        Scalar("rm_small_outer", "1.45*rm_small_bore", "табл. 1: (1,25…1,65)dн"),
-        Scalar("rm_small_length", "0.39*2*sqrt(F_piston/pi)", "табл. 1: (0,33…0,45)D"),
-        Scalar("rm_least", "0.525*rm_small_outer", "табл. 1: (0,5…0,55)dг"),
-        Scalar("rm_middle", "1.3*rm_least", "табл. 1: (1,2…1,4)hмин"),
-        Scalar("rm_width", "0.55*rm_small_length", "табл. 1: (0,5…0,6)lш"),
-        Scalar("rm_wall", "min(13/4000, 3*rm_width/10, 3*rm_least/10)", "табл. 1: 2,5…4 мм"),
-        Scalar("rm_cap", "0.55*of_mm(crankshaft_pin_diameter_mm)", "табл. 1: (0,5…0,6)dш"),
-        Scalar(r, f"sqrt({area.format(h='rm_least')}/pi)", "Ильченко (21): равная площадь"),
-        Scalar(big, f"sqrt({area.format(h='rm_middle')}/pi)", "Ильченко (21): равная площадь"),
-        Scalar("rm_span", "L_rod - rm_cap - rm_small_outer/2", "Ильченко, под (21)"),
-        Scalar(
-            "rm_m_small",
-            f"{_STEEL}*pi*rm_small_length*((rm_small_outer/2)**2 - (rm_small_bore/2)**2)",
-            "Ильченко (30), lш и dн",
-        ),
-        Scalar(
-            "rm_m_big",
-            f"{_STEEL}*pi*of_mm(crankshaft_pin_length_mm)"
-            "*(rm_cap**2 - (of_mm(crankshaft_pin_diameter_mm)/2)**2)",
-            "Ильченко (30)",
-        ),
-        Scalar(
-            "rm_m_shank", f"{_STEEL}*pi/3*rm_span*({big}**2 + {r}**2 + {big}*{r})", "Ильченко (30)"
-        ),
-        Scalar("rod_model_mass", "rm_m_small + rm_m_big + rm_m_shank", "Ильченко (30)"),
-        Scalar(
-            "rm_I_small",
-            f"{_STEEL}*pi/2*rm_small_length*((rm_small_outer/2)**4 - (rm_small_bore/2)**4)",
-            "Ильченко (20)",
-        ),
-        Scalar(
-            "rm_I_big",
-            f"{_STEEL}*pi/2*of_mm(crankshaft_pin_length_mm)"
-            "*(rm_cap**4 - (of_mm(crankshaft_pin_diameter_mm)/2)**4)",
-            "Ильченко (20)",
-        ),
-        Scalar(
-            "rm_I_shank",
-            f"{_STEEL}*pi/20*({big}**5 - {r}**5)*rm_span/({big} - {r})"
-            f" + {_STEEL}*pi*rm_span**3/30*({big}**2 + 6*{r}**2 + 3*{big}*{r})",
-            "Ильченко (28)",
-        ),
-        Scalar(
-            "rm_z",
-            f"rm_span*({big}**2 + 3*{r}**2 + 2*{big}*{r})/(4*({big}**2 + {r}**2 + {big}*{r}))",
-            "Ильченко (29)",
-        ),
-        Scalar(
-            "rod_model_centre",
-            "(rm_m_shank*(rm_cap + rm_z) + rm_m_small*L_rod)/rod_model_mass",
-            "Ильченко (30)",
-        ),
-        Scalar(
-            "rod_model_inertia",
-            "rm_I_big + rm_m_big*rod_model_centre**2"
-            " + rm_I_small + rm_m_small*(L_rod - rod_model_centre)**2"
-            " + rm_I_shank - rm_m_shank*rm_z**2"
-            " + rm_m_shank*(rm_z + rm_cap - rod_model_centre)**2",
-            "Ильченко (31), центральный момент стержня и zc + h₁",
-        ),
+        *scalar_list(f"""
+            rm_small_bore = 0.25*2*sqrt(F_piston/pi) | табл. 1: (0,22…0,28)D
+            rm_small_outer = 1.45*rm_small_bore | табл. 1: (1,25…1,65)dн
+            rm_small_length = 0.39*2*sqrt(F_piston/pi) | табл. 1: (0,33…0,45)D
+            rm_least = 0.525*rm_small_outer | табл. 1: (0,5…0,55)dг
+            rm_middle = 1.3*rm_least | табл. 1: (1,2…1,4)hмин
+            rm_width = 0.55*rm_small_length | табл. 1: (0,5…0,6)lш
+            rm_wall = min(13/4000, 3*rm_width/10, 3*rm_least/10) | табл. 1: 2,5…4 мм
+            rm_cap = 0.55*of_mm(pin_diameter_1_mm) | табл. 1: (0,5…0,6)dш
+            {r} = sqrt({area.format(h="rm_least")}/pi) | Ильченко (21): равная площадь
+            {big} = sqrt({area.format(h="rm_middle")}/pi) | Ильченко (21): равная площадь
+            rm_span = L_rod - rm_cap - rm_small_outer/2 | Ильченко, под (21)
+            rm_m_small = {_STEEL}*pi*rm_small_length*((rm_small_outer/2)**2 - (rm_small_bore/2)**2)
+                | Ильченко (30), lш и dн
+            rm_m_big = {_STEEL}*pi*of_mm(pin_length_1_mm)*(rm_cap**2
+                - (of_mm(pin_diameter_1_mm)/2)**2) | Ильченко (30)
+            rm_m_shank = {_STEEL}*pi/3*rm_span*({big}**2 + {r}**2 + {big}*{r}) | Ильченко (30)
+            rod_model_mass = rm_m_small + rm_m_big + rm_m_shank | Ильченко (30)
+            rm_I_small = {_STEEL}*pi/2*rm_small_length*((rm_small_outer/2)**4
+                - (rm_small_bore/2)**4) | Ильченко (20)
+            rm_I_big = {_STEEL}*pi/2*of_mm(pin_length_1_mm)*(rm_cap**4
+                - (of_mm(pin_diameter_1_mm)/2)**4) | Ильченко (20)
+            rm_I_shank = {_STEEL}*pi/20*({big}**5 - {r}**5)*rm_span/({big} - {r})
+                + {_STEEL}*pi*rm_span**3/30*({big}**2 + 6*{r}**2 + 3*{big}*{r}) | Ильченко (28)
+            rm_z = rm_span*({big}**2 + 3*{r}**2 + 2*{big}*{r})/(4*({big}**2 + {r}**2 + {big}*{r}))
+                | Ильченко (29)
+            rod_model_centre = (rm_m_shank*(rm_cap + rm_z) + rm_m_small*L_rod)/rod_model_mass
+                | Ильченко (30)
+            rod_model_inertia = rm_I_big + rm_m_big*rod_model_centre**2 + rm_I_small
+                + rm_m_small*(L_rod - rod_model_centre)**2 + rm_I_shank - rm_m_shank*rm_z**2
+                + rm_m_shank*(rm_z + rm_cap - rod_model_centre)**2
+                | Ильченко (31), центральный момент стержня и zc + h₁
+        """),
     ]
     return ScalarTable(
         "rod_model",
@@ -280,23 +274,25 @@ def _rod_model() -> ScalarTable:
     )
 
 
-def inertia_blocks(model: InputFile, rows: tuple[float, ...]) -> tuple[Block, ...]:
+def inertia(scope: Scope) -> Part:
     """Sheets of the reduced inertia."""
-    return _table(Shape.of(model), rows), _results(), _parts(model), _rod_model()
+    if not scope.shape.by_orders:
+        return Part()
+    table = _table(scope.shape, scope.cycle)
+    return Part((table, _results(), _parts(scope.input, scope.shape), _rod_model()), _charts())
 
 
-def inertia_charts() -> tuple[ChartSpec, ...]:
+def _charts() -> tuple[ChartSpec, ...]:
     """Reduced inertia exact and approximate, excess work, speed."""
-
-    def over(chart: str, title: str, y: str, *keys: str) -> ChartSpec:
-        series = tuple(Series("inertia.phi_deg", f"inertia.{key}") for key in keys)
-        return ChartSpec(f"inertia_{chart}", SHEET, title, "line", series, "φ, ° ПКВ", y)
-
+    t, one = "inertia", "Приведённый момент инерции одного цилиндра"
     return (
-        over("one", "Приведённый момент инерции одного цилиндра", "I, кг·м²",
-             "I_exact_kgm2", "I_approx_kgm2"),
-        over("engine", "Приведённый момент инерции двигателя без маховика", "I, кг·м²",
-             "I_engine_kgm2"),
-        over("work", "Избыточная работа крутящего момента", "A, Дж", "W_J", "Wgas_J"),
-        over("speed", "Угловая скорость за цикл", "ω, с⁻¹", "omega_1_s"),
+        over_phi("inertia_one", SHEET, one, "I, кг·м²",
+                 *columns_of(t, "I_exact_kgm2", "I_approx_kgm2"),
+                 caption=f"{one}, точно и приближённо"),
+        over_phi("inertia_engine", SHEET, "Приведённый момент инерции двигателя без маховика",
+                 "I, кг·м²", f"{t}.I_engine_kgm2"),
+        over_phi("inertia_work", SHEET, "Избыточная работа крутящего момента", "A, Дж",
+                 *columns_of(t, "W_J", "Wgas_J"), caption="Избыточная работа"),
+        over_phi("inertia_speed", SHEET, "Угловая скорость за цикл", "ω, с⁻¹", f"{t}.omega_1_s",
+                 caption="Угловая скорость вала за цикл", from_zero=False, levels=("omega",)),
     )  # fmt: skip

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from reports.inputs.sections.input_file import InputFile, TableGasSection
-from reports.spec.blocks import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
+from reports.inputs.sections.gas import TableGasSection
+from reports.inputs.sections.input_file import InputFile
+from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi
+from reports.spec.listing import column_list, scalar_list
+from reports.spec.parts import Part, Scope, stepped
 from reports.spec.shape import Shape
-from reports.tables.gas.cycle_names import from_cycle, section_of
+from reports.tables.gas.cycle_names import section_of
 from reports.tables.gas.diagram import is_smooth, smooth_pressure
-from reports.tables.motion.segal import rows
 
 SHEET, SHAFTS, RESULTS = "Гармоники момента", "Гашение 2-го порядка", "Чудаков, итоги"
 LAST_ORDER = 8.0
-SUPPRESSIONS = (0, 2, 4, 6, 8, 10)
 _NOISE = "0.000000001"
 
 
@@ -24,34 +26,27 @@ def _tangential(model: InputFile, cycle: tuple[float, ...]) -> TableSpec:
             else ("interpolate(min(phi_deg, 720 - phi_deg), gas_points_deg, gas_points_mpa)")
         )
     else:
-        cold = from_cycle(
-            model,
+        cold = (
             "gas_intake_pressure_mpa"
-            "*(geometry_compression_ratio/gas.volume_ratio)**gas_compression_exponent",
+            "*(geometry_compression_ratio/gas.volume_ratio)**gas_compression_exponent"
         )
     inside = "phi_deg > 180 + 0.0000001 and phi_deg < 540 - 0.0000001"
-    compressed = (
-        Column(
-            "t_motored_MPa",
-            f"(p_motored - gas_ambient_pressure_mpa)*{shape}",
-            "сжатие, отражённое от ВМТ",
-        ),
-        Column(
-            "p_motored",
-            f"({cold}) if {inside} else gas.p_MPa",
-            "политропа сжатия в обе стороны от ВМТ",
-            helper=True,
-        ),
-    )
+    compressed = column_list(f"""
+        t_motored_MPa = (p_motored - gas_ambient_pressure_mpa)*{shape} | сжатие, отражённое от ВМТ
+        helpers:
+        p_motored = ({cold}) if {inside} else gas.p_MPa | политропа сжатия в обе стороны от ВМТ
+    """)
     return TableSpec(
         "tangential",
         "М.т",
         "Удельные тангенциальные силы цилиндра 1",
         SHEET,
         (
-            Column("phi_deg", None),
-            Column("t_gas_MPa", f"P4_1.Pg_MPa*{shape}", "Чудаков, tг = Mг/(FпR)"),
-            Column("t_inertia_MPa", f"P4_1.Pj_MPa*{shape}", "Чудаков (3)"),
+            *column_list(f"""
+                phi_deg
+                t_gas_MPa = P4_1.Pg_MPa*{shape} | Чудаков, tг = Mг/(FпR)
+                t_inertia_MPa = P4_1.Pj_MPa*{shape} | Чудаков (3)
+            """),
             *(compressed if model.engine.strokes == 4 else ()),
         ),
         cycle,
@@ -70,12 +65,11 @@ def _orders(model: InputFile, cylinders: int) -> TableSpec:
         least = f"{_NOISE}*col_max({size})"
         clean = f"(0 if abs({cos}) < {least} else {cos})"
         columns += [
-            Column(size, f"sqrt({cos}**2 + {sin}**2)", "Чудаков (1)"),
-            Column(
-                f"{name}_phase_deg",
-                f"0 if {size} < {least} else deg(atan2({clean}, {sin}))",
-                "Чудаков (1)",
-            ),
+            *column_list(f"""
+                {size} = sqrt({cos}**2 + {sin}**2) | Чудаков (1)
+                {name}_phase_deg = 0 if {size} < {least} else deg(atan2({clean}, {sin}))
+                    | Чудаков (1)
+            """),
         ]
     sums = {
         turn: ", ".join(
@@ -84,16 +78,12 @@ def _orders(model: InputFile, cylinders: int) -> TableSpec:
         for turn in ("cos", "sin")
     }
     columns += [
-        Column(
-            "cylinders_sum",
-            f"sqrt(total({sums['cos']})**2 + total({sums['sin']})**2)",
-            "сложение векторов",
-        ),
-        Column(
-            "M_engine_order_Nm",
-            "of_MPa(total_amplitude_MPa)*F_piston*r_crank*cylinders_sum",
-            "сложение векторов",
-        ),
+        *column_list(f"""
+            cylinders_sum = sqrt(total({sums["cos"]})**2 + total({sums["sin"]})**2)
+                | сложение векторов
+            M_engine_order_Nm = of_MPa(total_amplitude_MPa)*F_piston*r_crank*cylinders_sum
+                | сложение векторов
+        """),
     ]
     step = 2 / model.engine.strokes
     last = min(LAST_ORDER, 180 / model.calculation.step_deg - step)
@@ -105,7 +95,7 @@ def _orders(model: InputFile, cylinders: int) -> TableSpec:
         "Гармоники удельной тангенциальной силы и момента двигателя",
         SHEET,
         tuple(columns),
-        rows(step, last, step),
+        stepped(step, last, step),
         note=(
             f"Гармоника порядка k есть A·sin(kφ + γ), φ от ВМТ {start}: {turns}. "
             "Двигатель: амплитуда цилиндра, умноженная на векторную сумму."
@@ -128,13 +118,10 @@ def _coefficients(model: InputFile) -> ScalarTable:
     def phase(curve: str) -> str:
         return f"deg(atan2({second(curve, 'cos')}, {second(curve, 'sin')}))"
 
-    shafts: tuple[Scalar, ...] = (
-        Scalar(
-            "P_shafts",
-            "to_kN(0.5*engine_cylinders*lam*m_j*r_crank*omega**2)",
-            "Чудаков, под (7): Pц = 0,5λmjRω²",
-        ),
-    )
+    shafts: tuple[Scalar, ...] = scalar_list("""
+        P_shafts = to_kN(0.5*engine_cylinders*lam*m_j*r_crank*omega**2)
+            | Чудаков, под (7): Pц = 0,5λmjRω²
+    """)
     if Shape.of(model).banks:  # the shafts are those of cylinders in a row
         shafts = ()
     t_gas, t_cold = "t_gas2", "t_motored2"
@@ -148,32 +135,25 @@ def _coefficients(model: InputFile) -> ScalarTable:
                 Scalar(f"t_j_order{n}", f"to_MPa({unit}*({shape}))", "двучленное движение")
                 for n, shape in enumerate(shapes, 1)
             ),
-            Scalar("d_j", "m_j*r_crank/F_piston", "Чудаков, под (5)"),
-            Scalar("d_j_technical", "10*d_j", "Чудаков, под (5)"),
-            Scalar(t_gas, size("t_gas_MPa"), "Чудаков (1)"),
-            Scalar("gamma_gas2_deg", phase("t_gas_MPa"), "Чудаков (1)"),
-            Scalar("t_inertia2", size("t_inertia_MPa"), "Чудаков (3)"),
-            Scalar("gamma_inertia2_deg", f"mod({phase('t_inertia_MPa')}, 360)", "Чудаков (2)"),
-            Scalar("t_j2", "to_MPa(d_j*omega**2/2)", "Чудаков (5)"),
-            Scalar(t_cold, size("t_motored_MPa"), "Чудаков (1)"),
-            Scalar(
-                "t_gas2_idle",
-                f"{t_cold} + ({t_gas} - {t_cold})*(1 - {efficiency})",
-                "линейно по pi",
-            ),
-            Scalar("n_zone1", f"min({speeds[0]}, {speeds[1]})", "Чудаков, рис. 2"),
-            Scalar("n_zone2", f"max({speeds[0]}, {speeds[1]})", "Чудаков, рис. 2"),
-            Scalar(
-                "zone",
-                "1 if regime_speed_rpm <= n_zone1 else 2 if regime_speed_rpm <= n_zone2 else 3",
-                "Чудаков, рис. 2",
-            ),
-            Scalar("psi_best_nominal", f"max(0, 1 - {t_gas}/t_j2)", "Чудаков (6), (7)"),
-            Scalar("h_shafts", "to_mm(balance_suppression*L_rod)", "Чудаков (8)"),
-            Scalar("h_shafts_best", "to_mm(psi_best_nominal*L_rod)", "Чудаков (8)"),
+            *scalar_list(f"""
+                d_j = m_j*r_crank/F_piston | Чудаков, под (5)
+                d_j_technical = 10*d_j | Чудаков, под (5)
+                {t_gas} = {size("t_gas_MPa")} | Чудаков (1)
+                gamma_gas2_deg = {phase("t_gas_MPa")} | Чудаков (1)
+                t_inertia2 = {size("t_inertia_MPa")} | Чудаков (3)
+                gamma_inertia2_deg = mod({phase("t_inertia_MPa")}, 360) | Чудаков (2)
+                t_j2 = to_MPa(d_j*omega**2/2) | Чудаков (5)
+                {t_cold} = {size("t_motored_MPa")} | Чудаков (1)
+                t_gas2_idle = {t_cold} + ({t_gas} - {t_cold})*(1 - {efficiency}) | линейно по pi
+                n_zone1 = min({speeds[0]}, {speeds[1]}) | Чудаков, рис. 2
+                n_zone2 = max({speeds[0]}, {speeds[1]}) | Чудаков, рис. 2
+                zone = 1 if regime_speed_rpm <= n_zone1 else 2 if regime_speed_rpm <= n_zone2 else 3
+                    | Чудаков, рис. 2
+                psi_best_nominal = max(0, 1 - {t_gas}/t_j2) | Чудаков (6), (7)
+                h_shafts = to_mm(balance_suppression*L_rod) | Чудаков (8)
+                h_shafts_best = to_mm(psi_best_nominal*L_rod) | Чудаков (8)
+            """),
             *shafts,
-            Scalar("d50_t_j2", "0.5*pi**2/(900*981)*192*1630**2/1000", "Чудаков (5), Д-50"),
-            Scalar("d50_t_gas2", "(1 - 2/5)*d50_t_j2", "Чудаков, рис. 5: ψ = 0,4"),
         ),
         note=(
             "На холостом ходу коэффициент газов взят линейно по среднему индикаторному давлению "
@@ -191,86 +171,60 @@ def _suppression() -> TableSpec:
         "М.в",
         "Гашение опрокидывающего момента 2-го порядка по частоте вращения",
         SHAFTS,
-        (
-            Column("speed_share", None),
-            Column("n_rpm", "speed_share*regime_speed_rpm", "доля номинальной"),
-            Column("t_j2_MPa", "to_MPa(d_j*(n_rpm*pi/30)**2/2)", "Чудаков (5)"),
-            Column("residual_bare_MPa", f"abs({gas} - t_j2_MPa)", "Чудаков (6)"),
-            Column("residual_psi_MPa", f"abs({gas} - {rest})", "Чудаков (6), (7)"),
-            Column(
-                "residual_vector_MPa",
-                f"sqrt(({gas}*cos({gamma}) - {rest})**2 + ({gas}*sin({gamma}))**2)",
-                "сложение векторов",
-            ),
-            Column("psi_best", f"max(0, 1 - {gas}/t_j2_MPa)", "Чудаков, рис. 5"),
-            Column("psi_best_idle", "max(0, 1 - t_gas2_idle/t_j2_MPa)", "Чудаков, рис. 5"),
-            Column("h_best_mm", "to_mm(psi_best*L_rod)", "Чудаков (8)"),
-        ),
-        rows(0.3, 1.2, 0.1),
+        column_list(f"""
+            speed_share
+            n_rpm = speed_share*regime_speed_rpm | доля номинальной
+            t_j2_MPa = to_MPa(d_j*(n_rpm*pi/30)**2/2) | Чудаков (5)
+            residual_bare_MPa = abs({gas} - t_j2_MPa) | Чудаков (6)
+            residual_psi_MPa = abs({gas} - {rest}) | Чудаков (6), (7)
+            residual_vector_MPa = sqrt(({gas}*cos({gamma}) - {rest})**2 + ({gas}*sin({gamma}))**2)
+                | сложение векторов
+            psi_best = max(0, 1 - {gas}/t_j2_MPa) | Чудаков, рис. 5
+            psi_best_idle = max(0, 1 - t_gas2_idle/t_j2_MPa) | Чудаков, рис. 5
+            h_best_mm = to_mm(psi_best*L_rod) | Чудаков (8)
+        """),
+        stepped(0.3, 1.2, 0.1),
         step=0.1,
     )
 
 
-def _d50() -> TableSpec:
-    t_j = "0.5*pi**2/(900*981)*192*n_rpm**2/1000"
-    return TableSpec(
-        "d50",
-        "Д-50",
-        "Коэффициент tj2 двигателя Д-50 при разных ψ",
-        SHAFTS,
-        (
-            Column("n_rpm", None),
-            *(
-                Column(f"t_psi{k}", f"(1 - {k}/10)*{t_j}", "Чудаков (5), рис. 4")
-                for k in SUPPRESSIONS
-            ),
-        ),
-        rows(1200, 3000, 200),
-        step=200.0,
-    )
-
-
-def torque_order_blocks(model: InputFile, cycle: tuple[float, ...]) -> tuple[Block, ...]:
+def torque_orders(scope: Scope) -> Part:
     """Sheets of the torque's harmonics and of the balance shafts."""
-    general = _tangential(model, cycle), _orders(model, model.engine.cylinders)
-    if model.engine.strokes != 4:
-        return general
-    return (
-        *general,
-        _suppression(),
-        _d50(),
-        _coefficients(model),
-    )
+    model, strokes = scope.input, scope.shape.strokes
+    if not scope.shape.by_orders:
+        return Part()
+    blocks = (_tangential(model, scope.cycle), _orders(model, model.engine.cylinders))
+    if strokes == 4:
+        return Part((*blocks, _suppression(), _coefficients(model)), _charts(strokes))
+    return Part(blocks, _charts(strokes))
 
 
-def torque_order_charts(strokes: int) -> tuple[ChartSpec, ...]:
-    """Tangential forces, amplitudes by order, suppression over speed, the Д-50."""
-    t = "tangential"
+def _charts(strokes: int) -> tuple[ChartSpec, ...]:
+    """Tangential forces, amplitudes by order, suppression over speed."""
     curves = ("gas", "inertia", "motored") if strokes == 4 else ("gas", "inertia")
+    o, k = "torque_orders", "порядок k"
     general = (
-        ChartSpec("torque_tangential", SHEET, "Удельные тангенциальные силы", "line",
-                  tuple(Series(f"{t}.phi_deg", f"{t}.t_{k}_MPa") for k in curves),
-                  "φ, ° ПКВ", "t, МПа"),
-        ChartSpec("torque_amplitudes", SHEET, "Амплитуды гармоник цилиндра по порядкам", "line",
-                  tuple(Series("torque_orders.order", f"torque_orders.{k}_amplitude_MPa")
-                        for k in ("gas", "inertia", "total")), "порядок k", "t, МПа"),
-        ChartSpec("torque_engine", SHEET, "Амплитуды гармоник момента двигателя", "line",
-                  (Series("torque_orders.order", "torque_orders.M_engine_order_Nm"),),
-                  "порядок k", "M, Н·м"),
+        over_phi("torque_tangential", SHEET, "Удельные тангенциальные силы", "t, МПа",
+                 *columns_of("tangential", *(f"t_{curve}_MPa" for curve in curves))),
+        line("torque_amplitudes", SHEET, "Амплитуды гармоник цилиндра по порядкам", (k, "t, МПа"),
+             Series(f"{o}.order", f"{o}.gas_amplitude_MPa"),
+             Series(f"{o}.order", f"{o}.inertia_amplitude_MPa"),
+             Series(f"{o}.order", f"{o}.total_amplitude_MPa", only="workbook"),
+             caption="Амплитуды гармоник удельной тангенциальной силы по порядкам",
+             y_tex="$t_k^a$, МПа"),
+        line("torque_engine", SHEET, "Амплитуды гармоник момента двигателя", (k, "M, Н·м"),
+             Series(f"{o}.order", f"{o}.M_engine_order_Nm")),
     )  # fmt: skip
     return (*general, *_shaft_charts()) if strokes == 4 else general
 
 
 def _shaft_charts() -> tuple[ChartSpec, ...]:
-    s = "suppression"
+    s, n = "suppression", "n, мин⁻¹"
     return (
-        ChartSpec("suppression", SHAFTS, "Остаток момента 2-го порядка", "line",
-                  tuple(Series(f"{s}.n_rpm", f"{s}.{k}_MPa")
-                        for k in ("t_j2", "residual_bare", "residual_psi")), "n, мин⁻¹", "t, МПа"),
-        ChartSpec("suppression_best", SHAFTS, "Оптимальная степень гашения", "line",
-                  tuple(Series(f"{s}.n_rpm", f"{s}.{k}") for k in ("psi_best", "psi_best_idle")),
-                  "n, мин⁻¹", "ψ"),
-        ChartSpec("d50", SHAFTS, "Двигатель Д-50: tj2 при разных ψ", "line",
-                  tuple(Series("d50.n_rpm", f"d50.t_psi{k}") for k in SUPPRESSIONS),
-                  "n, мин⁻¹", "t, кгс/см²"),
+        line("suppression", SHAFTS, "Остаток момента 2-го порядка", (n, "t, МПа"),
+             *(Series(f"{s}.n_rpm", f"{s}.{k}_MPa")
+               for k in ("t_j2", "residual_bare", "residual_psi")),
+             caption="Инерционный коэффициент второго порядка и остаток момента"),
+        line("suppression_best", SHAFTS, "Оптимальная степень гашения", (n, "ψ"),
+             *(Series(f"{s}.n_rpm", f"{s}.{k}") for k in ("psi_best", "psi_best_idle"))),
     )  # fmt: skip

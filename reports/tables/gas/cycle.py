@@ -10,8 +10,9 @@ from kshm.cycle.fuel import FUELS
 from kshm.cycle.heat import SPECIES, TEMPERATURE_PASSES
 from kshm.cycle.processes import N1_PASSES, N1_START, N2_PASSES, N2_START
 from reports.inputs.sections.cycle import CycleSection
-from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Block, Grid, GridRow, Scalar, ScalarTable
+from reports.spec.blocks import Grid, Scalar, ScalarTable
+from reports.spec.listing import grid_row
+from reports.spec.parts import Part, Scope
 from reports.tables.gas.cycle_names import SHEET, SOURCE, R, given, is_boosted, section_of
 
 EPS = "geometry_compression_ratio"
@@ -19,12 +20,12 @@ _COMPLETE = ("CO2", "H2O", "O2", "N2")
 _RICH = ("CO2", "CO", "H2O", "H2", "O2", "N2")
 
 
-def process_blocks(model: InputFile) -> tuple[Block, ...]:
+def processes(scope: Scope) -> Part:
     """Fuel, charge, compression, combustion, expansion; nothing without a cycle."""
-    section = section_of(model)
+    section = section_of(scope.input)
     if section is None:
-        return ()
-    return (
+        return Part()
+    blocks = (
         _fuel(section),
         _heat(section),
         _charge(section),
@@ -36,6 +37,7 @@ def process_blocks(model: InputFile) -> tuple[Block, ...]:
         _expansion_passes(),
         _expansion(),
     )
+    return Part(blocks)
 
 
 def _table(name: str, title: str, *scalars: Scalar) -> ScalarTable:
@@ -208,16 +210,7 @@ def passes(name: str, title: str, count: int, rows: dict[str, list[str]]) -> Gri
         title,
         SHEET,
         tuple(f"проход {i}" for i in range(1, count + 1)),
-        tuple(
-            GridRow(
-                of,
-                tuple(
-                    Scalar(cell(of, name, i), expr, SOURCE, of=of)
-                    for i, expr in enumerate(exprs, 1)
-                ),
-            )
-            for of, exprs in rows.items()
-        ),
+        tuple(grid_row(of, exprs, SOURCE, f"{of}_{name}_{{n}}") for of, exprs in rows.items()),
     )
 
 

@@ -25,13 +25,9 @@ def section_of(model: InputFile) -> CycleSection | None:
     return model.cycle if model.gas.source == "cycle" else None
 
 
-def from_cycle(model: InputFile, text: str) -> str:
-    """A formula of the gas with the cycle's results in place of the inputs of [gas]."""
-    if section_of(model) is None:
-        return text
-    for name, result in GAS_NAMES.items():
-        text = text.replace(name, result)
-    return text
+def cycle_stand_ins(model: InputFile) -> dict[str, str]:
+    """Inputs of [gas] and the results of the cycle that take their place."""
+    return {} if section_of(model) is None else GAS_NAMES
 
 
 def sizes_are_found(model: InputFile) -> bool:
@@ -52,8 +48,3 @@ def is_boosted(section: CycleSection) -> bool:
 def friction_by_speed(section: CycleSection) -> bool:
     """Whether mechanical losses follow the piston speed, A + B c_m."""
     return section.friction_a_mpa is not None
-
-
-def lam_name(model: InputFile) -> str:
-    """λ in formulas."""
-    return "lam"

@@ -5,6 +5,8 @@ from __future__ import annotations
 from reports.inputs.sections.cycle import PUMPING, ROUNDINGS, CycleSection
 from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Block, Grid, Scalar, ScalarTable
+from reports.spec.listing import scalar_list
+from reports.spec.parts import Part, Scope
 from reports.tables.gas.cycle import EPS, air_energy, cell, passes, products_energy, weight
 from reports.tables.gas.cycle_names import (
     SHEET,
@@ -20,11 +22,12 @@ from reports.tables.gas.cycle_names import (
 STROKE_PASSES = 6  # Newton's rule: four are enough, two to spare
 
 
-def result_blocks(model: InputFile) -> tuple[Block, ...]:
+def results(scope: Scope) -> Part:
     """What follows from the processes; nothing without a cycle."""
+    model = scope.input
     section = section_of(model)
     if section is None:
-        return ()
+        return Part()
     blocks: list[Block] = [_indicated()]
     if sizes_are_found(model):
         if friction_by_speed(section):
@@ -34,7 +37,7 @@ def result_blocks(model: InputFile) -> tuple[Block, ...]:
     if is_boosted(section):
         blocks.append(_turbo(section))
     blocks.append(_balance(section))
-    return tuple(blocks)
+    return Part(tuple(blocks))
 
 
 def _table(name: str, title: str, *scalars: Scalar) -> ScalarTable:
@@ -146,8 +149,10 @@ def _turbo(section: CycleSection) -> ScalarTable:
         _s("cyc_G_k", "cyc_G_a/3600"),
         _s("cyc_N_k", "1.005*cyc_G_k*(cyc_T_comp - cycle_ambient_temperature_k)"),
         _s("cyc_G_t", "(cyc_G_a + cyc_G_f)/3600"),
-        Scalar(w_b, weight("cyc_T_b - 273"), SOURCE, of="blend"),
-        Scalar(u_b, products_energy("cyc_T_b - 273", w_b), SOURCE, of="pass_U_b"),
+        *scalar_list(f"""
+            {w_b} of blend = {weight("cyc_T_b - 273")} | {SOURCE}
+            {u_b} of pass_U_b = {products_energy("cyc_T_b - 273", w_b)} | {SOURCE}
+        """),
         _s("cyc_k_gas", f"1 + {R}*(cyc_T_z - cyc_T_b)/{fall}"),
         _s("cyc_e_gas", "(cyc_k_gas - 1)/cyc_k_gas"),
         _s("cyc_p_t", "cyc_p_r"),

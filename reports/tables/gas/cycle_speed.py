@@ -7,8 +7,10 @@ from kshm.cycle.usual_ranges import usual_ranges
 from kshm.nomenclature.dizdn_listing import EXTRA, INPUTS, OUTPUTS
 from kshm.results.cycle import DIAGRAM_STEP, SPEED_STEP, diagram_rows, speed_rows
 from reports.inputs.sections.cycle import CycleSection
-from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
+from reports.spec.blocks import Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, Series, line, over_phi
+from reports.spec.listing import column_list, scalar_list
+from reports.spec.parts import Part, Scope
 from reports.tables.gas.cycle_names import SHEET, SOURCE, is_boosted, section_of
 
 SPEED_SHEET, DIAGRAM_SHEET, RANGE_SHEET = "ВСХ", "Диаграмма цикла", "Правдоподобие цикла"
@@ -44,18 +46,19 @@ _RANGE_NAMES = {
 }
 
 
-def speed_blocks(model: InputFile) -> tuple[Block, ...]:
+def speed(scope: Scope) -> Part:
     """Diagram, speed characteristic and plausibility; nothing without a cycle."""
-    section = section_of(model)
+    section = section_of(scope.input)
     if section is None:
-        return ()
-    return (
+        return Part()
+    blocks = (
         _diagram_points(),
         _law(section),
         _diagram(),
         _speed(section),
         _ranges(section),
     )
+    return Part(blocks, _charts())
 
 
 def _diagram() -> TableSpec:
@@ -71,14 +74,14 @@ def _diagram() -> TableSpec:
         "Ц",
         "Индикаторная диаграмма цикла по точкам",
         DIAGRAM_SHEET,
-        (
-            Column("phi_deg", None),
-            Column("cd_s_mm", f"to_mm(r_crank*((1 - cos(rad(phi_deg))) + {rise}))", "Гоц (1)"),
-            Column("cd_ratio", f"1 + ({EPS} - 1)*of_mm(cd_s_mm)/S_stroke", SOURCE),
-            Column("cd_V_dm3", "V_c*cd_ratio", SOURCE),
-            Column("cd_p_MPa", pressure, SOURCE),
-            Column("cd_T_K", temperature, SOURCE),
-        ),
+        column_list(f"""
+            phi_deg
+            cd_s_mm = to_mm(r_crank*((1 - cos(rad(phi_deg))) + {rise})) | Гоц (1)
+            cd_ratio = 1 + ({EPS} - 1)*of_mm(cd_s_mm)/S_stroke | {SOURCE}
+            cd_V_dm3 = V_c*cd_ratio | {SOURCE}
+            cd_p_MPa = {pressure} | {SOURCE}
+            cd_T_K = {temperature} | {SOURCE}
+        """),
         tuple(float(x) for x in diagram_rows()),
         note="Нескругленная диаграмма; при 360° стоит точка z′, конец сжатия c — на листе «Цикл».",
         step=DIAGRAM_STEP,
@@ -92,13 +95,9 @@ def _diagram_points() -> ScalarTable:
         "cycle_points",
         "Точка z",
         SHEET,
-        (
-            Scalar(
-                "cyc_phi_z",
-                f"360 + 2*deg(asin(sqrt(max(0, min(1, {half})))))",
-                "Гоц (1), обращение",
-            ),
-        ),
+        scalar_list(f"""
+            cyc_phi_z = 360 + 2*deg(asin(sqrt(max(0, min(1, {half}))))) | Гоц (1), обращение
+        """),
     )
 
 
@@ -109,16 +108,14 @@ def _speed(section: CycleSection) -> TableSpec:
         "С",
         "Внешняя скоростная характеристика",
         SPEED_SHEET,
-        (
-            Column("speed_percent", None),
-            Column("speed_n", f"regime_speed_rpm*{x}", SOURCE),
-            Column("speed_Ne", "pi*speed_Me*speed_n/30000", "Гоц, 2.9"),
-            Column("speed_Me", f"cyc_M_e*(spd_a + spd_b*{x} - spd_c*({x})**2)", LEIDERMAN_SOURCE),
-            Column(
-                "speed_ge", f"cyc_g_e*(spd_fa + spd_fb*{x} + spd_fc*({x})**2)", LEIDERMAN_SOURCE
-            ),
-            Column("speed_Gf", "speed_ge*speed_Ne/1000", SOURCE),
-        ),
+        column_list(f"""
+            speed_percent
+            speed_n = regime_speed_rpm*{x} | {SOURCE}
+            speed_Ne = pi*speed_Me*speed_n/30000 | Гоц, 2.9
+            speed_Me = cyc_M_e*(spd_a + spd_b*{x} - spd_c*({x})**2) | {LEIDERMAN_SOURCE}
+            speed_ge = cyc_g_e*(spd_fa + spd_fb*{x} + spd_fc*({x})**2) | {LEIDERMAN_SOURCE}
+            speed_Gf = speed_ge*speed_Ne/1000 | {SOURCE}
+        """),
         tuple(float(x) for x in speed_rows(section.kind)),
         step=SPEED_STEP,
     )
@@ -143,8 +140,10 @@ def _law(section: CycleSection) -> ScalarTable:
         for key, value in zip(("spd_fa", "spd_fb", "spd_fc"), base.fuel, strict=True)
     ]
     scalars += [
-        Scalar("spd_Kc", "min(1, spd_b/(2*spd_c))", "Гоц, 2.9"),
-        Scalar("spd_K", "spd_a + spd_b*spd_Kc - spd_c*spd_Kc**2", "Гоц, 2.9"),
+        *scalar_list("""
+            spd_Kc = min(1, spd_b/(2*spd_c)) | Гоц, 2.9
+            spd_K = spd_a + spd_b*spd_Kc - spd_c*spd_Kc**2 | Гоц, 2.9
+        """),
         *_regimes(section),
     ]
     return ScalarTable(
@@ -162,8 +161,10 @@ def _regimes(section: CycleSection) -> list[Scalar]:
             "cycle_torque_speed_rpm" if middle else "spd_Kc*regime_speed_rpm",
             "задано" if middle else "производный: вершина M(n)",
         ),
-        Scalar("reg_Me_M", f"cyc_M_e*(spd_a + spd_b*{x} - spd_c*{x}**2)", LEIDERMAN_SOURCE),
-        Scalar("reg_Ne_M", "pi*reg_Me_M*reg_n_M/30000", "Гоц, 2.9"),
+        *scalar_list(f"""
+            reg_Me_M = cyc_M_e*(spd_a + spd_b*{x} - spd_c*{x}**2) | {LEIDERMAN_SOURCE}
+            reg_Ne_M = pi*reg_Me_M*reg_n_M/30000 | Гоц, 2.9
+        """),
         Scalar(
             "reg_n_idle",
             "cycle_idle_speed_rpm" if idle else f"{share}*regime_speed_rpm",
@@ -199,6 +200,7 @@ def _ranges(section: CycleSection) -> ScalarTable:
         RANGE_SHEET,
         tuple(scalars),
         note="Пределы не взяты из учебника: у каждого указано, откуда он.",
+        verdicts=(INSIDE, OUTSIDE),
     )
 
 
@@ -214,49 +216,26 @@ def cycle_checks() -> list[tuple[str, str, str, str]]:
     ]  # fmt: skip
 
 
-def cycle_charts(model: InputFile) -> tuple[ChartSpec, ...]:
-    """Charts of the cycle's sheets."""
-    if section_of(model) is None:
-        return ()
-    charts = [
-        ChartSpec(
-            "cycle_pv",
-            DIAGRAM_SHEET,
-            "Диаграмма цикла p–V: расчетная и принятая в динамике",
-            "line",
-            (
-                Series("cycle_diagram.cd_V_dm3", "cycle_diagram.cd_p_MPa", "расчетный цикл"),
-                Series("gas.volume_dm3", "gas.p_MPa", "принято в динамике"),
-            ),
-            "V, дм³",
-            "p, МПа",
-        ),
-        ChartSpec(
-            "cycle_T",
-            DIAGRAM_SHEET,
-            "Температура газов в цилиндре",
-            "line",
-            (Series("cycle_diagram.phi_deg", "cycle_diagram.cd_T_K"),),
-            "угол, ° ПКВ",
-            "T, К",
-        ),
-    ]
+def _charts() -> tuple[ChartSpec, ...]:
     names = (
         ("Ne", "Эффективная мощность", "Nе, кВт"),
         ("Me", "Эффективный крутящий момент", "Mе, Н·м"),
         ("ge", "Удельный расход топлива", "gе, г/(кВт·ч)"),
         ("Gf", "Часовой расход топлива", "Gт, кг/ч"),
     )
-    charts += [
-        ChartSpec(
-            f"speed_{key}",
-            SPEED_SHEET,
-            f"{title} по внешней характеристике",
-            "line",
-            (Series("speed.speed_n", f"speed.speed_{key}"),),
-            "n, мин⁻¹",
-            label,
-        )
-        for key, title, label in names
-    ]
-    return tuple(charts)
+    return (
+        line("cycle_pv", DIAGRAM_SHEET, "Диаграмма цикла p–V: расчетная и принятая в динамике",
+             ("V, дм³", "p, МПа"),
+             Series("cycle_diagram.cd_V_dm3", "cycle_diagram.cd_p_MPa", "расчетный цикл"),
+             Series("gas.volume_dm3", "gas.p_MPa", "принято в динамике", only="workbook"),
+             caption="Нескруглённая индикаторная диаграмма рассчитанного цикла",
+             levels=("gas_ambient_pressure_mpa",)),
+        over_phi("cycle_T", DIAGRAM_SHEET, "Температура газов в цилиндре", "T, К",
+                 "cycle_diagram.cd_T_K", x=("phi_deg", "угол, ° ПКВ"), from_zero=False,
+                 caption="Температура газов в цилиндре при сжатии, сгорании и расширении"),
+        *(
+            line(f"speed_{key}", SPEED_SHEET, f"{title} по внешней характеристике",
+                 ("n, мин⁻¹", label), Series("speed.speed_n", f"speed.speed_{key}"))
+            for key, title, label in names
+        ),
+    )  # fmt: skip

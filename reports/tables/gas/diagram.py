@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
-from reports.inputs.sections.gas import RoundedGasSection
-from reports.inputs.sections.input_file import InputFile, TableGasSection
+from reports.inputs.sections.gas import RoundedGasSection, TableGasSection
+from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.gas import places
-from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
+from reports.spec.blocks import Block, Grid, GridRow, Scalar, ScalarTable, TableSpec
+from reports.spec.listing import column_list, scalar_list
+from reports.spec.shape import central_volume_ratio
 
 SHEET, POINTS = "Газы", "Точки диаграммы"
 EDGE = "0.0000001"
 _EPS = "geometry_compression_ratio"
 NODES = ("r", "a′", "a", "c′", "c″", "zд", "j", "b′", "b″", "r′", "r")
-
-
-def volume_ratio(phi: str) -> str:
-    """V/V_c of the central mechanism, Gots (1); the rounded diagram has no other."""
-    return (
-        f"1 + (geometry_compression_ratio - 1)/2*((1 - cos(rad({phi})))"
-        f" + (1 - sqrt(1 - lam**2*sin(rad({phi}))**2))/lam)"
-    )
 
 
 def diagram_blocks(model: InputFile) -> tuple[Block, ...]:
@@ -80,30 +74,26 @@ def _scalars(gas: RoundedGasSection) -> ScalarTable:
         )
     ]
 
-    def at(angle: str) -> str:
-        return volume_ratio(angle)
-
     figure = "Гоц, рис. 22"
     start = "360 - gas_injection_advance_deg + gas_ignition_delay_deg"
     return ScalarTable(
         "gas_points",
         "Характерные точки индикаторной диаграммы",
         SHEET,
-        (
-            Scalar("phi_c_deg", start, f"{figure}, c′"),
-            Scalar("phi_peak_deg", f"360 + {names[1]}", f"{figure}, zд"),
-            Scalar("phi_join_deg", f"360 + {names[2]}", "выход на политропу"),
-            Scalar("phi_open_deg", "540 - gas_exhaust_start_before_bdc_deg", f"{figure}, b′"),
-            Scalar("phi_close_deg", "540 + gas_exhaust_end_after_bdc_deg", f"{figure}, r′"),
-            Scalar("peak_share", names[0], "pzд/pz"),
-            Scalar("x_start", at("phi_c_deg"), "Гоц (1)"),
-            Scalar("p_start", _compression("x_start"), "политропа сжатия"),
-            Scalar("p_c_end", f"gas_intake_pressure_mpa*{_EPS}**gas_compression_exponent",
-                   "политропа сжатия"),
-            Scalar("x_open", at("phi_open_deg"), "Гоц (1)"),
-            Scalar("p_open", _expansion("x_open"), "политропа расширения"),
-            Scalar("p_b", _expansion(at("540")), "политропа расширения, b"),
-        ),
+        scalar_list(f"""
+            phi_c_deg = {start} | {figure}, c′
+            phi_peak_deg = 360 + {names[1]} | {figure}, zд
+            phi_join_deg = 360 + {names[2]} | выход на политропу
+            phi_open_deg = 540 - gas_exhaust_start_before_bdc_deg | {figure}, b′
+            phi_close_deg = 540 + gas_exhaust_end_after_bdc_deg | {figure}, r′
+            peak_share = {names[0]} | pzд/pz
+            x_start = {central_volume_ratio('phi_c_deg')} | Гоц (1)
+            p_start = {_compression('x_start')} | политропа сжатия
+            p_c_end = gas_intake_pressure_mpa*{_EPS}**gas_compression_exponent | политропа сжатия
+            x_open = {central_volume_ratio('phi_open_deg')} | Гоц (1)
+            p_open = {_expansion('x_open')} | политропа расширения
+            p_b = {_expansion(central_volume_ratio('540'))} | политропа расширения, b
+        """),
         note=(
             "c′ — видимое начало сгорания, c″ — ВМТ, zд — действительная точка конца сгорания, "
             "b′ — начало выпуска, b″ — НМТ: среднее между p_b и p_r. Между точками давление "
@@ -115,10 +105,10 @@ def _scalars(gas: RoundedGasSection) -> ScalarTable:
 
 def _nodes() -> Grid:
     def squeezed(angle: str) -> str:
-        return _compression(volume_ratio(angle))
+        return _compression(central_volume_ratio(angle))
 
     def expanded(angle: str) -> str:
-        return _expansion(volume_ratio(angle))
+        return _expansion(central_volume_ratio(angle))
 
     last = len(NODES)
     angles = (
@@ -202,20 +192,17 @@ def _points(count: int) -> TableSpec:
         "Т",
         "Точки диаграммы и кубические многочлены между ними",
         POINTS,
-        (
-            Column(number, None),
-            Column("point_deg", f"element(gas_points_deg, {number})", "исходные данные"),
-            Column("point_MPa", f"element(gas_points_mpa, {number})", "исходные данные"),
-            Column(step, f"following(point_deg) - point_deg if {inside} else 0", "шаг"),
-            Column(
-                "point_chord",
-                f"(following(point_MPa) - point_MPa)/{step} if {inside} else 0",
-                "наклон хорды",
-            ),
-            Column("point_slope", middle_slope(before, after, left, right), "Фрич и Бутленд"),
-            Column("point_two", f"({two}) if {inside} else 0", "коэффициент при квадрате"),
-            Column("point_three", f"({three}) if {inside} else 0", "коэффициент при кубе"),
-        ),
+        column_list(f"""
+            {number}
+            point_deg = element(gas_points_deg, {number}) | исходные данные
+            point_MPa = element(gas_points_mpa, {number}) | исходные данные
+            {step} = following(point_deg) - point_deg if {inside} else 0 | шаг
+            point_chord = (following(point_MPa) - point_MPa)/{step} if {inside} else 0
+                | наклон хорды
+            point_slope = {middle_slope(before, after, left, right)} | Фрич и Бутленд
+            point_two = ({two}) if {inside} else 0 | коэффициент при квадрате
+            point_three = ({three}) if {inside} else 0 | коэффициент при кубе
+        """),
         tuple(float(n) for n in range(1, count + 1)),
         note="Между точками давление не выходит за давления соседних точек.",
         step=1.0,

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from reports.inputs.sections.gas import RoundedGasSection
-from reports.inputs.sections.input_file import InputFile, TableGasSection
+from reports.inputs.sections.gas import RoundedGasSection, TableGasSection
+from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Scalar, ScalarTable
 from reports.spec.shape import Shape
-from reports.tables.gas.cycle_names import from_cycle
 from reports.tables.gas.diagram import is_smooth, rounded_pressure, smooth_pressure
 
 EDGE = "0.0000001"  # degrees: the angles come from whole degrees and sums of them
@@ -69,7 +68,7 @@ def corner_points(model: InputFile, corners: Corners) -> ScalarTable:
         source = "геометрия прицепного шатуна"
 
     def scalar(key: str, text: str, where: str) -> Scalar:
-        return Scalar(name(key), from_cycle(model, text), where)
+        return Scalar(name(key), text, where)
 
     scalars = [
         scalar("phi_c_deg", corners.after_tdc(start), "Dinn: 360° − УОВ + УЗВ"),
@@ -124,7 +123,7 @@ def pressure(model: InputFile, phi: str, ratio: str, corners: Corners) -> str:
     limits, text = steps(phi, ratio, corners)
     for limit, value in reversed(limits):
         text = f"({value}) if {phi} <= {limit} + {EDGE} else ({text})"
-    return from_cycle(model, text)
+    return text
 
 
 def _rise(phi: str, corners: Corners) -> str:

@@ -7,8 +7,10 @@ from __future__ import annotations
 
 from kshm.results.regimes import regime_key
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Block, ChartSpec, Grid, GridRow, Scalar, ScalarTable, Series
+from reports.spec.blocks import Block, Grid, GridRow, Scalar, ScalarTable
+from reports.spec.charts import ChartSpec, Series, over_phi
 from reports.spec.extremes import TIE
+from reports.spec.parts import Part
 from reports.tables.loads.regimes import RegimeModel
 
 SHEET = "Режимы"
@@ -26,12 +28,12 @@ def regime_titles(model: InputFile) -> tuple[str, ...]:
     return (model.regime.name or MAIN_NAME, *(regime.name for regime in model.regimes))
 
 
-def comparison_blocks(model: InputFile, further: tuple[RegimeModel, ...]) -> tuple[Block, ...]:
+def comparison(model: InputFile, further: tuple[RegimeModel, ...]) -> Part:
     """Extremes of the forces and the grid of loads; nothing for one regime."""
     if not further:
-        return ()
+        return Part()
     numbers = tuple(range(1, len(further) + 2))
-    keys = {scalar for block in further[0].copied for scalar in _keys(block)}
+    keys = {scalar for block in further[0].blocks_to_copy for scalar in _keys(block)}
     rows = [_row(key, key, numbers, model, low=low) for key, low in _compared(keys)]
     extremes, force_rows = [], []
     for column, name in _FORCES:
@@ -57,7 +59,7 @@ def comparison_blocks(model: InputFile, further: tuple[RegimeModel, ...]) -> tup
             "наименьших сил (растяжение шатуна) — тот, при котором они наименьшие."
         ),
     )
-    return grid, listed
+    return Part((grid, listed), _charts(model))
 
 
 def _keys(block: Block) -> list[str]:
@@ -104,24 +106,12 @@ def _name(model: InputFile, number: int) -> str:
     return "regime_name" if model.regime.name is not None else f'"{MAIN_NAME}"'
 
 
-def comparison_charts(model: InputFile) -> tuple[ChartSpec, ...]:
+def _charts(model: InputFile) -> tuple[ChartSpec, ...]:
     """The forces of all regimes over the crank angle, figures 23-25 laid over each other."""
-    if not model.regimes:
-        return ()
-    titles = regime_titles(model)
+    tables = [(_key("P4_1", n), name) for n, name in enumerate(regime_titles(model), 1)]
     return tuple(
-        ChartSpec(
-            f"fig{chart}",
-            SHEET,
-            title,
-            "line",
-            tuple(
-                Series(f"{_key('P4_1', n)}.phi_deg", f"{_key('P4_1', n)}.{column}", name)
-                for n, name in enumerate(titles, 1)
-            ),
-            "φ, ° ПКВ",
-            y,
-            "23–25",
-        )
+        over_phi(f"fig{chart}", SHEET, title, y,
+                 *(Series(f"{table}.phi_deg", f"{table}.{column}", name) for table, name in tables),
+                 figure="23–25")
         for chart, column, title, y in _CHARTS
-    )
+    )  # fmt: skip

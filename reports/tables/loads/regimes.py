@@ -14,8 +14,10 @@ from kshm.results.regimes import main_only, regime_key
 from reports.formula.parse import names
 from reports.inputs.fields import Field, iter_fields
 from reports.inputs.sections.input_file import InputFile, Regime
-from reports.spec.blocks import Block, ChartSpec, Grid, Scalar, ScalarTable, TableSpec, scalars_of
-from reports.spec.rename import renamed, with_names
+from reports.spec.blocks import Block, Grid, ScalarTable, TableSpec, nodes_in, scalars_of
+from reports.spec.charts import ChartSpec
+from reports.spec.parts import Part
+from reports.spec.rename import copied, copied_chart
 
 _LEFT_OUT = frozenset({"checks"})
 _WHOLE = frozenset(
@@ -43,7 +45,7 @@ class RegimeModel:
         differing: set[str] = set()
         for block in self.blocks:
             local = {c.key for c in block.columns} if isinstance(block, TableSpec) else set()
-            for name, expr in _nodes(block):
+            for name, expr in _formulas(block).items():
                 if self.main.get(name) != expr or block.id in _WHOLE:
                     differing.add(name)
                 needs[name] = frozenset(
@@ -78,7 +80,7 @@ class RegimeModel:
         }
 
     @cached_property
-    def copied(self) -> tuple[Block, ...]:
+    def blocks_to_copy(self) -> tuple[Block, ...]:
         """Blocks to copy: whole tables and grids, of lists only what depends on the regime."""
         made: list[Block] = []
         for block in self.blocks:
@@ -88,15 +90,15 @@ class RegimeModel:
                 kept = tuple(s for s in block.scalars if s.key in self.dependent)
                 if kept:
                     made.append(replace(block, scalars=kept))
-            elif any(name in self.dependent for name, _ in _nodes(block)):
+            elif any(name in self.dependent for name in _formulas(block)):
                 made.append(block)
         return tuple(made)
 
     @cached_property
     def _own(self) -> frozenset[str]:
         """Bare names and ids of tables and grids that get the regime's ending."""
-        keys = {scalar.key for block in self.copied for scalar in scalars_of(block)}
-        ids = {block.id for block in self.copied}
+        keys = {scalar.key for block in self.blocks_to_copy for scalar in scalars_of(block)}
+        ids = {block.id for block in self.blocks_to_copy}
         inputs = {item.name for item in self.inputs if item.path[0] in ("regime", "gas")}
         return frozenset(keys | ids | inputs | {"gas_points_deg", "gas_points_mpa"})
 
@@ -107,66 +109,45 @@ class RegimeModel:
             return token
         return f"{regime_key(head, self.number)}{dot}{column}"
 
-    def renamed_blocks(self) -> tuple[Block, ...]:
-        """The copies with names, ids and sheets of their own."""
-        return tuple(map(self._block, self.copied))
+    def part(self) -> Part:
+        """The copies with names, ids and sheets of their own; charts of copied tables alone."""
+        kept = {block.id for block in self.blocks_to_copy}
+        charts = (
+            self._chart(chart)
+            for chart in self.charts
+            if {axis.split(".")[0] for s in chart.series for axis in (s.x, s.y)} <= kept
+        )
+        return Part(tuple(map(self._block, self.blocks_to_copy)), tuple(charts))
 
     def _block(self, block: Block) -> Block:
-        local = {c.key for c in block.columns} if isinstance(block, TableSpec) else set()
-
-        def name(token: str) -> str:
-            return token if token in local else self.name(token)
-
-        made = with_names(block, lambda expr: renamed(expr, name))
-        title = f"{block.title} (режим {self.number})"
-        made = replace(made, id=self.name(block.id), title=title, sheet=self.sheet(block.sheet))
+        made = replace(
+            copied(block, self.name),
+            title=f"{block.title} (режим {self.number})",
+            sheet=self.sheet(block.sheet),
+        )
         if isinstance(made, TableSpec):
             return replace(made, number=f"{made.number}.р{self.number}")
-        if isinstance(made, ScalarTable):
-            return replace(made, scalars=tuple(map(self._scalar, made.scalars)))
-        rows = tuple(
-            replace(row, cells=tuple(c and self._scalar(c) for c in row.cells)) for row in made.rows
-        )
-        return replace(made, rows=rows)
-
-    def _scalar(self, scalar: Scalar) -> Scalar:
-        return replace(scalar, key=regime_key(scalar.key, self.number), of=scalar.of or scalar.key)
+        return made
 
     def sheet(self, title: str) -> str:
         """Title of the regime's sheet."""
-        return f"{title} р{self.number}"
+        return f"{title} р{self.number}" if title else ""
 
-    def renamed_charts(self) -> tuple[ChartSpec, ...]:
-        """Charts whose curves are all of copied tables."""
-        made = []
-        for chart in self.charts:
-            tables = {axis.split(".")[0] for s in chart.series for axis in (s.x, s.y)}
-            if not tables <= {block.id for block in self.copied}:
-                continue
-            series = tuple(replace(s, x=self.name(s.x), y=self.name(s.y)) for s in chart.series)
-            made.append(
-                replace(
-                    chart,
-                    id=regime_key(chart.id, self.number),
-                    sheet=self.sheet(chart.sheet),
-                    title=f"{chart.title}, режим {self.number}",
-                    series=series,
-                )
-            )
-        return tuple(made)
+    def _chart(self, chart: ChartSpec) -> ChartSpec:
+        return replace(
+            copied_chart(chart, self.name),
+            id=regime_key(chart.id, self.number),
+            sheet=self.sheet(chart.sheet),
+            title=f"{chart.title}, режим {self.number}",
+        )
 
 
-def _nodes(block: Block) -> list[tuple[str, str]]:
+def _formulas(block: Block) -> dict[str, str]:
     """Name and formula of every node of a block."""
-    if isinstance(block, TableSpec):
-        return [(f"{block.id}.{c.key}", c.expr) for c in block.columns if c.expr is not None]
-    return [(scalar.key, scalar.expr) for scalar in scalars_of(block)]
+    return {key: node.expr for key, node in nodes_in(block) if node.expr is not None}
 
 
-def regime_models(
-    model: InputFile,
-    chain: Callable[[InputFile], tuple[tuple[Block, ...], tuple[ChartSpec, ...]]],
-) -> tuple[RegimeModel, ...]:
+def regime_models(model: InputFile, chain: Callable[[InputFile], Part]) -> tuple[RegimeModel, ...]:
     """One for each further regime.
 
     Args:
@@ -176,7 +157,7 @@ def regime_models(
     if not model.regimes:
         return ()
     made = []
-    main = dict(node for block in chain(model)[0] for node in _nodes(block))
+    main = {k: v for block in chain(model).blocks for k, v in _formulas(block).items()}
     for number, regime in enumerate(model.regimes, 2):
         values = {key: value for key, value in regime if key not in ("gas", "name")}
         alone = model.model_copy(
@@ -188,6 +169,7 @@ def regime_models(
                 "reference": None,
             }
         )
-        blocks, charts = chain(alone)
-        made.append(RegimeModel(number, tuple(iter_fields(alone)), blocks, charts, main))
+        part = chain(alone)
+        inputs = tuple(iter_fields(alone))
+        made.append(RegimeModel(number, inputs, part.blocks, part.charts, main))
     return tuple(made)

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from kshm.nomenclature.quantity import ray_key, roman
 from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, TableSpec
+from reports.spec.charts import ChartSpec, wear_chart
 from reports.spec.extremes import NEVER, TIE
+from reports.spec.listing import scalar_list
+from reports.spec.parts import Part, Scope
+from reports.spec.shape import Shape, pin_name
 
 HALF = f"(0.5 - {TIE})"  # cos 60°; the window includes its edges
 
 
-def wear_blocks(
-    journals: int, rays: int, rows: tuple[float, ...], pins: int = 1
-) -> tuple[Block, ...]:
+def wear(scope: Scope) -> Part:
     """Tables of forces by rays and the sums that draw the diagrams."""
+    shape, rows, rays = scope.shape, scope.cycle, scope.input.calculation.wear_rays
+    journals, pins = shape.throws + 1, len(shape.pins)
     blocks: list[Block] = []
     for n in range(1, pins + 1):
         table, name = ("crankpin", "pin") if n == 1 else (f"crankpin_{n}", f"pin{n}")
@@ -29,7 +33,7 @@ def wear_blocks(
             f"Износ к.ш ({k})", rows, rays,
             size=f"{table}.R_MPa", up=f"{table}.Ry_MPa", against=f"{table}.Rx_MPa",
         )  # fmt: skip
-    return tuple(blocks)
+    return Part(tuple(blocks), _charts(shape))
 
 
 def _surface(
@@ -97,11 +101,32 @@ def _sums(table_id: str, name: str, journal: str, sheet: str, rays: int) -> Grid
     )
 
 
-def hole_scalars(name: str, rays: int) -> tuple[Scalar, Scalar]:
+def hole_scalars(name: str, rays: int) -> tuple[Scalar, ...]:
     """Least loaded ray and the place of the oil hole opposite to it."""
-    key = "hole_pin" if name == "pin" else f"hole_{name}"
+    key = f"hole_{name}"
     candidates = ", ".join(f"{name}_best{i}" for i in range(1, rays + 1))
-    return (
-        Scalar(f"{key}_ray", f"min({candidates})", "Гоц, рис. 33"),
-        Scalar(f"{key}_deg", f"mod(({key}_ray - 1)*360/{rays} + 180, 360)", "Гоц, 2.6"),
-    )
+    return scalar_list(f"""
+        {key}_ray = min({candidates}) | Гоц, рис. 33
+        {key}_deg = mod(({key}_ray - 1)*360/{rays} + 180, 360) | Гоц, 2.6
+    """)
+
+
+def _charts(shape: Shape) -> tuple[ChartSpec, ...]:
+    """Figures 52 and 54: the conditional diagrams of all crankpins and main journals."""
+    several = len(shape.pins) > 1
+    made = []
+    for number in range(1, len(shape.pins) + 1):
+        n = pin_name(number)
+        made.append(
+            wear_chart(f"fig52_{n}".rstrip("_"), f"Износ ш.ш ({n})" if n else "Износ ш.ш",
+                 f"Условная диаграмма износа шатунной шейки{f' {number}' if several else ''}",
+                 f"table_14_pin_{n}_sums" if n else "table_14_sums", f"hole_pin{n}_deg",
+                 figure="52", caption=f"Условная диаграмма износа шатунной шейки {n}".strip())
+        )  # fmt: skip
+    for k in range(1, shape.throws + 2):
+        made.append(
+            wear_chart(f"fig54_{k}", f"Износ к.ш ({k})",
+                 f"Условная диаграмма износа коренной шейки {k}", f"table_14_main_{k}_sums",
+                 f"hole_main{k}_deg", figure="54")
+        )  # fmt: skip
+    return tuple(made)

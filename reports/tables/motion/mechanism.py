@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import DesignGeometrySection, GeometrySection, InputFile
-from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
+from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, only, over_phi
+from reports.spec.listing import column_list, scalar_list
+from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape
-
-EXACT_LABEL_FIELD = "calculation_method"
 
 TWO_TERM = "r_crank*omega**2*(cos(rad({phi})) + lam*cos(2*rad({phi})))"
 OFFSET_TWO_TERM = (
@@ -18,7 +19,28 @@ EXACT = (
 )
 
 
-def geometry(model: InputFile) -> ScalarTable:
+def size_stand_ins(model: InputFile) -> dict[str, str]:
+    """Sizes of a single journal where the input gives one size for all."""
+    shaft, throws = model.crankshaft, len(model.crankshaft.throw_angles_deg)
+    sizes = (
+        ("pin_diameter", shaft.pin_diameters_mm, throws),
+        ("pin_length", shaft.pin_lengths_mm, throws),
+        ("main_diameter", shaft.main_diameters_mm, throws + 1),
+    )
+    return {
+        f"{name}_{number}_mm": f"crankshaft_{name}_mm"
+        for name, each, count in sizes
+        if each is None
+        for number in range(1, count + 1)
+    }
+
+
+def dimensions(scope: Scope) -> Part:
+    """Dimensions, masses and constant forces."""
+    return Part((_sizes(scope.input), _masses(scope.input)))
+
+
+def _sizes(model: InputFile) -> ScalarTable:
     """Derived geometry and kinematic scalars."""
     given, shape = model.geometry, Shape.of(model)
     bore = "of_mm(geometry_bore_mm)"
@@ -34,10 +56,13 @@ def geometry(model: InputFile) -> ScalarTable:
         length = "of_mm(geometry_rod_length_mm)"
     else:
         length = "r_crank/geometry_lambda"
-    return _geometry(shape, radius, length, bore, _offset_sum(given))
+    return _geometry(shape, radius, length, bore, offset_sum(given))
 
 
-def _offset_sum(given: GeometrySection) -> str:
+def offset_sum(given: GeometrySection | DesignGeometrySection) -> str:
+    """Offset of the cylinder's axis and of the pin [m], empty for a central mechanism."""
+    if isinstance(given, DesignGeometrySection):
+        return ""
     keys = ("crank_offset_mm", "pin_offset_mm")
     return " + ".join(f"of_mm(geometry_{key})" for key in keys if getattr(given, key) is not None)
 
@@ -50,17 +75,21 @@ def _geometry(shape: Shape, radius: str, length: str, bore: str, offset: str = "
         "Размеры и кинематика механизма",
         "Массы",
         (
-            Scalar("r_crank", radius, "Гоц, 1.1"),
-            Scalar("L_rod", length, "Гоц, 1.1"),
-            Scalar("lam", "r_crank/L_rod", "Гоц, 1.1"),
+            *scalar_list(f"""
+                r_crank = {radius} | Гоц, 1.1
+                L_rod = {length} | Гоц, 1.1
+                lam = r_crank/L_rod | Гоц, 1.1
+            """),
             *(_dead_centres(offset) if shape.offset else ()),
             Scalar("S_stroke", *_stroke(offset=shape.offset)),
-            Scalar("F_piston", f"pi*({bore})**2/4", "Гоц, введение"),
-            Scalar("V_h", "to_dm3(F_piston*S_stroke)", "Гоц, введение"),
-            Scalar("V_c", "V_h/(geometry_compression_ratio - 1)", "Гоц, введение"),
-            Scalar("V_engine", engine, "Гоц, введение"),
-            Scalar("omega", "pi*regime_speed_rpm/30", "Гоц, 1.1"),
-            Scalar("c_m", mean, "Гоц, 1.2"),
+            *scalar_list(f"""
+                F_piston = pi*({bore})**2/4 | Гоц, введение
+                V_h = to_dm3(F_piston*S_stroke) | Гоц, введение
+                V_c = V_h/(geometry_compression_ratio - 1) | Гоц, введение
+                V_engine = {engine} | Гоц, введение
+                omega = pi*regime_speed_rpm/30 | Гоц, 1.1
+                c_m = {mean} | Гоц, 1.2
+            """),
             *(_offset_extremes() if shape.offset else _central_extremes()),
         ),
         note=(
@@ -80,55 +109,42 @@ def _stroke(*, offset: bool) -> tuple[str, str]:
 
 
 def _dead_centres(offset: str) -> tuple[Scalar, ...]:
-    return (
-        Scalar("e_offset", offset, "Гоц, 1.4"),
-        Scalar("k_offset", "e_offset/r_crank", "Гоц, 1.4"),
-        Scalar("phi_tdc_deg", "deg(asin(lam*k_offset/(1 + lam)))", "Гоц (9)"),
-        Scalar("phi_bdc_deg", "180 + deg(asin(lam*k_offset/(1 - lam)))", "Гоц (10)"),
-        Scalar("phi_down_deg", "phi_bdc_deg - phi_tdc_deg", "Гоц, 1.4"),
-        Scalar("phi_up_deg", "360 - phi_down_deg", "Гоц, 1.4"),
-    )
+    return scalar_list(f"""
+        e_offset = {offset} | Гоц, 1.4
+        k_offset = e_offset/r_crank | Гоц, 1.4
+        phi_tdc_deg = deg(asin(lam*k_offset/(1 + lam))) | Гоц (9)
+        phi_bdc_deg = 180 + deg(asin(lam*k_offset/(1 - lam))) | Гоц (10)
+        phi_down_deg = phi_bdc_deg - phi_tdc_deg | Гоц, 1.4
+        phi_up_deg = 360 - phi_down_deg | Гоц, 1.4
+    """)
 
 
 def _offset_extremes() -> tuple[Scalar, ...]:
-    def acceleration(phi: str) -> str:
-        return (
-            f"r_crank*omega**2*(cos(rad({phi})) + lam*cos(2*rad({phi}))"
-            f" + lam*k_offset*sin(rad({phi})))"
-        )
-
-    return (
-        Scalar("S_ratio", "S_stroke/r_crank", "Гоц, 1.4"),
-        Scalar("c_down", "S_stroke*omega/rad(phi_down_deg)", "Гоц, 1.4"),
-        Scalar("c_up", "S_stroke*omega/rad(phi_up_deg)", "Гоц, 1.4"),
-        Scalar("j_tdc", acceleration("phi_tdc_deg"), "Гоц (16) в ВМТ"),
-        Scalar("j_bdc", acceleration("phi_bdc_deg"), "Гоц (16) в НМТ"),
-        Scalar("beta_90_deg", "deg(asin(lam - k_offset*lam))", "Гоц (17), φ = 90°"),
-        Scalar("beta_270_deg", "deg(asin(-lam - k_offset*lam))", "Гоц (17), φ = 270°"),
-        Scalar("beta_max_deg", "max(abs(beta_90_deg), abs(beta_270_deg))", "Гоц (17)"),
-    )
+    return scalar_list(f"""
+        S_ratio = S_stroke/r_crank | Гоц, 1.4
+        c_down = S_stroke*omega/rad(phi_down_deg) | Гоц, 1.4
+        c_up = S_stroke*omega/rad(phi_up_deg) | Гоц, 1.4
+        j_tdc = {OFFSET_TWO_TERM.format(phi="phi_tdc_deg")} | Гоц (16) в ВМТ
+        j_bdc = {OFFSET_TWO_TERM.format(phi="phi_bdc_deg")} | Гоц (16) в НМТ
+        beta_90_deg = deg(asin(lam - k_offset*lam)) | Гоц (17), φ = 90°
+        beta_270_deg = deg(asin(-lam - k_offset*lam)) | Гоц (17), φ = 270°
+        beta_max_deg = max(abs(beta_90_deg), abs(beta_270_deg)) | Гоц (17)
+    """)
 
 
 def _central_extremes() -> tuple[Scalar, ...]:
-    return (
-        Scalar(
-            "phi_vmax_deg",
-            "deg(acos(sqrt((1/(4*lam))**2 + 1/2) - 1/(4*lam)))",
-            "Гоц (5)",
-        ),
-        Scalar(
-            "v_max",
-            "r_crank*omega*(sin(rad(phi_vmax_deg)) + lam/2*sin(2*rad(phi_vmax_deg)))",
-            "Гоц (4), (5)",
-        ),
-        Scalar("v_ratio", "v_max/c_m", "Гоц, рис. 6"),
-        Scalar("j_tdc", "r_crank*omega**2*(1 + lam)", "Гоц (6), φ = 0"),
-        Scalar("j_bdc", "-(r_crank*omega**2*(1 - lam))", "Гоц (6), φ = 180°"),
-        Scalar("beta_max_deg", "deg(asin(lam))", "Гоц (7)"),
-    )
+    return scalar_list("""
+        phi_vmax_deg = deg(acos(sqrt((1/(4*lam))**2 + 1/2) - 1/(4*lam))) | Гоц (5)
+        v_max = r_crank*omega*(sin(rad(phi_vmax_deg)) + lam/2*sin(2*rad(phi_vmax_deg)))
+            | Гоц (4), (5)
+        v_ratio = v_max/c_m | Гоц, рис. 6
+        j_tdc = r_crank*omega**2*(1 + lam) | Гоц (6), φ = 0
+        j_bdc = -(r_crank*omega**2*(1 - lam)) | Гоц (6), φ = 180°
+        beta_max_deg = deg(asin(lam)) | Гоц (7)
+    """)
 
 
-def masses(model: InputFile) -> ScalarTable:
+def _masses(model: InputFile) -> ScalarTable:
     """Masses and constant inertia forces."""
     given = model.masses
     scalars: list[Scalar] = []
@@ -143,15 +159,17 @@ def masses(model: InputFile) -> ScalarTable:
         m_2, m_j = "masses_rod_kg - m_1", "masses_piston_group_kg + m_1"
     unit = "r_crank*omega**2"
     scalars += [
-        Scalar("m_2", m_2, "Гоц (20), (22)"),
-        Scalar("m_j", m_j, "Гоц, 2.2"),
-        Scalar("m_k", "crankshaft_pin_mass_kg + web_1_mass_kg + web_2_mass_kg", "Гоц (28)"),
-        Scalar("m_r", _rotating(Shape.of(model)), "Гоц (29)"),
-        Scalar("P_unit", f"to_MPa(m_j*{unit}/F_piston)", "Гоц (31)"),
-        Scalar("K_r", f"to_kN(m_r*{unit})", "Гоц (32)"),
-        Scalar("K_r_spec", f"to_MPa(m_r*{unit}/F_piston)", "Гоц, 2.9"),
-        Scalar("K_r_rod", f"to_MPa(m_2*{unit}/F_piston)", "Гоц, 2.6"),
-        Scalar("K_r_throw", f"to_MPa(m_k*{unit}/F_piston)", "Гоц (42)"),
+        *scalar_list(f"""
+            m_2 = {m_2} | Гоц (20), (22)
+            m_j = {m_j} | Гоц, 2.2
+            m_k = crankshaft_pin_mass_kg + web_1_mass_kg + web_2_mass_kg | Гоц (28)
+            m_r = {_rotating(Shape.of(model))} | Гоц (29)
+            P_unit = to_MPa(m_j*{unit}/F_piston) | Гоц (31)
+            K_r = to_kN(m_r*{unit}) | Гоц (32)
+            K_r_spec = to_MPa(m_r*{unit}/F_piston) | Гоц, 2.9
+            K_r_rod = to_MPa(m_2*{unit}/F_piston) | Гоц, 2.6
+            K_r_throw = to_MPa(m_k*{unit}/F_piston) | Гоц (42)
+        """),
     ]
     return ScalarTable("masses", "Приведённые массы", "Массы", tuple(scalars))
 
@@ -161,8 +179,11 @@ def _rotating(shape: Shape) -> str:
     return "m_k + m_2" if rods == 1 else f"m_k + {rods}*m_2"
 
 
-def kinematic_tables(rows: tuple[float, ...]) -> tuple[Block, ...]:
-    """Tables П3.1 and П3.2 over one turn."""
+def kinematics(scope: Scope) -> Part:
+    """Tables П3.1 and П3.2 over one turn and figures 41-45; not with an offset."""
+    if scope.shape.offset:
+        return Part()
+    rows = scope.turn
     phi = "rad(phi_deg)"
     index = Column("phi_deg", None)
     piston = TableSpec(
@@ -172,15 +193,17 @@ def kinematic_tables(rows: tuple[float, ...]) -> tuple[Block, ...]:
         "П3.1",
         (
             index,
-            Column("s1_mm", f"to_mm(r_crank*(1 - cos({phi})))", "Гоц (3)"),
-            Column("s2_mm", f"to_mm(r_crank*lam/4*(1 - cos(2*{phi})))", "Гоц (3)"),
-            Column("s_mm", "s1_mm + s2_mm", "Гоц (3)"),
-            Column("v1_m_s", f"r_crank*omega*sin({phi})", "Гоц (4)"),
-            Column("v2_m_s", f"r_crank*omega*lam/2*sin(2*{phi})", "Гоц (4)"),
-            Column("v_m_s", "v1_m_s + v2_m_s", "Гоц (4)"),
-            Column("j1_m_s2", f"r_crank*omega**2*cos({phi})", "Гоц (6)"),
-            Column("j2_m_s2", f"lam*r_crank*omega**2*cos(2*{phi})", "Гоц (6)"),
-            Column("j_m_s2", "j1_m_s2 + j2_m_s2", "Гоц (6)"),
+            *column_list(f"""
+                s1_mm = to_mm(r_crank*(1 - cos({phi}))) | Гоц (3)
+                s2_mm = to_mm(r_crank*lam/4*(1 - cos(2*{phi}))) | Гоц (3)
+                s_mm = s1_mm + s2_mm | Гоц (3)
+                v1_m_s = r_crank*omega*sin({phi}) | Гоц (4)
+                v2_m_s = r_crank*omega*lam/2*sin(2*{phi}) | Гоц (4)
+                v_m_s = v1_m_s + v2_m_s | Гоц (4)
+                j1_m_s2 = r_crank*omega**2*cos({phi}) | Гоц (6)
+                j2_m_s2 = lam*r_crank*omega**2*cos(2*{phi}) | Гоц (6)
+                j_m_s2 = j1_m_s2 + j2_m_s2 | Гоц (6)
+            """),
         ),
         rows,
     )
@@ -192,15 +215,13 @@ def kinematic_tables(rows: tuple[float, ...]) -> tuple[Block, ...]:
         "П3.2",
         (
             index,
-            Column("beta_rad", f"asin(lam*sin({phi}))", "Гоц (7)"),
-            Column("omega_rod_exact_1_s", f"omega*lam*cos({phi})/{root}", "Гоц (8)"),
-            Column("omega_rod_approx_1_s", f"omega*lam*cos({phi})", "Гоц (8), приближённо"),
-            Column(
-                "eps_rod_exact_1_s2",
-                f"-(omega**2*lam*(1 - lam**2)*sin({phi})/{root}**3)",
-                "Гоц, 1.3",
-            ),
-            Column("eps_rod_approx_1_s2", f"-(omega**2*lam*sin({phi}))", "Гоц, 1.3, приближённо"),
+            *column_list(f"""
+                beta_rad = asin(lam*sin({phi})) | Гоц (7)
+                omega_rod_exact_1_s = omega*lam*cos({phi})/{root} | Гоц (8)
+                omega_rod_approx_1_s = omega*lam*cos({phi}) | Гоц (8), приближённо
+                eps_rod_exact_1_s2 = -(omega**2*lam*(1 - lam**2)*sin({phi})/{root}**3) | Гоц, 1.3
+                eps_rod_approx_1_s2 = -(omega**2*lam*sin({phi})) | Гоц, 1.3, приближённо
+            """),
         ),
         rows,
         note=(
@@ -208,7 +229,7 @@ def kinematic_tables(rows: tuple[float, ...]) -> tuple[Block, ...]:
             "напечатан по приближённой формуле, второй — по точной."
         ),
     )
-    return piston, rod
+    return Part((piston, rod), kinematic_charts(scope.shape))
 
 
 def acceleration(model: InputFile, phi: str, beta: str) -> str:
@@ -219,3 +240,42 @@ def acceleration(model: InputFile, phi: str, beta: str) -> str:
     if Shape.of(model).offset:
         two_term = OFFSET_TWO_TERM.format(phi=phi)
     return f'({exact}) if calculation_method == "{METHODS["exact"]}" else ({two_term})'
+
+
+def kinematic_charts(shape: Shape) -> tuple[ChartSpec, ...]:
+    """Figures 41-45; the report shows the offset's own terms in place of the harmonics."""
+    captions = ("Перемещение поршня и его гармоники", "Скорость поршня и её гармоники",
+                "Ускорение поршня и его гармоники")  # fmt: skip
+    further: tuple[tuple[str, ...], ...] = ((), (), ())
+    if shape.offset:
+        captions = ("", "", "Ускорение поршня дезаксиального и центрального механизмов")
+        further = (("P3_1.sk_mm",), ("P3_1.vk_m_s",), ("offset.j_central_m_s2", "P3_1.jk_m_s2"))
+    motion = (
+        ("fig41", "Перемещение поршня", "s, мм", ("s_mm", "s1_mm", "s2_mm")),
+        ("fig42", "Скорость поршня", "v, м/с", ("v_m_s", "v1_m_s", "v2_m_s")),
+        ("fig43", "Ускорение поршня", "j, м/с²", ("j_m_s2", "j1_m_s2", "j2_m_s2")),
+    )
+    made = []
+    for (chart, title, y, keys), caption, own in zip(motion, captions, further, strict=True):
+        whole, *parts = (f"P3_1.{key}" for key in keys)
+        orders = only("workbook", *parts) if shape.offset else parts
+        made.append(
+            over_phi(chart, "П3.1", title, y, whole, *orders, *only("report", *own),
+                     figure=chart[3:], caption=caption)
+        )  # fmt: skip
+    made.append(
+        over_phi("fig44", "П3.2", "Угловое перемещение шатуна", "β, рад", "P3_2.beta_rad",
+                 figure="44", caption="Угол отклонения шатуна")
+    )  # fmt: skip
+    swing = (
+        ("a", "omega_rod_{}_1_s", "Угловая скорость", "ω, с⁻¹", r"\omega"),
+        ("b", "eps_rod_{}_1_s2", "Угловое ускорение", "ε, с⁻²", r"\varepsilon"),
+    )
+    for letter, kind, title, y, tex in swing:
+        exact, near = (f"P3_2.{kind.format(way)}" for way in ("exact", "approx"))
+        approximate = only("workbook", near) if shape.offset else (near,)
+        made.append(
+            over_phi(f"fig45{letter}", "П3.2", f"{title} качания шатуна", y, exact, *approximate,
+                     figure="45", y_tex=rf"${tex}_{{\mathrm{{ш}}}}$, {y[3:]}")
+        )  # fmt: skip
+    return tuple(made)

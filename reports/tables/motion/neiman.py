@@ -1,60 +1,16 @@
-"""Neiman: Fourier series of the piston motion, tables 1-4, the rod on its pin."""
+"""Neiman: Fourier series of the piston motion, the rod on its pin."""
 
 from __future__ import annotations
 
-from reports.spec.blocks import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
-from reports.tables.motion.segal import J, S, V, filled, rows
+from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, columns_of, over_phi
+from reports.spec.listing import column_list
+from reports.spec.parts import Part, Scope, stepped
+from reports.tables.motion.segal import ALPHA, TITLES, J, S, V, filled
 
-SHEET, RESULTS, TABLES = "Нейман", "Нейман, ряд", "Нейман 1-4"
+SHEET, RESULTS = "Нейман", "Нейман, ряд"
 SHOWN = (1, 2, 4, 6)
 ORDERS = (2, 4, 6, 8, 10, 12)
-_INDEX = Column("inv_lambda", None)
-_LAM = "(1/inv_lambda)"
-
-# Neiman (20) divided by λ, cut after sin⁸ as the text says under (23).
-_SERIES = {
-    "k": "{l}/4 + 3/64*{l}**3 + 5/256*{l}**5 + 175/16384*{l}**7",
-    "p2": "{l}/4 + {l}**3/16 + 15/512*{l}**5 + 35/2048*{l}**7",
-    "p4": "{l}**3/64 + 3/256*{l}**5 + 35/4096*{l}**7",
-    "p6": "{l}**5/512 + 5/2048*{l}**7",
-    "p8": "5/16384*{l}**7",
-}
-
-
-def _tables() -> tuple[Block, ...]:
-    printed = [Column(k, text.format(l=_LAM), "Нейман (21)") for k, text in _SERIES.items()]
-    velocity = [Column(f"{n}p{n}", f"{n}*neiman_t1.p{n}", "Нейман (28)") for n in (2, 4, 6, 8)]
-    acceleration = [
-        Column(f"{n * n}p{n}", f"{n * n}*neiman_t1.p{n}", "Нейман (36)") for n in (2, 4, 6, 8)
-    ]
-    angle = f"acos((sqrt(1 + 8*{_LAM}**2) - 1)/(4*{_LAM}))"
-    minutes = f"floor(deg({angle})*60 + 0.5)"
-    fastest = [
-        Column("alpha1", f"floor({minutes}/60)*100 + mod({minutes}, 60)", "Нейман (32)"),
-        Column("ratio", f"pi/2*(sin({angle}) + {_LAM}/2*sin(2*{angle}))", "Нейман (33)"),
-    ]
-    found = (
-        (1, "Коэффициенты ряда перемещения", printed),
-        (2, "Коэффициенты ряда скорости", velocity),
-        (3, "Наибольшая скорость поршня", fastest),
-        (4, "Коэффициенты ряда ускорения", acceleration),
-    )
-    return tuple(
-        TableSpec(
-            f"neiman_t{number}",
-            f"Н{number}",
-            title,
-            TABLES,
-            (_INDEX, *columns),
-            rows(3.4, 4.0, 0.1),
-            note=(
-                "Степени λ в напечатанной формуле (21) на единицу больше верных; здесь ряд (20) "
-                "разделён на λ и оборван на sin⁸α, как в тексте."
-            ),
-            step=0.1,
-        )
-        for number, title, columns in found
-    )
 
 
 def _sign(order: int) -> int:
@@ -85,24 +41,21 @@ def _motion() -> TableSpec:
         columns.append(Column(f"{letter}_series", text, source))
     root = "sqrt(1 - lam**2*sin(rad(alpha_deg))**2)"
     columns += [
-        Column("rod_speed_rel", f"lam*cos(rad(alpha_deg))/{root}", "Нейман (7)"),
-        Column(
-            "rod_acceleration_rel",
-            f"-(lam*(1 - lam**2)*sin(rad(alpha_deg))/{root}**3)",
-            "Нейман (9)",
-        ),
-        Column("rod_on_pin_rel", "1 + rod_speed_rel", "Нейман (12)"),
-        Column("root", f"{root}/lam", "Нейман (14)", helper=True),
+        *column_list(f"""
+            rod_speed_rel = lam*cos(rad(alpha_deg))/{root} | Нейман (7)
+            rod_acceleration_rel = -(lam*(1 - lam**2)*sin(rad(alpha_deg))/{root}**3) | Нейман (9)
+            rod_on_pin_rel = 1 + rod_speed_rel | Нейман (12)
+            helpers:
+            root = {root}/lam | Нейман (14)
+        """),
     ]
     for letter in "svj":
         columns.append(
-            Column(
-                f"{letter}_gap",
-                f"abs({letter}_series - {letter}_exact)",
-                "погрешность ряда",
-                helper=True,
-                of=f"{letter}_series_error",
-            )
+            *column_list(f"""
+                helpers:
+                {letter}_gap of {letter}_series_error = abs({letter}_series - {letter}_exact)
+                    | погрешность ряда
+            """)
         )
     return TableSpec(
         "neiman_motion",
@@ -110,7 +63,7 @@ def _motion() -> TableSpec:
         "Гармоники движения поршня и точные кривые",
         SHEET,
         tuple(columns),
-        rows(0, 360, 5),
+        stepped(0, 360, 5),
         note=(
             "Перемещение отнесено к R, скорость к ωR, ускорение к ω²R; λ — двигателя. "
             "Знаки гармоник 4 и 8 в напечатанной формуле (28) пропущены."
@@ -133,44 +86,23 @@ def _coefficients() -> ScalarTable:
     return ScalarTable("neiman_list", "Коэффициенты ряда при λ двигателя", RESULTS, tuple(scalars))
 
 
-def neiman_blocks() -> tuple[Block, ...]:
-    """Harmonics of the engine's motion and tables 1-4."""
-    return _motion(), _coefficients(), *_tables()
+def neiman(scope: Scope) -> Part:
+    """Harmonics of the engine's motion."""
+    return Part((_motion(), _coefficients()), _charts()) if scope.shape.by_orders else Part()
 
 
-def neiman_charts() -> tuple[ChartSpec, ...]:
+def _charts() -> tuple[ChartSpec, ...]:
     """Figures 2-4, 6, 9 for the engine's λ."""
-    x = "neiman_motion.alpha_deg"
-    made = []
-    names = {"s": ("Перемещение", "4"), "v": ("Скорость", "6"), "j": ("Ускорение", "9")}
-    for letter, (title, _) in names.items():
-        keys = [f"{letter}_exact", *(f"{letter}_order{n}" for n in (1, 2, 4))]
-        series = tuple(Series(x, f"neiman_motion.{key}") for key in keys)
-        made.append(
-            ChartSpec(
-                f"neiman_{letter}",
-                SHEET,
-                f"{title} поршня и его гармоники",
-                "line",
-                series,
-                "α, °",
-                letter,
-            )
-        )
-    one = (
-        ("rod", "Угловая скорость шатуна на шатунной шейке", "rod_on_pin_rel", "(dΦ/dt)/ω"),
-        ("rod_acceleration", "Угловое ускорение шатуна", "rod_acceleration_rel", "Θ/ω²"),
-    )
-    made += [
-        ChartSpec(
-            f"neiman_{key}",
-            SHEET,
-            title,
-            "line",
-            (Series(x, f"neiman_motion.{column}"),),
-            "α, °",
-            y,
-        )
-        for key, title, column, y in one
-    ]
-    return tuple(made)
+    t = "neiman_motion"
+    return (
+        *(
+            over_phi(f"neiman_{letter}", SHEET, f"{title} поршня и его гармоники", letter,
+                     *columns_of(t, f"{letter}_exact", *(f"{letter}_order{n}" for n in (1, 2, 4))),
+                     x=ALPHA)
+            for letter, title in TITLES.items()
+        ),
+        over_phi("neiman_rod", SHEET, "Угловая скорость шатуна на шатунной шейке", "(dΦ/dt)/ω",
+                 f"{t}.rod_on_pin_rel", x=ALPHA),
+        over_phi("neiman_rod_acceleration", SHEET, "Угловое ускорение шатуна", "Θ/ω²",
+                 f"{t}.rod_acceleration_rel", x=ALPHA),
+    )  # fmt: skip

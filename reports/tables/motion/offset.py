@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from reports.spec.blocks import Block, ChartSpec, Column, Grid, GridRow, Scalar, Series, TableSpec
+from reports.spec.blocks import Grid, GridRow, Scalar, TableSpec
+from reports.spec.charts import ChartSpec, Series, over_phi
+from reports.spec.listing import column_list
+from reports.spec.parts import Part, Scope
+from reports.tables.motion.mechanism import kinematic_charts
 
 SHEET = "Дезаксиал"
 _PHI = "rad(phi_deg)"
@@ -10,9 +14,15 @@ _ROOT = f"sqrt(1 - lam**2*(sin({_PHI}) - k_offset)**2)"
 _SKETCH_DEG = "60"  # position of the crank in the drawing
 
 
-def offset_tables(rows: tuple[float, ...]) -> tuple[Block, ...]:
+def offset(scope: Scope) -> Part:
     """П3.1 and П3.2 of an offset mechanism, the exact motion beside them."""
-    return _piston(rows), _rod(rows), _exact(rows), _sketch()
+    if not scope.shape.offset:
+        return Part()
+    rows = scope.turn
+    return Part(
+        (_piston(rows), _rod(rows), _exact(rows), _sketch()),
+        (*kinematic_charts(scope.shape), *_charts()),
+    )
 
 
 def _piston(rows: tuple[float, ...]) -> TableSpec:
@@ -22,26 +32,22 @@ def _piston(rows: tuple[float, ...]) -> TableSpec:
         "П3.1",
         "Перемещение, скорость и ускорение поршня",
         "П3.1",
-        (
-            Column("phi_deg", None),
-            Column("s1_mm", f"to_mm(r_crank*(1 - cos({_PHI})))", "Гоц (14)"),
-            Column("s2_mm", f"to_mm(r_crank*lam/4*(1 - cos(2*{_PHI})))", "Гоц (14)"),
-            Column(
-                "sk_mm",
-                f"to_mm(r_crank*({top} - 1 - 1/lam + lam*k_offset**2/2"
-                f" - lam*k_offset*sin({_PHI})))",
-                "Гоц (14)",
-            ),
-            Column("s_mm", "s1_mm + s2_mm + sk_mm", "Гоц (14)"),
-            Column("v1_m_s", f"r_crank*omega*sin({_PHI})", "Гоц (15)"),
-            Column("v2_m_s", f"r_crank*omega*lam/2*sin(2*{_PHI})", "Гоц (15)"),
-            Column("vk_m_s", f"-(r_crank*omega*lam*k_offset*cos({_PHI}))", "Гоц (15)"),
-            Column("v_m_s", "v1_m_s + v2_m_s + vk_m_s", "Гоц (15)"),
-            Column("j1_m_s2", f"r_crank*omega**2*cos({_PHI})", "Гоц (16)"),
-            Column("j2_m_s2", f"lam*r_crank*omega**2*cos(2*{_PHI})", "Гоц (16)"),
-            Column("jk_m_s2", f"r_crank*omega**2*lam*k_offset*sin({_PHI})", "Гоц (16)"),
-            Column("j_m_s2", "j1_m_s2 + j2_m_s2 + jk_m_s2", "Гоц (16)"),
-        ),
+        column_list(f"""
+            phi_deg
+            s1_mm = to_mm(r_crank*(1 - cos({_PHI}))) | Гоц (14)
+            s2_mm = to_mm(r_crank*lam/4*(1 - cos(2*{_PHI}))) | Гоц (14)
+            sk_mm = to_mm(r_crank*({top} - 1 - 1/lam + lam*k_offset**2/2
+                - lam*k_offset*sin({_PHI}))) | Гоц (14)
+            s_mm = s1_mm + s2_mm + sk_mm | Гоц (14)
+            v1_m_s = r_crank*omega*sin({_PHI}) | Гоц (15)
+            v2_m_s = r_crank*omega*lam/2*sin(2*{_PHI}) | Гоц (15)
+            vk_m_s = -(r_crank*omega*lam*k_offset*cos({_PHI})) | Гоц (15)
+            v_m_s = v1_m_s + v2_m_s + vk_m_s | Гоц (15)
+            j1_m_s2 = r_crank*omega**2*cos({_PHI}) | Гоц (16)
+            j2_m_s2 = lam*r_crank*omega**2*cos(2*{_PHI}) | Гоц (16)
+            jk_m_s2 = r_crank*omega**2*lam*k_offset*sin({_PHI}) | Гоц (16)
+            j_m_s2 = j1_m_s2 + j2_m_s2 + jk_m_s2 | Гоц (16)
+        """),
         rows,
         note=(
             "В (14) высота ВМТ взята точной, поэтому двучленное перемещение в ВМТ чуть "
@@ -61,14 +67,14 @@ def _rod(rows: tuple[float, ...]) -> TableSpec:
         "П3.2",
         "Угловое перемещение, скорость и ускорение шатуна",
         "П3.2",
-        (
-            Column("phi_deg", None),
-            Column("beta_rad", f"asin(lam*{sine})", "Гоц (13), (17)"),
-            Column("omega_rod_exact_1_s", f"lam*omega*cos({_PHI})/{_ROOT}", "Гоц (18)"),
-            Column("omega_rod_approx_1_s", f"lam*omega*cos({_PHI})", "Гоц (18а)"),
-            Column("eps_rod_exact_1_s2", turned, "Гоц (19)"),
-            Column("eps_rod_approx_1_s2", f"-(lam*omega**2*sin({_PHI}))", "Гоц (19а)"),
-        ),
+        column_list(f"""
+            phi_deg
+            beta_rad = asin(lam*{sine}) | Гоц (13), (17)
+            omega_rod_exact_1_s = lam*omega*cos({_PHI})/{_ROOT} | Гоц (18)
+            omega_rod_approx_1_s = lam*omega*cos({_PHI}) | Гоц (18а)
+            eps_rod_exact_1_s2 = {turned} | Гоц (19)
+            eps_rod_approx_1_s2 = -(lam*omega**2*sin({_PHI})) | Гоц (19а)
+        """),
         rows,
         note="В учебнике формула (19а) напечатана без знака минус.",
     )
@@ -82,28 +88,14 @@ def _exact(rows: tuple[float, ...]) -> TableSpec:
         "Д",
         "Точное движение поршня дезаксиального механизма",
         SHEET,
-        (
-            Column("phi_deg", None),
-            Column(
-                "x_exact_mm",
-                f"to_mm(r_crank*({top} - (cos({_PHI}) + cos({beta})/lam)))",
-                "Гоц (12)",
-            ),
-            Column(
-                "v_exact_m_s", f"r_crank*omega*sin({_PHI} + {beta})/cos({beta})", "Гоц (12), d/dt"
-            ),
-            Column(
-                "j_exact_m_s2",
-                f"r_crank*omega**2*(cos({_PHI} + {beta})/cos({beta})"
-                f" + lam*cos({_PHI})**2/cos({beta})**3)",
-                "Гоц (12), d²/dt²",
-            ),
-            Column(
-                "j_central_m_s2",
-                f"r_crank*omega**2*(cos({_PHI}) + lam*cos(2*{_PHI}))",
-                "Гоц (6)",
-            ),
-        ),
+        column_list(f"""
+            phi_deg
+            x_exact_mm = to_mm(r_crank*({top} - (cos({_PHI}) + cos({beta})/lam))) | Гоц (12)
+            v_exact_m_s = r_crank*omega*sin({_PHI} + {beta})/cos({beta}) | Гоц (12), d/dt
+            j_exact_m_s2 = r_crank*omega**2*(cos({_PHI} + {beta})/cos({beta})
+                + lam*cos({_PHI})**2/cos({beta})**3) | Гоц (12), d²/dt²
+            j_central_m_s2 = r_crank*omega**2*(cos({_PHI}) + lam*cos(2*{_PHI})) | Гоц (6)
+        """),
         rows,
     )
 
@@ -126,7 +118,7 @@ def _sketch() -> Grid:
             Scalar(f"sketch_{key}{n}", f"({text})/{size}", "Гоц, рис. 11", of="sketch")
             for n, text in enumerate(texts, 1)
         )
-        rows.append(GridRow(f"sketch_{key}", (*cells, *(None for _ in range(3 - len(cells))))))
+        rows.append(GridRow(f"sketch_{key}", (*cells, *[None] * (3 - len(cells)))))
     labels = ("O (ось вала)", "B (шатунная шейка)", "A (поршневой палец)")
     return Grid(
         "offset_sketch",
@@ -137,35 +129,19 @@ def _sketch() -> Grid:
     )
 
 
-def offset_charts() -> tuple[ChartSpec, ...]:
+def _charts() -> tuple[ChartSpec, ...]:
     """Figures 11 and 12."""
     at = "offset_sketch.sketch"
-    return (
-        ChartSpec(
-            "fig11",
-            SHEET,
-            "Схема дезаксиального механизма при φ = 60°",
-            "path",
-            (
-                Series(f"{at}_axis_x", f"{at}_axis_y", "ось цилиндра"),
-                Series(f"{at}_rod_x", f"{at}_rod_y", "кривошип и шатун"),
-            ),
-            "",
-            "",
-            "11",
-        ),
-        ChartSpec(
-            "fig12",
-            SHEET,
-            "Ускорение поршня дезаксиального и центрального механизмов",
-            "line",
-            (
-                Series("offset.phi_deg", "P3_1.j_m_s2", "jд"),
-                Series("offset.phi_deg", "offset.j_central_m_s2", "jц"),
-                Series("offset.phi_deg", "offset.j_exact_m_s2", "jд точное"),
-            ),
-            "φ, ° ПКВ",
-            "j, м/с²",
-            "12",
-        ),
+    curves = (
+        Series(f"{at}_axis_x", f"{at}_axis_y", "ось цилиндра"),
+        Series(f"{at}_rod_x", f"{at}_rod_y", "кривошип и шатун"),
     )
+    return (
+        ChartSpec("fig11", SHEET, "Схема дезаксиального механизма при φ = 60°", "scheme", curves,
+                  figure="11", x_reversed=True),
+        over_phi("fig12", SHEET, "Ускорение поршня дезаксиального и центрального механизмов",
+                 "j, м/с²",
+                 Series("offset.phi_deg", "P3_1.j_m_s2", "jд"),
+                 Series("offset.phi_deg", "offset.j_central_m_s2", "jц"),
+                 Series("offset.phi_deg", "offset.j_exact_m_s2", "jд точное"), figure="12"),
+    )  # fmt: skip

@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from kshm.results.reference import FIGURE_6
-from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import (
-    Block,
-    ChartSpec,
-    Column,
-    Grid,
-    GridRow,
-    Scalar,
-    ScalarTable,
-    Series,
-    TableSpec,
-)
+from reports.spec.blocks import Block, Column, Grid, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi, polar
+from reports.spec.listing import column_list, corners, grid_row, scalar_list
+from reports.spec.parts import Part, Scope, stepped
 
 MOTION, SPEED, VECTORS, SKETCH = "Рис. 3–10", "Рис. 6", "Рис. 20", "Рис. 5"
 KINEMATIC, FORCES = "Табл. 1–3", "Табл. 5–8"
@@ -37,18 +31,21 @@ TABLES: dict[str, tuple[str, str, str, str]] = {
 }  # fmt: skip
 
 
-def reference_blocks(model: InputFile, turn: tuple[float, ...]) -> tuple[Block, ...]:
+def reference(scope: Scope) -> Part:
     """Figure 20 always, the other tables where the input has a section [reference]."""
-    blocks: list[Block] = [_vectors(turn), *_vector_boxes()]
-    if model.reference is None:
-        return tuple(blocks)
-    count = len(model.reference.lambdas)
-    half = tuple(float(angle) for angle in range(0, 190, 10))
-    whole = tuple(float(angle) for angle in range(0, 370, 10))
+    asked = scope.input.reference
+    blocks: list[Block] = [_vectors(scope.turn), *_vector_boxes()]
+    if asked is None:
+        return Part(tuple(blocks), _vector_charts())
+    count = len(asked.lambdas)
+    half, whole = stepped(0, 180, 10), stepped(0, 360, 10)
     for number in TABLES:
         blocks.append(_table(number, count, half))
     blocks += [_lambdas(sheet, count) for sheet in (KINEMATIC, FORCES)]
-    return (*blocks, _motion(whole), _figure_6(), _sketch(), *_drawing())
+    return Part(
+        (*blocks, _motion(whole), _figure_6(), _sketch(), *_drawing()),
+        (*_vector_charts(), *_charts(asked.lambdas)),
+    )
 
 
 def _table(number: str, count: int, rows: tuple[float, ...]) -> TableSpec:
@@ -71,12 +68,10 @@ def _table(number: str, count: int, rows: tuple[float, ...]) -> TableSpec:
 
 def _lambdas(sheet: str, count: int) -> Grid:
     key = "kin" if sheet == KINEMATIC else "dyn"
-    cells = tuple(
-        Scalar(f"ref_{key}{i}", f"reference_lambda_{i}_value", "исходные данные", of="lambda_value")
-        for i in range(1, count + 1)
-    )
-    labels = tuple(f"λ{i}" for i in range(1, count + 1))
-    return Grid(f"ref_{key}_list", "Значения λ", sheet, labels, (GridRow("lambda_value", cells),))
+    numbers = range(1, count + 1)
+    texts = (f"reference_lambda_{i}_value" for i in numbers)
+    row = grid_row("lambda_value", texts, "исходные данные", f"ref_{key}{{n}}")
+    return Grid(f"ref_{key}_list", "Значения λ", sheet, tuple(f"λ{i}" for i in numbers), (row,))
 
 
 def _motion(rows: tuple[float, ...]) -> TableSpec:
@@ -88,19 +83,21 @@ def _motion(rows: tuple[float, ...]) -> TableSpec:
         MOTION,
         (
             INDEX,
-            Column("s1_rel", f"1 - cos({_PHI})", "Гоц (3), рис. 3"),
-            Column("s2_rel", f"lam/4*(1 - cos(2*{_PHI}))", "Гоц (3), рис. 3"),
-            Column("s_rel", "s1_rel + s2_rel", "Гоц (3), рис. 3"),
-            Column("v1_rel", f"sin({_PHI})", "Гоц (4), рис. 4"),
-            Column("v2_rel", f"lam/2*sin(2*{_PHI})", "Гоц (4), рис. 4"),
-            Column("v_rel", "v1_rel + v2_rel", "Гоц (4), рис. 4"),
-            Column("j1_rel", f"cos({_PHI})", "Гоц (6), рис. 7"),
-            Column("j2_rel", f"lam*cos(2*{_PHI})", "Гоц (6), рис. 7"),
-            Column("j_rel", "j1_rel + j2_rel", "Гоц (6), рис. 7"),
-            Column("omega_rod_rel", f"lam*cos({_PHI})/{root}", "Гоц (8), рис. 10"),
-            Column("omega_rod_near_rel", f"lam*cos({_PHI})", "Гоц (8), рис. 10"),
-            Column("eps_rod_rel", f"-(lam*(1 - lam**2)*sin({_PHI})/{root}**3)", "Гоц, рис. 10"),
-            Column("eps_rod_near_rel", f"-(lam*sin({_PHI}))", "Гоц, рис. 10"),
+            *column_list(f"""
+                s1_rel = 1 - cos({_PHI}) | Гоц (3), рис. 3
+                s2_rel = lam/4*(1 - cos(2*{_PHI})) | Гоц (3), рис. 3
+                s_rel = s1_rel + s2_rel | Гоц (3), рис. 3
+                v1_rel = sin({_PHI}) | Гоц (4), рис. 4
+                v2_rel = lam/2*sin(2*{_PHI}) | Гоц (4), рис. 4
+                v_rel = v1_rel + v2_rel | Гоц (4), рис. 4
+                j1_rel = cos({_PHI}) | Гоц (6), рис. 7
+                j2_rel = lam*cos(2*{_PHI}) | Гоц (6), рис. 7
+                j_rel = j1_rel + j2_rel | Гоц (6), рис. 7
+                omega_rod_rel = lam*cos({_PHI})/{root} | Гоц (8), рис. 10
+                omega_rod_near_rel = lam*cos({_PHI}) | Гоц (8), рис. 10
+                eps_rod_rel = -(lam*(1 - lam**2)*sin({_PHI})/{root}**3) | Гоц, рис. 10
+                eps_rod_near_rel = -(lam*sin({_PHI})) | Гоц, рис. 10
+            """),
         ),
         rows,
         note="Перемещение отнесено к r, скорость к rω, ускорение к rω²; у шатуна — к ω и ω².",
@@ -116,18 +113,15 @@ def _figure_6() -> TableSpec:
         "6",
         "Угол наибольшей скорости и отношение скоростей в зависимости от λ",
         SPEED,
-        (
-            Column("lambda_value", None),
-            Column("phi_vmax_deg", f"deg(acos(sqrt(({quarter})**2 + 1/2) - {quarter}))", "Гоц (5)"),
-            Column(
-                "vmax_rel",
-                "sin(rad(phi_vmax_deg)) + lambda_value/2*sin(2*rad(phi_vmax_deg))",
-                "Гоц (4), 1.2",
-            ),
-            Column("v_ratio", "pi/2*vmax_rel", "Гоц, рис. 6"),
-            Column("v1_ratio", "pi/2*(lambda_value/lambda_value)", "Гоц, 1.2: 1,57"),
-        ),
-        tuple(round(first + step * i, 6) for i in range(round((last - first) / step) + 1)),
+        column_list(f"""
+            lambda_value
+            phi_vmax_deg = deg(acos(sqrt(({quarter})**2 + 1/2) - {quarter})) | Гоц (5)
+            vmax_rel = sin(rad(phi_vmax_deg)) + lambda_value/2*sin(2*rad(phi_vmax_deg))
+                | Гоц (4), 1.2
+            v_ratio = pi/2*vmax_rel | Гоц, рис. 6
+            v1_ratio = pi/2*(lambda_value/lambda_value) | Гоц, 1.2: 1,57
+        """),
+        stepped(first, last, step),
         step=step,
     )
 
@@ -141,16 +135,18 @@ def _vectors(rows: tuple[float, ...]) -> TableSpec:
         VECTORS,
         (
             INDEX,
-            Column("Pj1_kN", f"to_kN({size}*cos({_PHI}))", "Гоц (31)"),
-            Column("Pj2_kN", f"to_kN(lam*({size})*cos(2*{_PHI}))", "Гоц (31)"),
-            Column("C1_x_kN", f"to_kN({size}*sin({_PHI}))", "Гоц, рис. 20, а"),
-            Column("C1_y_kN", f"to_kN({size}*cos({_PHI}))", "Гоц, рис. 20, а"),
-            Column("C2_x_kN", f"to_kN(lam*({size})*sin(2*{_PHI}))", "Гоц, рис. 20, б"),
-            Column("C2_y_kN", f"to_kN(lam*({size})*cos(2*{_PHI}))", "Гоц, рис. 20, б"),
-            Column("rose1_x_kN", f"Pj1_kN*sin({_PHI})", "Гоц, рис. 20, в"),
-            Column("rose1_y_kN", f"Pj1_kN*cos({_PHI})", "Гоц, рис. 20, в"),
-            Column("rose2_x_kN", f"Pj2_kN*sin({_PHI})", "Гоц, рис. 20, г"),
-            Column("rose2_y_kN", f"Pj2_kN*cos({_PHI})", "Гоц, рис. 20, г"),
+            *column_list(f"""
+                Pj1_kN = to_kN({size}*cos({_PHI})) | Гоц (31)
+                Pj2_kN = to_kN(lam*({size})*cos(2*{_PHI})) | Гоц (31)
+                C1_x_kN = to_kN({size}*sin({_PHI})) | Гоц, рис. 20, а
+                C1_y_kN = to_kN({size}*cos({_PHI})) | Гоц, рис. 20, а
+                C2_x_kN = to_kN(lam*({size})*sin(2*{_PHI})) | Гоц, рис. 20, б
+                C2_y_kN = to_kN(lam*({size})*cos(2*{_PHI})) | Гоц, рис. 20, б
+                rose1_x_kN = Pj1_kN*sin({_PHI}) | Гоц, рис. 20, в
+                rose1_y_kN = Pj1_kN*cos({_PHI}) | Гоц, рис. 20, в
+                rose2_x_kN = Pj2_kN*sin({_PHI}) | Гоц, рис. 20, г
+                rose2_y_kN = Pj2_kN*cos({_PHI}) | Гоц, рис. 20, г
+            """),
         ),
         rows,
         note=(
@@ -167,19 +163,15 @@ def _vector_boxes() -> tuple[Block, ...]:
         "vector_sizes",
         "Длины векторов",
         VECTORS,
-        (
-            Scalar("C_vector", "to_kN(m_j*r_crank*omega**2)", "Гоц (31)"),
-            Scalar("C2_vector", "lam*C_vector", "Гоц (31)"),
-        ),
+        scalar_list("""
+            C_vector = to_kN(m_j*r_crank*omega**2) | Гоц (31)
+            C2_vector = lam*C_vector | Гоц (31)
+        """),
     )
-    boxes = []
-    for name, scalar in (("vector1", "C_vector"), ("vector2", "C2_vector")):
-        cells = (
-            Scalar(f"{name}_box1", f"-{scalar}", "оси диаграммы", of="box_kN"),
-            Scalar(f"{name}_box2", scalar, "оси диаграммы", of="box_kN"),
-        )
-        row = GridRow("box_kN", cells)
-        boxes.append(Grid(f"{name}_box", "Оси диаграммы", VECTORS, ("−", "+"), (row,)))
+    boxes = (
+        corners(f"{name}_box", "Оси диаграммы", VECTORS, f"{name}_box", size, "box_kN")
+        for name, size in (("vector1", "C_vector"), ("vector2", "C2_vector"))
+    )
     return (sizes, *boxes)
 
 
@@ -189,17 +181,14 @@ def _sketch() -> ScalarTable:
         "sketch",
         "Графическое определение скорости поршня",
         SKETCH,
-        (
-            Scalar("draw_B_x", f"sin({phi})", "Гоц, рис. 5"),
-            Scalar("draw_B_y", f"cos({phi})", "Гоц, рис. 5"),
-            Scalar("draw_beta_deg", f"deg(asin(lam*sin({phi})))", "Гоц (7)"),
-            Scalar("draw_A_y", "draw_B_y + cos(rad(draw_beta_deg))/lam", "Гоц (1)"),
-            Scalar(
-                "draw_H_x",
-                f"sin({phi} + rad(draw_beta_deg))/cos(rad(draw_beta_deg))",
-                "Гоц, 1.2: vп = rω·OH/OB",
-            ),
-        ),
+        scalar_list(f"""
+            draw_B_x = sin({phi}) | Гоц, рис. 5
+            draw_B_y = cos({phi}) | Гоц, рис. 5
+            draw_beta_deg = deg(asin(lam*sin({phi}))) | Гоц (7)
+            draw_A_y = draw_B_y + cos(rad(draw_beta_deg))/lam | Гоц (1)
+            draw_H_x = sin({phi} + rad(draw_beta_deg))/cos(rad(draw_beta_deg))
+                | Гоц, 1.2: vп = rω·OH/OB
+        """),
         note=(
             "Ось шатуна отсекает на диаметре, перпендикулярном оси цилиндра, отрезок OH; "
             "в масштабе, в котором OB = rω, он равен скорости поршня. Длины — в долях r."
@@ -209,99 +198,84 @@ def _sketch() -> ScalarTable:
 
 def _drawing() -> tuple[Grid, ...]:
     """Polylines of the mechanism: O-B-A, A-H, H-O and the box that keeps the axes equal."""
-    lines = {
-        "links": (("0", "0"), ("draw_B_x", "draw_B_y"), ("0", "draw_A_y")),
-        "cut": (("0", "draw_A_y"), ("draw_H_x", "0"), ("0", "0")),
-    }
-    grids = []
-    for name, points in lines.items():
-        rows = []
-        for axis, index in (("x", 0), ("y", 1)):
-            cells = tuple(
-                Scalar(f"{name}_{axis}{n}", point[index], "Гоц, рис. 5", of=f"draw_{axis}")
-                for n, point in enumerate(points, 1)
-            )
-            rows.append(GridRow(f"draw_{axis}", cells))
-        labels = tuple(str(n) for n in range(1, len(points) + 1))
-        grids.append(Grid(f"draw_{name}", "Точки схемы", SKETCH, labels, tuple(rows)))
-    steps = range(0, 375, 15)
-    circle = [
-        GridRow(
-            f"draw_{axis}",
-            tuple(
-                Scalar(f"circle5_{axis}{n}", f"{turn}(rad({degrees}))", "окружность кривошипа",
-                       of=f"draw_{axis}")
-                for n, degrees in enumerate(steps, 1)
-            ),
+
+    def points(
+        name: str, key: str, title: str, labels: Iterable[str], x: list[str], y: list[str]
+    ) -> Grid:
+        source = "окружность кривошипа" if name == "circle" else "Гоц, рис. 5"
+        rows = (
+            grid_row(f"draw_{axis}", texts, source, f"{key}_{axis}{{n}}")
+            for axis, texts in (("x", x), ("y", y))
         )
-        for axis, turn in (("x", "sin"), ("y", "cos"))
-    ]  # fmt: skip
-    labels = tuple(f"{degrees}°" for degrees in steps)
-    grids.append(Grid("draw_circle", "Окружность кривошипа", SKETCH, labels, tuple(circle)))
-    box = (
-        Scalar("draw_box1", "-(1 + 1/lam)", "оси", of="draw_x"),
-        Scalar("draw_box2", "1 + 1/lam", "оси", of="draw_x"),
-    )
-    corners = Grid("draw_box", "Оси схемы", SKETCH, ("−", "+"), (GridRow("draw_x", box),))
-    return (*grids, corners)
+        return Grid(f"draw_{name}", title, SKETCH, tuple(labels), tuple(rows))
 
-
-def reference_charts(model: InputFile) -> tuple[ChartSpec, ...]:
-    """Figure 20 always, figures 3-10 and 5 with the section [reference]."""
-    made = [
-        _vector_chart("fig20a", "20, а, в", "Сила инерции первого порядка", "1", "C"),
-        _vector_chart("fig20b", "20, б, г", "Сила инерции второго порядка", "2", "λC"),
-        _over("fig20p", "20", VECTORS, "Силы инерции первого и второго порядков", "Pj, кН",
-              "vectors.Pj1_kN", "vectors.Pj2_kN"),
-    ]  # fmt: skip
-    if model.reference is None:
-        return tuple(made)
-    count = len(model.reference.lambdas)
-    values = [f"{value:.4g}".replace(".", ",") for value in model.reference.lambdas]
-
-    def motion(figure: str, title: str, y: str, *keys: str) -> ChartSpec:
-        names = [f"ref_motion.{key}" for key in keys]
-        return _over(f"ref_fig{figure}", figure, MOTION, title, y, *names)
-
-    j_curves = tuple(
-        Series("ref_3.phi_deg", f"ref_3.ref_lambda{i}", f"λ{i} = {values[i - 1]}")
-        for i in range(1, min(count, 6) + 1)
-    )
-    x = "ref_fig6.lambda_value"
+    numbers, steps = ("1", "2", "3"), range(0, 375, 15)
     return (
-        *made,
-        motion("3", "Перемещение поршня", "s/r", "s_rel", "s1_rel", "s2_rel"),
-        motion("4", "Скорость поршня", "v/(rω)", "v_rel", "v1_rel", "v2_rel"),
-        motion("7", "Ускорение поршня", "j/(rω²)", "j_rel", "j1_rel", "j2_rel"),
-        motion("10", "Угловые скорость и ускорение шатуна", "ω/ω, ε/ω²", "omega_rod_rel",
-               "eps_rod_rel"),
-        ChartSpec("ref_fig8", MOTION, "Ускорение поршня при разных λ", "line", j_curves,
-                  "φ, ° ПКВ", "j/(rω²)", "8"),
-        ChartSpec("ref_fig6a", SPEED, "Угол наибольшей скорости поршня", "line",
-                  (Series(x, "ref_fig6.phi_vmax_deg"),), "λ", "φ, °", "6"),
-        ChartSpec("ref_fig6b", SPEED, "Отношение наибольшей скорости к средней", "line",
-                  (Series(x, "ref_fig6.v_ratio"), Series(x, "ref_fig6.v1_ratio")), "λ", "v/cm",
-                  "6"),
-        ChartSpec("ref_fig5", SKETCH, "Графическое определение скорости поршня", "polar",
-                  (Series("draw_circle.draw_x", "draw_circle.draw_y", "кривошип"),
-                   Series("draw_links.draw_x", "draw_links.draw_y", "звенья"),
-                   Series("draw_cut.draw_x", "draw_cut.draw_y", "отрезок OH"),
-                   Series("draw_box.draw_x", "draw_box.draw_x", "оси")), "x/r", "y/r", "5, 9"),
+        points("links", "links", "Точки схемы", numbers,
+               ["0", "draw_B_x", "0"], ["0", "draw_B_y", "draw_A_y"]),
+        points("cut", "cut", "Точки схемы", numbers,
+               ["0", "draw_H_x", "0"], ["draw_A_y", "0", "0"]),
+        points("circle", "circle5", "Окружность кривошипа", (f"{d}°" for d in steps),
+               [f"sin(rad({d}))" for d in steps], [f"cos(rad({d}))" for d in steps]),
+        corners("draw_box", "Оси схемы", SKETCH, "draw_box", "(1 + 1/lam)", "draw_x", "оси"),
     )  # fmt: skip
 
 
-def _over(
-    chart: str, figure: str, sheet: str, title: str, y: str, *columns: str
-) -> ChartSpec:  # fmt: skip
-    x = columns[0].split(".")[0] + ".phi_deg"
-    series = tuple(Series(x, column) for column in columns)
-    return ChartSpec(chart, sheet, title, "line", series, "φ, ° ПКВ", y, figure)
+def _vector_charts() -> tuple[ChartSpec, ...]:
+    return (
+        _vector_chart("fig20a", "20, а, в", "первого", "1", "C"),
+        _vector_chart("fig20b", "20, б, г", "второго", "2", "λC"),
+        over_phi("fig20p", VECTORS, "Силы инерции первого и второго порядков", "Pj, кН",
+                 "vectors.Pj1_kN", "vectors.Pj2_kN", figure="20"),
+    )  # fmt: skip
 
 
-def _vector_chart(chart: str, figure: str, title: str, order: str, vector: str) -> ChartSpec:
-    series = (
-        Series(f"vectors.C{order}_x_kN", f"vectors.C{order}_y_kN", f"конец вектора {vector}"),
-        Series(f"vectors.rose{order}_x_kN", f"vectors.rose{order}_y_kN", f"Pj{order}"),
-        Series(f"vector{order}_box.box_kN", f"vector{order}_box.box_kN", "оси"),
+def _charts(lambdas: tuple[float, ...]) -> tuple[ChartSpec, ...]:
+    def motion(figure: str, title: str, y: str, keys: str, caption: str = "") -> ChartSpec:
+        columns = columns_of("ref_motion", *keys.split())
+        return over_phi(f"ref_fig{figure}", MOTION, title, y, *columns, figure=figure,
+                        caption=caption)  # fmt: skip
+
+    curves = (
+        Series("ref_3.phi_deg", f"ref_3.ref_lambda{i}", f"λ{i} = {value:.4g}".replace(".", ","))
+        for i, value in enumerate(lambdas[:6], 1)
     )
-    return ChartSpec(chart, VECTORS, title, "polar", series, "кН", "кН", figure)
+    x = "ref_fig6.lambda_value"
+    return (
+        motion("3", "Перемещение поршня", "s/r", "s_rel s1_rel s2_rel",
+               "Перемещение поршня и его гармоники"),
+        motion("4", "Скорость поршня", "v/(rω)", "v_rel v1_rel v2_rel",
+               "Скорость поршня и её гармоники"),
+        motion("7", "Ускорение поршня", "j/(rω²)", "j_rel j1_rel j2_rel",
+               "Ускорение поршня и его гармоники"),
+        motion("10", "Угловые скорость и ускорение шатуна", "ω/ω, ε/ω²",
+               "omega_rod_rel eps_rod_rel"),
+        over_phi("ref_fig8", MOTION, "Ускорение поршня при разных λ", "j/(rω²)", *curves,
+                 figure="8"),
+        line("ref_fig6a", SPEED, "Угол наибольшей скорости поршня", ("λ", "φ, °"),
+             Series(x, "ref_fig6.phi_vmax_deg"), figure="6", from_zero=False),
+        line("ref_fig6b", SPEED, "Отношение наибольшей скорости к средней", ("λ", "v/cm"),
+             Series(x, "ref_fig6.v_ratio"), Series(x, "ref_fig6.v1_ratio", only="workbook"),
+             figure="6", from_zero=False,
+             caption="Отношение наибольшей скорости поршня к средней"),
+        polar("ref_fig5", SKETCH, "Графическое определение скорости поршня", ("x/r", "y/r"),
+              "draw_box.draw_x",
+              Series("draw_circle.draw_x", "draw_circle.draw_y", "кривошип"),
+              Series("draw_links.draw_x", "draw_links.draw_y", "звенья"),
+              Series("draw_cut.draw_x", "draw_cut.draw_y", "отрезок OH"), figure="5, 9"),
+    )  # fmt: skip
+
+
+def _vector_chart(chart: str, figure: str, word: str, order: str, vector: str) -> ChartSpec:
+    x, y = (f"vectors.{{}}{order}_{axis}_kN" for axis in "xy")
+    return polar(
+        chart,
+        VECTORS,
+        f"Сила инерции {word} порядка",
+        ("кН", "кН"),
+        f"vector{order}_box.box_kN",
+        Series(x.format("C"), y.format("C"), f"конец вектора {vector}", only="workbook"),
+        Series(x.format("rose"), y.format("rose"), f"Pj{order}"),
+        figure=figure,
+        caption=f"Сила инерции {word} порядка в полярных координатах",
+    )

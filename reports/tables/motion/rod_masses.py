@@ -1,22 +1,24 @@
 """Sheet of masses: three masses, weighing, swinging, table 4, reduction of webs, Gots 2.2.
 
-What the input does not give stands here as a formula; ``stand_ins`` names the inputs that
+What the input does not give stands here as a formula; ``mass_stand_ins`` names the inputs that
 it replaces in the other sheets.
 """
 
 from __future__ import annotations
 
-from kshm.engine.masses import BORES, PISTON, ROD, STROKE_BORE, THROW
+from kshm.mechanics.rod_masses import BORES, PISTON, ROD, STROKE_BORE, THROW
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, to_estimate
-from reports.spec.blocks import Block, Scalar, ScalarTable
+from reports.spec.blocks import Scalar, ScalarTable
+from reports.spec.listing import scalar_list
+from reports.spec.parts import Part, Scope
 
 SHEET = "Массы шатуна"
 YES, NO = "да", "НЕТ"
 _BORE = "2*sqrt(F_piston/pi)"
 
 
-def stand_ins(model: InputFile) -> dict[str, str]:
+def mass_stand_ins(model: InputFile) -> dict[str, str]:
     """Input name → scalar of this sheet that takes its place."""
     given, names = model.masses, {}
     if given.reciprocating_kg is None:
@@ -36,16 +38,10 @@ def stand_ins(model: InputFile) -> dict[str, str]:
     return names
 
 
-def mass_blocks(model: InputFile) -> tuple[Block, ...]:
+def masses(scope: Scope) -> Part:
     """All blocks of the sheet that apply to the input."""
-    blocks = [
-        _estimate(model),
-        _rod(model),
-        _three(model),
-        _webs(model),
-        _specific(model),
-    ]
-    return tuple(block for block in blocks if block is not None and block.scalars)
+    blocks = (find(scope.input) for find in (_estimate, _rod, _three, _webs, _specific))
+    return Part(tuple(block for block in blocks if block is not None and block.scalars))
 
 
 def _estimate(model: InputFile) -> ScalarTable | None:
@@ -130,15 +126,17 @@ def _swings() -> list[Scalar]:
     edges, mass = "of_mm(masses_swing_edges_mm)", "masses_rod_kg"
     arm = f"{edges}*(k_C - {edges})/(k_A + k_C - 2*{edges})"
     return [
-        Scalar("T_small", "60/masses_swings_small_end_per_min", "Гоц (24)"),
-        Scalar("T_big", "60/masses_swings_big_end_per_min", "Гоц (24)"),
-        Scalar("k_A", length("small"), "Гоц (25)"),
-        Scalar("k_C", length("big"), "Гоц (25)"),
-        Scalar("swing_arm", f"to_mm({arm})", "Гоц (27)"),
-        Scalar("rod_l1", "swing_arm - masses_small_end_radius_mm", "Гоц (27)"),
-        Scalar("rod_l2", "masses_swing_edges_mm - swing_arm", "Гоц, рис. 16"),
-        Scalar("I_A", f"{mass}*k_A*of_mm(swing_arm)", "Гоц (25)"),
-        Scalar("I_C", f"{mass}*k_C*of_mm(rod_l2)", "Гоц (25)"),
+        *scalar_list(f"""
+            T_small = 60/masses_swings_small_end_per_min | Гоц (24)
+            T_big = 60/masses_swings_big_end_per_min | Гоц (24)
+            k_A = {length("small")} | Гоц (25)
+            k_C = {length("big")} | Гоц (25)
+            swing_arm = to_mm({arm}) | Гоц (27)
+            rod_l1 = swing_arm - masses_small_end_radius_mm | Гоц (27)
+            rod_l2 = masses_swing_edges_mm - swing_arm | Гоц, рис. 16
+            I_A = {mass}*k_A*of_mm(swing_arm) | Гоц (25)
+            I_C = {mass}*k_C*of_mm(rod_l2) | Гоц (25)
+        """),
     ]
 
 
@@ -158,11 +156,13 @@ def _three(model: InputFile) -> ScalarTable | None:
         )
         scalars += [
             Scalar("I_sh", known, "Гоц (26)" if given.swing_edges_mm is not None else "задано"),
-            Scalar("dI_two", "(I_two/I_sh - 1)*100", "Гоц, 2.2: I₁ > Iш"),
-            Scalar("m1_three", f"I_sh/({l_1}*L_rod)", "Гоц, 2.2"),
-            Scalar("m2_three", f"I_sh/((L_rod - {l_1})*L_rod)", "Гоц, 2.2"),
-            Scalar("m3_three", f"{mass} - I_sh/({l_1}*(L_rod - {l_1}))", "из условий 2.2"),
-            Scalar("m3_share", f"m3_three/{mass}*100", "Гоц, 2.2"),
+            *scalar_list(f"""
+                dI_two = (I_two/I_sh - 1)*100 | Гоц, 2.2: I₁ > Iш
+                m1_three = I_sh/({l_1}*L_rod) | Гоц, 2.2
+                m2_three = I_sh/((L_rod - {l_1})*L_rod) | Гоц, 2.2
+                m3_three = {mass} - I_sh/({l_1}*(L_rod - {l_1})) | из условий 2.2
+                m3_share = m3_three/{mass}*100 | Гоц, 2.2
+            """),
         ]
     return ScalarTable(
         "three_masses",

@@ -1,51 +1,28 @@
-"""Segal: exact and approximate motion of the piston, tables 2-5, the inverse problem."""
+"""Segal: exact and approximate motion of the piston, the inverse problem."""
 
 from __future__ import annotations
 
-from reports.spec.blocks import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
+from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi
+from reports.spec.listing import column_list, scalar_list
+from reports.spec.parts import Part, Scope, stepped
 
-SHEET, FIRST, SECOND = "Сегаль", "Сегаль 2, 3", "Сегаль 4, 5"
-RESULTS = "Сегаль, итоги"
-LAMBDAS = ("0.16", "0.18", "0.2", "0.22", "0.24", "0.26", "0.28", "0.303")
+SHEET, RESULTS = "Сегаль", "Сегаль, итоги"
 ITERATIONS = 9
 
 _BETA = "asin({lam}*sin(rad(alpha_deg)))"
 S = "1 - cos(rad(alpha_deg)) + (1 - cos({beta}))/{lam}"
 V = "sin(rad(alpha_deg) + {beta})/cos({beta})"
 J = "cos(rad(alpha_deg) + {beta})/cos({beta}) + {lam}*cos(rad(alpha_deg))**2/cos({beta})**3"
+ALPHA = ("alpha_deg", "α, °")
+TITLES = {"s": "Перемещение", "v": "Скорость", "j": "Ускорение"}
 _INDEX = Column("alpha_deg", None)
 _NEVER = "9999"
-
-
-def rows(first: float, last: float, step: float) -> tuple[float, ...]:
-    """Rows of a table on its own grid."""
-    return tuple(round(first + step * i, 6) for i in range(round((last - first) / step) + 1))
 
 
 def filled(text: str, lam: str) -> str:
     """A formula with λ and β of one column put in."""
     return text.format(lam=lam, beta=_BETA.format(lam=lam))
-
-
-def _table(number: int, title: str, sheet: str, text: str, last: float, source: str) -> TableSpec:
-    columns = [_INDEX]
-    for lam in (*LAMBDAS, "lam"):
-        key = "lambda_engine" if lam == "lam" else "lambda_" + lam.replace(".", "")
-        of = f"dm_{key}" if number == 2 else ""
-        columns.append(Column(key, filled(text, lam), source, of=of))
-    table = f"segal_t{number}"
-    return TableSpec(table, f"С{number}", title, sheet, tuple(columns), rows(0, last, 5), step=5.0)
-
-
-def _tables() -> tuple[Block, ...]:
-    minutes = "floor(deg({beta})*60 + 0.5)"
-    packed = f"floor({minutes}/60)*100 + mod({minutes}, 60)"
-    return (
-        _table(2, "Углы отклонения шатуна β", FIRST, packed, 90, "Сегаль (1.3), табл. 2"),
-        _table(3, "Безразмерное перемещение поршня s", FIRST, S, 180, "Сегаль (1.17), табл. 3"),
-        _table(4, "Безразмерная скорость поршня v", SECOND, V, 180, "Сегаль (1.18), табл. 4"),
-        _table(5, "Безразмерное ускорение поршня j", SECOND, J, 180, "Сегаль (1.19), табл. 5"),
-    )
 
 
 def _errors() -> TableSpec:
@@ -56,7 +33,7 @@ def _errors() -> TableSpec:
         "j": (f"cos({alpha}) + lam*cos(2*{alpha})", "Сегаль (1.14)"),
     }
     exact = {"s": (S, "Сегаль (1.17)"), "v": (V, "Сегаль (1.18)"), "j": (J, "Сегаль (1.19)")}
-    columns, helpers = [_INDEX], []
+    columns, helpers = [_INDEX], list[Column]()
     for letter in "svj":
         columns += [
             Column(f"{letter}_exact", filled(exact[letter][0], "lam"), exact[letter][1]),
@@ -65,13 +42,11 @@ def _errors() -> TableSpec:
         ]
         reached = f"abs(d{letter}) >= d{letter}_max - 0.000000001"
         helpers.append(
-            Column(
-                f"at_{letter}_deg",
-                f"alpha_deg if {reached} else {_NEVER}",
-                "вспомогательный",
-                helper=True,
-                of="at_error_deg",
-            )
+            *column_list(f"""
+                helpers:
+                at_{letter}_deg of at_error_deg = alpha_deg if {reached} else {_NEVER}
+                    | вспомогательный
+            """)
         )
     return TableSpec(
         "segal_errors",
@@ -79,7 +54,7 @@ def _errors() -> TableSpec:
         "Точные и приближённые перемещение, скорость и ускорение поршня",
         SHEET,
         (*columns, *helpers),
-        rows(0, 180, 2),
+        stepped(0, 180, 2),
         note="Перемещение отнесено к R, скорость к ωR, ускорение к ω²R; λ — двигателя.",
         step=2.0,
     )
@@ -94,15 +69,15 @@ def _inverse() -> TableSpec:
         "С.о",
         "Угол поворота кривошипа по положению поршня",
         SHEET,
-        (
-            Column("s_given", None),
-            Column("alpha_quadratic_deg", f"deg(acos({quadratic}))", "Сегаль (1.11)"),
-            Column("alpha_small_deg", "deg(sqrt(2*s_given/(1 + lam)))", "Сегаль (1.12)"),
-            Column("alpha_exact_deg", f"deg(acos({triangle}))", "теорема косинусов"),
-            Column("dalpha_quadratic_deg", "alpha_quadratic_deg - alpha_exact_deg", "погрешность"),
-            Column("dalpha_small_deg", "alpha_small_deg - alpha_exact_deg", "погрешность"),
-        ),
-        rows(0.1, 1.9, 0.1),
+        column_list(f"""
+            s_given
+            alpha_quadratic_deg = deg(acos({quadratic})) | Сегаль (1.11)
+            alpha_small_deg = deg(sqrt(2*s_given/(1 + lam))) | Сегаль (1.12)
+            alpha_exact_deg = deg(acos({triangle})) | теорема косинусов
+            dalpha_quadratic_deg = alpha_quadratic_deg - alpha_exact_deg | погрешность
+            dalpha_small_deg = alpha_small_deg - alpha_exact_deg | погрешность
+        """),
+        stepped(0.1, 1.9, 0.1),
         step=0.1,
     )
 
@@ -112,37 +87,33 @@ def _error_scalars() -> ScalarTable:
     scalars = []
     for letter in "svj":
         scalars += [
-            Scalar(
-                f"d{letter}_max",
-                f"max(col_max({table}.d{letter}), -col_min({table}.d{letter}))",
-                "Сегаль, с. 13",
-            ),
-            Scalar(f"alpha_d{letter}_deg", f"col_min({table}.at_{letter}_deg)", "Сегаль, с. 13"),
+            *scalar_list(f"""
+                d{letter}_max = max(col_max({table}.d{letter}), -col_min({table}.d{letter}))
+                    | Сегаль, с. 13
+                alpha_d{letter}_deg = col_min({table}.at_{letter}_deg) | Сегаль, с. 13
+            """),
         ]
     root = "sqrt(1 - lam**2)"
     scalars += [
-        Scalar(
-            "s_error_quarter",
-            f"((1 + lam/2)/(1 + (1 - {root})/lam) - 1)*100",
-            "Сегаль, с. 13",
-        ),
-        Scalar("j_error_quarter", f"({root} - 1)*100", "Сегаль, с. 13"),
+        *scalar_list(f"""
+            s_error_quarter = ((1 + lam/2)/(1 + (1 - {root})/lam) - 1)*100 | Сегаль, с. 13
+            j_error_quarter = ({root} - 1)*100 | Сегаль, с. 13
+        """),
     ]
     return ScalarTable("segal_error_list", "Погрешности приближений", RESULTS, tuple(scalars))
 
 
 def _extremes() -> ScalarTable:
     scalars = [
-        Scalar("j_rel_tdc", "1 + lam", "Сегаль, с. 13: α = 0"),
-        Scalar("j_rel_bdc", "-(1 - lam)", "Сегаль, с. 13: α = 180°, со знаком"),
-        Scalar("j_rel_quarter", "-(lam/sqrt(1 - lam**2))", "Сегаль (1.16), α = 90°"),
-        Scalar("alpha_j_two_term_min_deg", "deg(acos(max(-1, -1/(4*lam))))", "dj′/dα = 0"),
-        Scalar(
-            "j_two_term_min",
-            "cos(rad(alpha_j_two_term_min_deg)) + lam*cos(2*rad(alpha_j_two_term_min_deg))",
-            "Сегаль (1.19)",
-        ),
-        Scalar("cos_j_min_0", "max(-1, -1/(4*lam))", "начальное приближение", of="cos_j_min"),
+        *scalar_list("""
+            j_rel_tdc = 1 + lam | Сегаль, с. 13: α = 0
+            j_rel_bdc = -(1 - lam) | Сегаль, с. 13: α = 180°, со знаком
+            j_rel_quarter = -(lam/sqrt(1 - lam**2)) | Сегаль (1.16), α = 90°
+            alpha_j_two_term_min_deg = deg(acos(max(-1, -1/(4*lam)))) | dj′/dα = 0
+            j_two_term_min = cos(rad(alpha_j_two_term_min_deg))
+                + lam*cos(2*rad(alpha_j_two_term_min_deg)) | Сегаль (1.19)
+            cos_j_min_0 of cos_j_min = max(-1, -1/(4*lam)) | начальное приближение
+        """),
     ]
     for i in range(1, ITERATIONS + 1):
         c = f"cos_j_min_{i - 1}"
@@ -156,63 +127,37 @@ def _extremes() -> ScalarTable:
     last = f"cos_j_min_{ITERATIONS}"
     root = f"sqrt(1/lam**2 - 1 + {last}**2)"
     scalars += [
-        Scalar("alpha_j_exact_min_deg", f"deg(acos({last}))", "dj/dα = 0"),
-        Scalar(
-            "j_exact_min",
-            f"{last} + (2*{last}**2 - 1)/{root} + {last}**2*(1 - {last}**2)/{root}**3",
-            "Сегаль (1.16)",
-        ),
+        *scalar_list(f"""
+            alpha_j_exact_min_deg = deg(acos({last})) | dj/dα = 0
+            j_exact_min = {last} + (2*{last}**2 - 1)/{root} + {last}**2*(1 - {last}**2)/{root}**3
+                | Сегаль (1.16)
+        """),
     ]
     return ScalarTable("segal_extremes", "Крайние значения ускорения", RESULTS, tuple(scalars))
 
 
-def segal_blocks() -> tuple[Block, ...]:
-    """Errors, inverse problem, extremes and tables 2-5."""
-    return _errors(), _inverse(), _error_scalars(), _extremes(), *_tables()
+def segal(scope: Scope) -> Part:
+    """Errors, inverse problem and extremes."""
+    if not scope.shape.by_orders:
+        return Part()
+    return Part((_errors(), _inverse(), _error_scalars(), _extremes()), _charts())
 
 
-def segal_charts() -> tuple[ChartSpec, ...]:
+def _charts() -> tuple[ChartSpec, ...]:
     """Exact curves with the approximate ones, errors and the inverse problem."""
-    made = []
-    for letter, title in (("s", "Перемещение"), ("v", "Скорость"), ("j", "Ускорение")):
-        series = [
-            Series("segal_errors.alpha_deg", f"segal_errors.{letter}_{way}")
-            for way in ("exact", "two_term")
-        ]
-        made.append(
-            ChartSpec(
-                f"segal_{letter}",
-                SHEET,
-                f"{title} поршня: точно и приближённо",
-                "line",
-                tuple(series),
-                "α, °",
-                letter,
-            )
-        )
-    errors = tuple(Series("segal_errors.alpha_deg", f"segal_errors.d{x}") for x in "svj")
-    inverse = tuple(
+    t = "segal_errors"
+    inverse = (
         Series("segal_inverse.s_given", f"segal_inverse.alpha_{way}_deg")
         for way in ("exact", "quadratic", "small")
     )
     return (
-        *made,
-        ChartSpec(
-            "segal_errors",
-            SHEET,
-            "Погрешности приближённых формул",
-            "line",
-            errors,
-            "α, °",
-            "доля R, ωR, ω²R",
+        *(
+            over_phi(f"segal_{letter}", SHEET, f"{title} поршня: точно и приближённо", letter,
+                     f"{t}.{letter}_exact", f"{t}.{letter}_two_term", x=ALPHA)
+            for letter, title in TITLES.items()
         ),
-        ChartSpec(
-            "segal_inverse",
-            SHEET,
-            "Угол кривошипа по положению поршня",
-            "line",
-            inverse,
-            "s/R",
-            "α, °",
-        ),
-    )
+        over_phi("segal_errors", SHEET, "Погрешности приближённых формул", "доля R, ωR, ω²R",
+                 *columns_of(t, "ds", "dv", "dj"), x=ALPHA),
+        line("segal_inverse", SHEET, "Угол кривошипа по положению поршня", ("s/R", "α, °"),
+             *inverse),
+    )  # fmt: skip

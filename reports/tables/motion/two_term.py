@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from reports.inputs.sections.input_file import GeometrySection, InputFile
-from reports.spec.blocks import Block, ChartSpec, Column, Scalar, ScalarTable, Series, TableSpec
+from reports.inputs.sections.input_file import InputFile
+from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec, only, over_phi
 from reports.spec.extremes import NEVER, TIE
+from reports.spec.listing import scalar_list
+from reports.spec.parts import Part, Scope
+from reports.tables.motion.mechanism import offset_sum
 
 SHEET = "Погрешность"
 _PHI = "rad(phi_deg)"
@@ -14,22 +18,9 @@ _ERRORS = (
 )  # fmt: skip
 
 
-def two_term_blocks(model: InputFile, rows: tuple[float, ...]) -> tuple[Block, ...]:
+def two_term(scope: Scope) -> Part:
     """Table over a turn and the list of the greatest errors."""
-    return _table(rows), _list(model)
-
-
-def _offset(model: InputFile) -> str:
-    """Relative offset k = e/r; zero for a central mechanism."""
-    given = model.geometry
-    if not isinstance(given, GeometrySection):
-        return "0"
-    names = [
-        f"of_mm(geometry_{key})"
-        for key in ("crank_offset_mm", "pin_offset_mm")
-        if getattr(given, key) is not None
-    ]
-    return f"({' + '.join(names)})/r_crank" if names else "0"
+    return Part((_table(scope.turn), _list(scope.input)), _charts())
 
 
 def _table(rows: tuple[float, ...]) -> TableSpec:
@@ -89,13 +80,16 @@ def _table(rows: tuple[float, ...]) -> TableSpec:
 
 
 def _list(model: InputFile) -> ScalarTable:
-    scalars = [Scalar("k_two_term", _offset(model), "Гоц, 1.4")]
+    offset = offset_sum(model.geometry)
+    scalars = [Scalar("k_two_term", f"({offset})/r_crank" if offset else "0", "Гоц, 1.4")]
     for name, suffix, whole in _ERRORS:
         column = f"two_term.e{name}_{suffix}"
         top = f"max(col_max({column}), -col_min({column}))"
         scalars += [
-            Scalar(f"e{name}_max", top, "погрешность"),
-            Scalar(f"phi_e{name}_deg", f"col_min(two_term.at_e{name})", "погрешность"),
+            *scalar_list(f"""
+                e{name}_max = {top} | погрешность
+                phi_e{name}_deg = col_min(two_term.at_e{name}) | погрешность
+            """),
         ]
         if whole or name == "Pj":
             exact = f"two_term.e{name}_exact_{suffix}"
@@ -107,17 +101,13 @@ def _list(model: InputFile) -> ScalarTable:
     return ScalarTable("two_term_list", title, f"{SHEET}, итоги", tuple(scalars))
 
 
-def two_term_charts() -> tuple[ChartSpec, ...]:
+def _charts() -> tuple[ChartSpec, ...]:
     """Errors of motion and of the forces over the angle."""
-    x = "two_term.phi_deg"
-
-    def over(chart: str, title: str, y: str, *keys: str) -> ChartSpec:
-        series = tuple(Series(x, f"two_term.{key}") for key in keys)
-        return ChartSpec(chart, SHEET, title, "line", series, "φ, ° ПКВ", y)
-
+    t = "two_term"
     return (
-        over("two_term_s", "Погрешность перемещения поршня", "Δs, мм", "es_mm"),
-        over("two_term_v", "Погрешность скорости поршня", "Δv, м/с", "ev_m_s"),
-        over("two_term_j", "Погрешность ускорения поршня", "Δj, м/с²", "ej_m_s2"),
-        over("two_term_P", "Погрешность удельных сил", "МПа", "ePj_MPa", "eN_MPa", "eT_MPa"),
-    )
+        over_phi("two_term_s", SHEET, "Погрешность перемещения поршня", "Δs, мм", f"{t}.es_mm"),
+        over_phi("two_term_v", SHEET, "Погрешность скорости поршня", "Δv, м/с", f"{t}.ev_m_s"),
+        over_phi("two_term_j", SHEET, "Погрешность ускорения поршня", "Δj, м/с²", f"{t}.ej_m_s2"),
+        over_phi("two_term_P", SHEET, "Погрешность удельных сил", "МПа", f"{t}.ePj_MPa",
+                 *only("workbook", f"{t}.eN_MPa"), f"{t}.eT_MPa"),
+    )  # fmt: skip

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
-from reports.spec.blocks import Block, ChartSpec, Grid, GridRow, Scalar, Series
+from collections.abc import Iterable
+
+from reports.spec.blocks import Grid, GridRow
+from reports.spec.charts import ChartSpec, Series
+from reports.spec.listing import grid_row
+from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape
 
 SHEET = "Схема"
@@ -11,9 +16,9 @@ _CRANK = "0.5"
 _SOURCE = "исходные данные"
 
 
-def scheme_blocks(shape: Shape) -> tuple[Block, ...]:
+def scheme(scope: Scope) -> Part:
     """Cylinders with their places and firing order, throws with the points of the drawing."""
-    return _cylinders(shape), _throws(shape)
+    return Part((_cylinders(scope.shape), _throws(scope.shape)), (_drawing(),))
 
 
 def _lean(shape: Shape) -> str:
@@ -32,9 +37,8 @@ def _cylinders(shape: Shape) -> Grid:
         ]
         return " + ".join(["1", *before])
 
-    def row(of: str, texts: list[str]) -> GridRow:
-        cells = (Scalar(f"{of}{i}", text, _SOURCE, of=of) for i, text in enumerate(texts, 1))
-        return GridRow(of, tuple(cells))
+    def row(of: str, texts: Iterable[str]) -> GridRow:
+        return grid_row(of, texts, _SOURCE)
 
     def axis(i: int) -> str:
         return f"rad({shape.axis(i)} - {_lean(shape)})"
@@ -45,12 +49,12 @@ def _cylinders(shape: Shape) -> Grid:
         SHEET,
         tuple(f"цилиндр {i}" for i in numbers),
         (
-            row("cyl_throw", [str(shape.throw_of(i)) for i in numbers]),
-            row("cyl_axis", [shape.axis(i) for i in numbers]),
-            row("cyl_theta", [f"firing_offset_{i}_deg" for i in numbers]),
-            row("cyl_rank", [rank(i) for i in numbers]),
-            row("cyl_x", [f"{_REACH}*sin({axis(i)})" for i in numbers]),
-            row("cyl_y", [f"{_REACH}*cos({axis(i)})" for i in numbers]),
+            row("cyl_throw", (str(shape.throw_of(i)) for i in numbers)),
+            row("cyl_axis", map(shape.axis, numbers)),
+            row("cyl_theta", (f"firing_offset_{i}_deg" for i in numbers)),
+            row("cyl_rank", map(rank, numbers)),
+            row("cyl_x", (f"{_REACH}*sin({axis(i)})" for i in numbers)),
+            row("cyl_y", (f"{_REACH}*cos({axis(i)})" for i in numbers)),
         ),
         note=(
             "Вид с носка вала, кривошип первого колена стоит вдоль оси первого цилиндра. "
@@ -70,38 +74,26 @@ def _throws(shape: Shape) -> Grid:
     ends = ["1", str(shape.cylinders)] if shape.banks else ["1"]
     for of, key in (("bank_line_x", "cyl_x"), ("bank_line_y", "cyl_y")):
         rows.append((of, [text for n in ends for text in ("0", f"{key}{n}")]))
-    width = 2 * shape.throws + 1
-
-    def cells(of: str, texts: list[str]) -> tuple[Scalar | None, ...]:
-        made = [Scalar(f"{of}{n}", text, _SOURCE, of=of) for n, text in enumerate(texts, 1)]
-        return (*made, *(None for _ in range(max(0, width - len(made)))))
-
+    width = max(len(texts) for _, texts in rows)
     labels = [label for t in throws for label in ("вал", f"колено {t}")]
-    width = max(width, *(len(texts) for _, texts in rows))
     labels += ["вал"] * (width - len(labels))
     return Grid(
         "scheme_lines",
         "Точки схемы: колена и оси рядов",
         SHEET,
         tuple(labels),
-        tuple(GridRow(of, cells(of, texts)) for of, texts in rows),
-    )
-
-
-def scheme_charts() -> tuple[ChartSpec, ...]:
-    """The drawing of the engine from the nose."""
-    at = "scheme_lines."
-    return (
-        ChartSpec(
-            "scheme",
-            SHEET,
-            "Схема двигателя с носка вала: колена и оси рядов цилиндров",
-            "scheme",
-            (
-                Series(f"{at}bank_line_x", f"{at}bank_line_y", "оси рядов"),
-                Series(f"{at}throw_line_x", f"{at}throw_line_y", "колена"),
-            ),
-            "",
-            "",
+        tuple(
+            grid_row(of, [*texts, *[None] * (width - len(texts))], _SOURCE) for of, texts in rows
         ),
     )
+
+
+def _drawing() -> ChartSpec:
+    """The drawing of the engine from the nose."""
+    at = "scheme_lines."
+    curves = (
+        Series(f"{at}bank_line_x", f"{at}bank_line_y", "оси рядов"),
+        Series(f"{at}throw_line_x", f"{at}throw_line_y", "колена"),
+    )
+    title = "Схема двигателя с носка вала: колена и оси рядов цилиндров"
+    return ChartSpec("scheme", SHEET, title, "scheme", curves)

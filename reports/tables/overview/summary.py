@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Block, Scalar, ScalarTable
+from reports.spec.blocks import Scalar, ScalarTable
 from reports.spec.extremes import extreme_scalars, first_number
+from reports.spec.listing import scalar_list
+from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape, pin_name
 from reports.tables.gas.cycle_names import section_of
 from reports.tables.gas.cycle_speed import cycle_checks
@@ -14,19 +16,21 @@ SHEET = "Итоги"
 YES, NO = "да", "НЕТ"
 
 
-def summary_blocks(model: InputFile, shape: Shape) -> tuple[Block, ...]:
+def summary(scope: Scope) -> Part:
     """Torque, crankpin, journals, running-on torques, checks."""
+    model, shape = scope.input, scope.shape
     throws, pins = shape.throws, len(shape.pins)
     journals = throws + 1
     rays = model.calculation.wear_rays
-    return (
+    blocks = (
         _torque(model, shape),
-        *(_pin(number, pins, rays) for number in range(1, pins + 1)),
+        *(_pin(number, shape, rays) for number in range(1, pins + 1)),
         *(_journal(k, rays) for k in range(1, journals + 1)),
         _running(throws),
         _loads(journals, pins),
         checks(model, shape),
     )
+    return Part(blocks)
 
 
 def _torque(model: InputFile, shape: Shape) -> ScalarTable:
@@ -40,11 +44,13 @@ def _torque(model: InputFile, shape: Shape) -> ScalarTable:
     scalars = [
         Scalar("M_mean", "col_mean(P4_2.Msum_Nm)", "Гоц, 2.8"),
         *extreme_scalars("P4_2", "Msum_Nm", "M", "Гоц, 2.9"),
-        Scalar("M_e", f"M_mean*{efficiency}", "Гоц (59), 2.8"),
-        Scalar("N_i_calc", "to_kW(M_mean*omega)", "Гоц, 2.8"),
-        Scalar("p_i_calc", f"to_MPa(M_mean*{shape.turn}/of_dm3(V_engine))", "Гоц, 2.8"),
-        Scalar("T_mean", "to_MPa(M_mean/(F_piston*r_crank))", "Гоц, 2.8"),
-        Scalar("W_cycle", "col_sum(gas.work_J)", "∫p dV"),
+        *scalar_list(f"""
+            M_e = M_mean*{efficiency} | Гоц (59), 2.8
+            N_i_calc = to_kW(M_mean*omega) | Гоц, 2.8
+            p_i_calc = to_MPa(M_mean*{shape.turn}/of_dm3(V_engine)) | Гоц, 2.8
+            T_mean = to_MPa(M_mean/(F_piston*r_crank)) | Гоц, 2.8
+            W_cycle = col_sum(gas.work_J) | ∫p dV
+        """),
         *(_hung_work(shape) if shape.articulated else ()),
         Scalar(
             "W_torque",
@@ -56,8 +62,10 @@ def _torque(model: InputFile, shape: Shape) -> ScalarTable:
     if _power_is_known(model):
         reference = f"30/pi*of_kW({power})/(regime_speed_rpm*r_crank*F_piston*{fullness})"
         scalars += [
-            Scalar("T_ref", f"to_MPa({reference})", "Гоц, 2.8"),
-            Scalar("T_error", "(T_mean/T_ref - 1)*100", "Гоц, 2.8"),
+            *scalar_list(f"""
+                T_ref = to_MPa({reference}) | Гоц, 2.8
+                T_error = (T_mean/T_ref - 1)*100 | Гоц, 2.8
+            """),
         ]
     return ScalarTable("summary_torque", "Крутящий момент двигателя", SHEET, tuple(scalars))
 
@@ -71,9 +79,10 @@ def _hung_work(shape: Shape) -> tuple[Scalar, ...]:
     return (Scalar("W_hung", f"col_sum({table}.work_J)", "∫p dV"),)
 
 
-def _pin(number: int, pins: int, rays: int) -> ScalarTable:
-    projected = "(of_mm(crankshaft_pin_diameter_mm)*of_mm(crankshaft_pin_length_mm))"
-    n = pin_name(number)
+def _pin(number: int, shape: Shape, rays: int) -> ScalarTable:
+    n, pins = pin_name(number), len(shape.pins)
+    throw = shape.throw_of(shape.pins[number - 1][0])
+    projected = f"(of_mm(pin_diameter_{throw}_mm)*of_mm(pin_length_{throw}_mm))"
     name, table = f"Rpin{n}", "crankpin" if number == 1 else f"crankpin_{number}"
     return ScalarTable(
         f"summary_pin{n}",
@@ -82,10 +91,12 @@ def _pin(number: int, pins: int, rays: int) -> ScalarTable:
         (
             Scalar(f"{name}_mean", f"col_mean({table}.Rpin_MPa)", "Гоц, 2.6"),
             *extreme_scalars(table, "Rpin_MPa", name, "Гоц, 2.6"),
-            Scalar(f"{name}_max_kN", f"to_kN(of_MPa({name}_max)*F_piston)", "Гоц, 2.9"),
-            Scalar(f"{name}_min_kN", f"to_kN(of_MPa({name}_min)*F_piston)", "Гоц, 2.9"),
-            Scalar(f"q_pin{n}_mean", f"{name}_mean*F_piston/{projected}", "Гоц, 2.6"),
-            Scalar(f"q_pin{n}_max", f"{name}_max*F_piston/{projected}", "Гоц, 2.6"),
+            *scalar_list(f"""
+                {name}_max_kN = to_kN(of_MPa({name}_max)*F_piston) | Гоц, 2.9
+                {name}_min_kN = to_kN(of_MPa({name}_min)*F_piston) | Гоц, 2.9
+                q_pin{n}_mean = {name}_mean*F_piston/{projected} | Гоц, 2.6
+                q_pin{n}_max = {name}_max*F_piston/{projected} | Гоц, 2.6
+            """),
             *hole_scalars(f"pin{n}", rays),
         ),
     )
@@ -93,7 +104,7 @@ def _pin(number: int, pins: int, rays: int) -> ScalarTable:
 
 def _journal(k: int, rays: int) -> ScalarTable:
     name, table = f"Rmain{k}", f"P4_3_{k}"
-    projected = f"(of_mm(crankshaft_main_diameter_mm)*of_mm(main_length_{k}_mm))"
+    projected = f"(of_mm(main_diameter_{k}_mm)*of_mm(main_length_{k}_mm))"
     return ScalarTable(
         f"summary_main_{k}",
         f"Коренная шейка {k}",
@@ -101,9 +112,11 @@ def _journal(k: int, rays: int) -> ScalarTable:
         (
             Scalar(f"{name}_mean", f"col_mean({table}.R_MPa)", "Гоц, 2.9"),
             *extreme_scalars(table, "R_MPa", name, "Гоц, 2.9"),
-            Scalar(f"{name}_max_kN", f"to_kN(of_MPa({name}_max)*F_piston)", "Гоц, 2.9"),
-            Scalar(f"q_main{k}_mean", f"{name}_mean*F_piston/{projected}", "Гоц, 2.6"),
-            Scalar(f"q_main{k}_max", f"{name}_max*F_piston/{projected}", "Гоц, 2.6"),
+            *scalar_list(f"""
+                {name}_max_kN = to_kN(of_MPa({name}_max)*F_piston) | Гоц, 2.9
+                q_main{k}_mean = {name}_mean*F_piston/{projected} | Гоц, 2.6
+                q_main{k}_max = {name}_max*F_piston/{projected} | Гоц, 2.6
+            """),
             *hole_scalars(f"main{k}", rays),
         ),
     )
@@ -120,8 +133,10 @@ def _running(throws: int) -> ScalarTable:
     main = [(k, f"dM_main{k}") for k in range(2, throws + 2)]
     pin = [(i, f"dM_pin{i}") for i in range(1, throws + 1)]
     scalars += [
-        Scalar("worst_main_torque", _worst(main), "Гоц, 2.8"),
-        Scalar("worst_pin_torque", _worst(pin), "Гоц, 2.8"),
+        *scalar_list(f"""
+            worst_main_torque = {_worst(main)} | Гоц, 2.8
+            worst_pin_torque = {_worst(pin)} | Гоц, 2.8
+        """),
     ]
     return ScalarTable("summary_running", "Размах набегающих моментов", SHEET, tuple(scalars))
 
@@ -179,7 +194,7 @@ def checks(model: InputFile, shape: Shape) -> ScalarTable:
         scalars.append(
             Scalar(f"check_{key}", f'"{YES}" if {verdict} else "{NO}"', note=title, of="check")
         )
-    return ScalarTable("checks", "Проверки", "Проверки", tuple(scalars))
+    return ScalarTable("checks", "Проверки", "Проверки", tuple(scalars), verdicts=(YES, NO))
 
 
 def _phase(shape: Shape, i: int) -> str:

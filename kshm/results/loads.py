@@ -1,0 +1,175 @@
+"""Scalars of the chain of forces for the engines of a batch, SI units, shape (engines,)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from kshm.arrays import Array
+from kshm.chain.result import ChainArrays
+from kshm.engine.engine import Engine
+from kshm.mechanics import kinematics, masses
+from kshm.results.extremes import first_number, least_loaded, summary_of
+from kshm.results.layout import shown_pins
+from kshm.results.motion import central_scalars
+
+Numbers = dict[str, Array]
+
+
+class Engines:
+    """The engines of a slice with their commonest values, shape (engines,)."""
+
+    def __init__(self, raw: ChainArrays, at: slice) -> None:
+        self.raw, self.at = raw, at
+        self.engines = raw.batch.engines[at]
+        self.first = self.engines[0]
+        batch = raw.batch
+        self.r, self.lam, self.omega, self.area, self.stroke = (
+            values[at, 0, 0]
+            for values in (batch.r, batch.lam, batch.omega, batch.area, batch.piston_stroke)
+        )
+
+    def each(self, get: Callable[[Engine], object]) -> Array:
+        """A value, or several, of every engine."""
+        return np.array([get(engine) for engine in self.engines], dtype=float)
+
+    @property
+    def displaced(self) -> Array:
+        """Displacement of all cylinders [m³], those of articulated rods by their own strokes."""
+        hung = self.raw.hung
+        if hung is None:
+            strokes = self.stroke * self.first.cylinders
+        else:
+            own = self.first.cylinders - hung.stroke.shape[1]
+            strokes = self.stroke * own + hung.stroke[self.at, :, 0].sum(axis=1)
+        return self.area * strokes
+
+
+def chain_scalars(raw: ChainArrays, at: slice = slice(None)) -> Numbers:
+    """Scalars of the chain of forces but for what only some layouts and gases have."""
+    of = Engines(raw, at)
+    return geometry_scalars(of) | mass_scalars(of) | load_scalars(of)
+
+
+def geometry_scalars(of: Engines) -> Numbers:
+    """Sizes, speeds and the motion's extremes in closed form, Gots chapter 1."""
+    swept = of.area * of.stroke
+    scalars = {
+        "r_crank": of.r,
+        "L_rod": of.each(lambda e: e.geometry.rod_length),
+        "lam": of.lam,
+        "S_stroke": of.stroke,
+        "F_piston": of.area,
+        "V_h": swept,
+        "V_c": swept / (of.raw.batch.eps[of.at, 0, 0] - 1),
+        "V_engine": of.displaced,
+        "omega": of.omega,
+        "c_m": kinematics.mean_velocity(of.stroke / 2, of.omega),
+    }
+    central = of.first.geometry.is_central
+    return scalars | (central_scalars(of.r, of.lam, of.omega) if central else {})
+
+
+def mass_scalars(of: Engines) -> Numbers:
+    """Moving masses and their inertia forces, Gots 2.2, 2.3."""
+    batch, at = of.raw.batch, of.at
+    m_j, m_2, m_k = (values[at, 0, 0] for values in (batch.m_j, batch.m_2, batch.m_k))
+    m_r = of.each(masses.rotating_mass)
+    unit = of.r * of.omega**2
+    return {
+        "m_2": m_2,
+        "m_j": m_j,
+        "m_k": m_k,
+        "m_r": m_r,
+        "P_unit": m_j * unit / of.area,
+        "K_r": m_r * unit,
+        "K_r_spec": m_r * unit / of.area,
+        "K_r_rod": m_2 * unit / of.area,
+        "K_r_throw": m_k * unit / of.area,
+    }
+
+
+def load_scalars(of: Engines) -> Numbers:
+    """Torque, loads of crankpins and journals, running-on torques, constant reactions."""
+    return {**_torque(of), **_pins(of), **_journals(of), **_running(of), **_throws(of)}
+
+
+def _torque(of: Engines) -> Numbers:
+    summary = summary_of("M", of.raw.torque_sum[of.at], of.raw.phi)
+    mean, lever = summary["M_mean"], of.area * of.r
+    scalars = {
+        **summary,
+        "M_e": mean * of.each(lambda e: e.mechanical_efficiency),
+        "N_i_calc": mean * of.omega,
+        "p_i_calc": mean * of.first.period / of.displaced,
+        "T_mean": mean / lever,
+    }
+    if all(engine.indicated_power is not None for engine in of.engines):
+        given = of.each(lambda e: e.indicated_power)
+        reference = given / (of.omega * lever * of.each(lambda e: e.fullness))
+        scalars["T_ref"] = reference
+        scalars["T_error"] = scalars["T_mean"] / reference - 1
+    return scalars
+
+
+def _pins(of: Engines) -> Numbers:
+    groups, raw = shown_pins(of.first), of.raw
+    size = of.each(lambda e: (e.crankshaft.pin_diameters, e.crankshaft.pin_lengths)).prod(axis=1)
+    scalars: Numbers = {}
+    for pin, group in enumerate(groups):
+        projected = size[:, of.first.arrangement[group[0]].throw]
+        number = "" if pin == 0 else str(pin + 1)
+        wear = raw.pin_wear[of.at, pin]
+        scalars |= _bearing(of, f"pin{number}", raw.pin_load[of.at, pin], projected, wear)
+    if len(groups) > 1:
+        peaks = raw.pin_load[of.at, : len(groups)].max(axis=-1)
+        scalars["worst_pin_load"] = first_number(peaks)
+    return scalars
+
+
+def _journals(of: Engines) -> Numbers:
+    raw, scalars = of.raw, dict[str, Array]()
+    size = of.each(lambda e: (e.crankshaft.main_diameters, e.crankshaft.main_lengths)).prod(axis=1)
+    for k in range(raw.journal_load.shape[1]):
+        load, wear = raw.journal_load[of.at, k], raw.journal_wear[of.at, k]
+        scalars |= _bearing(of, f"main{k + 1}", load, size[:, k], wear)
+    peaks = raw.journal_load[of.at].max(axis=-1)
+    return scalars | {"worst_main_load": first_number(peaks)}
+
+
+def _bearing(of: Engines, name: str, load: Array, projected: Array, wear: Array) -> Numbers:
+    """Specific load, force, pressure over the projected area and oil hole of one journal."""
+    scalars = summary_of(f"R{name}", load, of.raw.phi)
+    mean, largest = scalars[f"R{name}_mean"] * of.area, scalars[f"R{name}_max"] * of.area
+    scalars[f"R{name}_max_kN"] = largest
+    if name.startswith("pin"):
+        scalars[f"R{name}_min_kN"] = scalars[f"R{name}_min"] * of.area
+    ray, angle = least_loaded(wear)
+    return scalars | {
+        f"q_{name}_mean": mean / projected,
+        f"q_{name}_max": largest / projected,
+        f"hole_{name}_ray": ray,
+        f"hole_{name}_deg": angle,
+    }
+
+
+def _running(of: Engines) -> Numbers:
+    main, pin = (np.ptp(each[of.at], axis=-1) for each in (of.raw.running_main, of.raw.running_pin))
+    scalars = {f"dM_main{k + 1}": main[:, k] for k in range(1, main.shape[1])}
+    scalars |= {f"dM_pin{k + 1}": pin[:, k] for k in range(pin.shape[1])}
+    return scalars | {
+        "worst_main_torque": first_number(main),
+        "worst_pin_torque": first_number(pin),
+    }
+
+
+def _throws(of: Engines) -> Numbers:
+    """Constant reactions of each throw's supports to centrifugal forces [N]."""
+    sides = tuple(zip("LP", of.raw.constants, strict=True))
+    return {
+        f"throw{i + 1}_R{letter}C{side}": values[of.at][:, i, axis]
+        for i in range(of.raw.constants[0].shape[1])
+        for side, values in sides
+        for axis, letter in enumerate("TK")
+    }

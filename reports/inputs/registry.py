@@ -1,0 +1,168 @@
+"""The sections of the input file in their order: all that is known of each stands here once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+from reports.inputs.meta import Strictly, hints, submodel
+from reports.inputs.sections.articulated import ArticulatedSection
+from reports.inputs.sections.balance import BalanceSection
+from reports.inputs.sections.crankshaft import CrankshaftSection
+from reports.inputs.sections.cycle import CycleSection
+from reports.inputs.sections.gas import (
+    CycleGasSection,
+    PolytropicGasSection,
+    RoundedGasSection,
+    TableGasSection,
+)
+from reports.inputs.sections.input_file import (
+    Calculation,
+    EngineSection,
+    GeometrySection,
+    Regime,
+)
+from reports.inputs.sections.masses import MassesSection
+from reports.inputs.sections.reference import ReferenceSection
+from reports.inputs.sections.report import Report
+
+
+@dataclass(frozen=True, slots=True)
+class ListKey:
+    """A list of a section: its Russian title and the names of its cells."""
+
+    title: str
+    cells: str  # {n} is the number of the entry, {key} the key within a record
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A section of the input file.
+
+    Attributes:
+        name: Its name in the file.
+        title: Russian title.
+        model: Its model; that of its usual source where there are several.
+        optional: It may be left out: then its defaults hold, or it is absent.
+        absent: Left out it is None: an alternative, shown as comments in a new file.
+        sources: Models by the key ``source``.
+        lists: Its lists by key.
+        words: Lines told above it in a new file.
+    """
+
+    name: str
+    title: str
+    model: type[Strictly]
+    optional: bool = False
+    absent: bool = False
+    sources: Mapping[str, type[Strictly]] = field(default_factory=dict)
+    lists: Mapping[str, ListKey] = field(default_factory=dict)
+    words: tuple[str, ...] = ()
+
+    @property
+    def models(self) -> tuple[type[Strictly], ...]:
+        """Every model that the section may have."""
+        return tuple(self.sources.values()) or (self.model,)
+
+
+_ALL = (
+    Section("report", "Сведения о работе", Report, optional=True),
+    Section("engine", "Двигатель", EngineSection),
+    Section("calculation", "Расчет", Calculation, optional=True),
+    Section("geometry", "Геометрия", GeometrySection),
+    Section("regime", "Режим", Regime),
+    Section(
+        "gas",
+        "Газы",
+        PolytropicGasSection,
+        sources={
+            "polytropic": PolytropicGasSection,
+            "table": TableGasSection,
+            "cycle": CycleGasSection,
+            "rounded": RoundedGasSection,
+        },
+        lists={"points": ListKey("Индикаторная диаграмма по точкам", "gas_point_{n}_{key}")},
+        words=(
+            'source = "rounded" — скругленная диаграмма рисунка 22 (kind = "petrol" или "diesel");',
+            'source = "table" — точки points, interpolation = "linear" или "monotone";',
+            'source = "file" — текстовая таблица рядом с этим файлом (CSV или результаты',
+            'DIESEL-RK, сохраненные как текст): file = "diagram.csv", pressure_unit = "bar",',
+            "angle_column и pressure_column — номер или заголовок столбца, firing_tdc_deg — угол",
+            "ВМТ сгорания в таблице.",
+            "Другие режимы того же двигателя — разделы [[regimes]] с [regimes.gas]: см. образец",
+            "gots-regimes.",
+        ),
+    ),
+    Section(
+        "cycle",
+        "Рабочий цикл",
+        CycleSection,
+        optional=True,
+        absent=True,
+        words=(
+            'Давления газов можно взять из расчета цикла: gas.source = "cycle" и раздел [cycle];',
+            "готовый пример дает команда kshm new --sample cycle-turbo-diesel.",
+        ),
+    ),
+    Section(
+        "masses",
+        "Массы",
+        MassesSection,
+        words=(
+            "Шатун: rod_centre_mm, или rod_small_end_share, или взвешивание",
+            "rod_weighed_small_end_kg, или качания; чего нет — оценит estimate_fuel по таблице 4.",
+        ),
+    ),
+    Section(
+        "articulated",
+        "Прицепной шатун",
+        ArticulatedSection,
+        optional=True,
+        absent=True,
+        words=("Если шатуны правого ряда V-образного двигателя висят на главных:",),
+    ),
+    Section(
+        "crankshaft",
+        "Коленчатый вал",
+        CrankshaftSection,
+        lists={
+            "firing_offsets_deg": ListKey("Начало рабочих ходов", "firing_offset_{n}_deg"),
+            "throw_angles_deg": ListKey("Углы колен", "throw_angle_{n}_deg"),
+            "force_offsets_deg": ListKey("Фазы сил", "force_offset_{n}_deg"),
+            "pin_diameters_mm": ListKey("Диаметры шатунных шеек", "pin_diameter_{n}_mm"),
+            "pin_lengths_mm": ListKey("Длины шатунных шеек", "pin_length_{n}_mm"),
+            "main_diameters_mm": ListKey("Диаметры коренных шеек", "main_diameter_{n}_mm"),
+            "main_lengths_mm": ListKey("Коренные шейки", "main_length_{n}_mm"),
+            "webs": ListKey("Щеки и противовесы", "web_{n}_{key}"),
+            "arms": ListKey("Плечи колен", "throw_{n}_{key}"),
+        },
+    ),
+    Section("balance", "Уравновешивание и маховик", BalanceSection, optional=True),
+    Section(
+        "reference",
+        "Справочные таблицы",
+        ReferenceSection,
+        optional=True,
+        absent=True,
+        lists={"lambdas": ListKey("Справочные таблицы: значения λ", "reference_lambda_{n}_value")},
+        words=("Таблицы 1–3, 5–8 и рисунки 3–10 учебника для любых λ; lambdas — список:",),
+    ),
+)
+SECTIONS: dict[str, Section] = {section.name: section for section in _ALL}
+GAS_MODELS = SECTIONS["gas"].sources
+
+
+def records(model: type[Strictly]) -> Iterator[tuple[str, type[Strictly]]]:
+    """Keys of a model that hold lists of records, with the records' models."""
+    for key, annotation in hints(model).items():
+        inner = submodel(annotation)
+        if inner is not None and issubclass(inner, Strictly):
+            yield key, inner
+
+
+def homes() -> Iterator[tuple[str, tuple[type[Strictly], ...]]]:
+    """Every place of keys as it is headed in the file, with its models."""
+    for section in SECTIONS.values():
+        yield f"[{section.name}]", section.models
+        for key, inner in records(section.model):
+            yield f"[[{section.name}.{key}]]", (inner,)

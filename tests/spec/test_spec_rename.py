@@ -1,0 +1,50 @@
+"""Names in expressions are replaced in one way."""
+
+from __future__ import annotations
+
+from reports.spec.blocks import Column, Grid, Scalar, ScalarTable, TableSpec
+from reports.spec.charts import Series, over_phi, wear_chart
+from reports.spec.listing import grid_row
+from reports.spec.rename import copied, copied_chart, renamed, substituted
+
+
+def second(name: str) -> str:
+    head, dot, column = name.partition(".")
+    return f"{head}_R2{dot}{column}"
+
+
+def test_names_change_and_texts_stay() -> None:
+    found = renamed(
+        'max(a, t.a) + 1e5*b - "a"', lambda name: name if name == "max" else second(name)
+    )
+    assert found == 'max(a_R2, t_R2.a) + 1e5*b_R2 - "a"'
+
+
+def test_only_what_is_replaced_changes() -> None:
+    block = ScalarTable("s", "", "", (Scalar("a", "mass*r + mass_2"),))
+    assert substituted((block,), {}) == (block,)
+    (made,) = substituted((block,), {"mass": "m_est"})
+    assert made == ScalarTable("s", "", "", (Scalar("a", "m_est*r + mass_2"),))
+
+
+def test_a_copied_table_keeps_its_columns() -> None:
+    table = TableSpec("t", "1", "", "", (Column("x", None), Column("y", "x*a + u.x")), (0.0,))
+    made = copied(table, second)
+    assert isinstance(made, TableSpec)
+    assert made.id == "t_R2"
+    assert [(c.key, c.expr) for c in made.columns] == [("x", None), ("y", "x*a_R2 + u_R2.x")]
+
+
+def test_copied_scalars_remember_their_quantity() -> None:
+    made = copied(ScalarTable("s", "", "", (Scalar("a", "b"),)), second)
+    assert made == ScalarTable("s_R2", "", "", (Scalar("a_R2", "b_R2", of="a"),))
+    grid = copied(Grid("g", "", "", ("1", "2"), (grid_row("q", ("b", None), ""),)), second)
+    assert isinstance(grid, Grid)
+    assert grid.rows[0].cells == (Scalar("q1_R2", "b_R2", of="q"), None)
+
+
+def test_charts_follow_their_tables() -> None:
+    chart = copied_chart(over_phi("c", "лист", "", "", "t.y", levels=("a",)), second)
+    assert chart.series == (Series("t_R2.phi_deg", "t_R2.y"),)
+    assert chart.levels == ("a_R2",)
+    assert copied_chart(wear_chart("c", "лист", "", "g", "hole"), second).hole == "hole_R2"

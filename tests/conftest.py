@@ -12,8 +12,8 @@ from hypothesis import settings
 
 from reports.inputs.load import load_toml
 from reports.inputs.sections.input_file import InputFile
-from reports.recalculation.by_libreoffice import LibreOffice, find_soffice
 from reports.shared.resources import samples_dir
+from tools.referees.by_libreoffice import LibreOffice, find_soffice
 
 # Random engines are slow to solve on a loaded machine: no deadline, the same examples in CI.
 settings.register_profile("kshm", deadline=None, derandomize=True, print_blob=True)

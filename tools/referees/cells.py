@@ -1,12 +1,10 @@
-"""What a referee is, and the formula cells it is asked for."""
+"""The formula cells of a workbook, their saved values, and the workbook without them."""
 
 from __future__ import annotations
 
 import io
 import re
 import zipfile
-from collections.abc import Sequence
-from typing import Protocol
 
 from lxml import etree
 
@@ -17,15 +15,6 @@ Book = dict[str, dict[str, CellValue]]  # sheet → coordinate → value
 
 _MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 _FORMULA, _VALUE = f"{_MAIN}f", f"{_MAIN}v"
-
-
-class Recalculator(Protocol):
-    """Computes workbooks; cached values are never read."""
-
-    name: str
-
-    def recalculate(self, books: Sequence[bytes]) -> list[Book]:
-        """Values of all formula cells of each workbook; errors come as their text, ``#DIV/0!``."""
 
 
 def formula_cells(book: bytes) -> dict[str, list[str]]:

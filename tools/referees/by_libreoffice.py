@@ -15,8 +15,8 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from reports.recalculation.protocol import Book, formula_cells, row_and_column
 from reports.shared.errors import SystemPartMissing
+from tools.referees.cells import Book, formula_cells, row_and_column
 
 INSTALL = "sudo apt-get install -y libreoffice-calc-nogui python3-uno"
 

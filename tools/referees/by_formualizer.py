@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from reports.recalculation.protocol import (
+from tools.referees.cells import (
     Book,
     CellValue,
     row_and_column,

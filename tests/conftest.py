@@ -28,6 +28,38 @@ def pytest_configure(config: pytest.Config) -> None:
         config.add_cleanup(folder.cleanup)
 
 
+# Tests of more than about two seconds that ./run test --quick leaves out; of each kind of check
+# a quick one stays, of those over all samples these samples.
+QUICK_SAMPLES = {"gots-diesel", "ecoboost-10"}
+SLOW = (
+    "tests/document/test_report_",
+    "tests/e2e/test_dask.py",
+    "tests/fuzz/test_properties.py",
+    "tests/grading/test_class_of_sixty.py",
+    "tests/grading/test_hostile_files.py",
+    "tests/kshm/test_invariants.py",
+    "tests/manual/test_commands.py::test_commands",
+    "tests/manual/test_manual_pages.py::test_html_fits",
+    "tests/referee/test_recalculation.py::test_formualizer_agrees_on_every_layout",
+    "tests/referee/test_recalculation.py::test_libreoffice_agrees",
+    "tests/robustness/",
+    "tests/sweep/test_sweep.py::test_memory",
+    "tests/tables/test_diagram.py::test_libreoffice",
+    "tests/validation/test_validation_book.py::test_pdf",
+    "tests/workbook/test_golden.py::test_saved_by_libreoffice",
+    "tests/workbook/test_schema.py",
+)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark what the quick tests leave out."""
+    others = set(sample_names()) - QUICK_SAMPLES
+    for item in items:
+        params = getattr(getattr(item, "callspec", None), "params", {}).values()
+        if item.nodeid.startswith(SLOW) or others & {p for p in params if isinstance(p, str)}:
+            item.add_marker(pytest.mark.slow)
+
+
 @lru_cache(maxsize=32)
 def sample(name: str) -> InputFile:
     """A sample's checked input."""

@@ -17,7 +17,6 @@ from reports.document.chapters import (
     bearings,
     closing,
     companions,
-    crankpin,
     cycle,
     dynamics,
     front,
@@ -29,7 +28,6 @@ from reports.document.chapters import (
 )
 from reports.document.chapters import torque as torques
 from reports.document.chapters.chapter import Chapter
-from reports.document.chapters.torque import worst
 from reports.document.page import overrides, store
 from reports.document.page.blocks import DocumentInfo
 from reports.document.page.drawing import Drawing
@@ -51,7 +49,7 @@ CHAPTERS: tuple[Callable[[Chapter], Markup], ...] = (
     kinematics.kinematics,
     dynamics.dynamics,
     torques.torque,
-    crankpin.crankpin,
+    journals.crankpin,
     journals.journals,
     bearings.bearings,
     torques.running,
@@ -143,8 +141,8 @@ def _whole(env: Environment, chapter: Chapter, body: Markup) -> str:
         task=front.assignment(chapter),
         brief=front.abstract(chapter),
         block=front.title_block(chapter.input),
-        exact=chapter.input.calculation.method == "exact",
-        load=worst(terms, "worst_main_load"),
+        exact=chapter.exact,
+        load=chapter.worst("worst_main_load"),
         failed=len(closing.failed(terms)),
         checks=len(closing.check_keys(terms)),
         toc=chapter.writer.contents(),

@@ -34,7 +34,7 @@ _TITLES = {
 
 def introduction(chapter: Chapter) -> Markup:
     """Introduction: what is computed and how."""
-    return chapter.page("introduction.html.j2")
+    return chapter.page("introduction")
 
 
 def input_data(chapter: Chapter) -> Markup:
@@ -49,7 +49,7 @@ def input_data(chapter: Chapter) -> Markup:
         "points": TablePlan(partial(_points, model), "Точки индикаторной диаграммы"),
     }
     return chapter.page(
-        "inputs.html.j2",
+        "inputs",
         plans=plans,
         scheme=partial(scheme_text, chapter),
         by_points=isinstance(model.gas, TableGasSection),

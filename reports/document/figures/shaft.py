@@ -6,7 +6,6 @@ import itertools
 import math
 from collections.abc import Sequence
 
-from reports.document.figures.labels import text_size
 from reports.document.figures.pen import CENTRE, DASHED, HAIR, THICK, Pen, Point, polar
 from reports.document.figures.style import FONT_SIZE, MM, SMALL, sheet
 
@@ -55,7 +54,6 @@ def _front(
 ) -> None:
     """Rows of cylinders and throws seen from the nose with crank 1 along cylinder 1."""
     radius, near, far = 26.0, 52.0, 88.0
-    pen.circle(centre, radius, width=HAIR)
     numbered = sorted((round(axis + lean, 6), n) for n, axis in enumerate(axes, 1))
     for axis, members in itertools.groupby(numbered, key=lambda pair: pair[0]):
         angle = math.radians(axis)
@@ -68,21 +66,7 @@ def _front(
         names = [str(number) for _, number in members]
         text = ", ".join(names) if len(names) <= 3 else f"{names[0]}–{names[-1]}"
         pen.text(polar(centre, (near + far) / 2, angle), text, SMALL, halo=False)
-    spread = sorted({round(angle % 360, 6) % 360 for angle in throw_angles})
-    for angle in spread:
-        ray = math.radians(angle + lean)
-        end = polar(centre, radius, ray)
-        pen.line([centre, end], THICK)
-        pen.circle(end, 3.0, fill="#ffffff", width=1.2)
-        names = [
-            str(n)
-            for n, other in enumerate(throw_angles, 1)
-            if abs(math.remainder(other - angle, 360.0)) < 1e-3
-        ]
-        name = ", ".join(names)
-        wide = text_size(name, SMALL)[0]
-        pen.text(polar(centre, radius + 9 + abs(math.sin(ray)) * wide / 2, ray), name, SMALL)
-    pen.circle(centre, 2.4, fill="#ffffff", width=1.2)
+    pen.throws(centre, radius, throw_angles, SMALL, lean=lean)
     pen.arc(centre, radius + 18, math.radians(150), math.radians(205), arrow=True)
     pen.text(polar(centre, radius + 27, math.radians(178)), r"$\omega$", SMALL)
 
@@ -121,3 +105,63 @@ def _parts(start: float, length: float, period: float) -> list[tuple[float, floa
     if end <= period:
         return [(start, end)]
     return [(start, period), (0.0, end - period)]
+
+
+def crank_scheme(throw_angles: Sequence[float], *, width: float = 150.0) -> str:
+    """Throws of the shaft from the side and from the nose, as SVG.
+
+    Args:
+        throw_angles: Angle γ of each throw from the first [deg], clockwise seen from the nose.
+        width: Width of the figure [mm].
+
+    Raises:
+        ValueError: No throws.
+    """
+    if not throw_angles:
+        msg = "Схема вала: нет ни одного колена"
+        raise ValueError(msg)
+    radius, star = 40.0, 34.0
+    with sheet(width, (2 * radius + 62) / MM) as page:
+        pen = Pen(page)
+        level = page.height / 2 + 4
+        right = page.width - star - 34
+        _side_view(pen, (12.0, level), right - star - 42, radius, throw_angles)
+        _star_view(pen, (right, level), star, throw_angles)
+        return page.svg()
+
+
+def _side_view(
+    pen: Pen, start: Point, length: float, radius: float, throw_angles: Sequence[float]
+) -> None:
+    """Broken line of the shaft: journals on the axis, pins at r·cos γ above or below it."""
+    (x, y), count = start, len(throw_angles)
+    pitch = (length - 16) / count
+    journal, web = pitch * 0.30, pitch * 0.10
+    pen.line([(x - 6, y), (x + length + 6, y)], HAIR, CENTRE)
+    points: list[Point] = [(x, y), (x + 8 + journal / 2, y)]
+    for number, angle in enumerate(throw_angles, 1):
+        left = x + 8 + (number - 1) * pitch + journal / 2
+        height = y + radius * math.cos(math.radians(angle))
+        inner = (left + web, left + pitch - journal - web)
+        points += [(left, y), (inner[0], height), (inner[1], height)]
+        points += [(left + pitch - journal, y), (left + pitch - journal / 2, y)]
+        middle = (inner[0] + inner[1]) / 2
+        above = 10 if height >= y else -10
+        pen.text((middle, height + above), str(number))
+    points[-1] = (x + length, y)
+    pen.line(points, THICK)
+    size = min(5.0, journal * 0.35)
+    for number in range(count + 1):
+        centre = x + 8 + number * pitch
+        for side in (-1, 1):
+            pen.line([(centre - size, y + side * 4), (centre + size, y + side * 4)], 1.4)
+
+
+def _star_view(pen: Pen, centre: Point, radius: float, throw_angles: Sequence[float]) -> None:
+    """Directions of the throws seen from the nose; throws of one direction share a ray."""
+    for dx, dy in ((radius + 8, 0.0), (0.0, radius + 8)):
+        ends = [(centre[0] - dx, centre[1] - dy), (centre[0] + dx, centre[1] + dy)]
+        pen.line(ends, HAIR, CENTRE)
+    pen.throws(centre, radius, throw_angles, FONT_SIZE)
+    pen.arc(centre, radius * 0.5, math.radians(20), math.radians(70), arrow=True)
+    pen.text(polar(centre, radius * 0.5 + 9, math.radians(45)), r"$\omega$")

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
-import itertools
 import math
-from collections.abc import Sequence
 
-from reports.document.figures.labels import text_size
-from reports.document.figures.pen import CENTRE, DASHED, HAIR, THICK, Pen, Point, polar
-from reports.document.figures.style import FONT_SIZE, MM, SMALL, sheet
+from reports.document.figures.pen import (
+    CENTRE,
+    DASHED,
+    HAIR,
+    THICK,
+    Pen,
+    Point,
+    direction,
+    polar,
+    shifted,
+)
+from reports.document.figures.style import MM, SMALL, sheet
 
 _GREY = "#e4e4e4"
 _FAINT = "#b4b4b4"
@@ -85,8 +92,7 @@ class _Mechanism:
         left = (x - self.bore, self.piston[1] - 13)
         right = (x + self.bore, self.piston[1] + 17)
         corners = [left, (right[0], left[1]), right, (left[0], right[1])]
-        pen.shape(corners, fill=_GREY, width=1.3)
-        pen.axes.patches[-1].set_zorder(1.6)
+        pen.shape(corners, fill=_GREY, width=1.3, order=1.6)
         pen.circle(self.origin, self.radius, width=HAIR)
         pen.line([self.piston, self.pin, self.origin], THICK, colour=_FAINT if faint else "#000000")
         for joint in (self.origin, self.pin, self.piston):
@@ -139,13 +145,13 @@ class _Mechanism:
         reach = max(side, 10) + self.bore
         pen.arrow(a, (a[0] - reach - 12, a[1]), 1.5)
         pen.text((a[0] - reach - 20, a[1] + 7), "$N$")
-        tip = _shift(a, along, rod_force)
+        tip = shifted(a, along, rod_force)
         pen.arrow(a, tip, 1.5)
         pen.text((tip[0] + 13, tip[1] + 6), "$S$")
         radial = rod_force * math.cos(phi + beta)
         tangential = rod_force * math.sin(phi + beta)
-        end = _shift(b, along, rod_force)
-        corner_k, corner_t = _shift(b, toward, radial), _shift(b, ahead, tangential)
+        end = shifted(b, along, rod_force)
+        corner_k, corner_t = shifted(b, toward, radial), shifted(b, ahead, tangential)
         for corner in (corner_k, corner_t):
             pen.line([corner, end], HAIR, DASHED)
         for corner, name, away in (
@@ -163,85 +169,8 @@ class _Mechanism:
         pen.text((a[0] + self.bore - 7, a[1] + 9), "$A$", halo=False)
 
 
-def crank_scheme(throw_angles: Sequence[float], *, width: float = 150.0) -> str:
-    """Throws of the shaft from the side and from the nose, as SVG.
-
-    Args:
-        throw_angles: Angle γ of each throw from the first [deg], clockwise seen from the nose.
-        width: Width of the figure [mm].
-
-    Raises:
-        ValueError: No throws.
-    """
-    if not throw_angles:
-        msg = "Схема вала: нет ни одного колена"
-        raise ValueError(msg)
-    radius, star = 40.0, 34.0
-    with sheet(width, (2 * radius + 62) / MM) as page:
-        pen = Pen(page)
-        level = page.height / 2 + 4
-        right = page.width - star - 34
-        _side_view(pen, (12.0, level), right - star - 42, radius, throw_angles)
-        _star_view(pen, (right, level), star, throw_angles)
-        return page.svg()
-
-
-def _side_view(
-    pen: Pen, start: Point, length: float, radius: float, throw_angles: Sequence[float]
-) -> None:
-    """Broken line of the shaft: journals on the axis, pins at r·cos γ above or below it."""
-    (x, y), count = start, len(throw_angles)
-    pitch = (length - 16) / count
-    journal, web = pitch * 0.30, pitch * 0.10
-    pen.line([(x - 6, y), (x + length + 6, y)], HAIR, CENTRE)
-    points: list[Point] = [(x, y), (x + 8 + journal / 2, y)]
-    for number, angle in enumerate(throw_angles, 1):
-        left = x + 8 + (number - 1) * pitch + journal / 2
-        height = y + radius * math.cos(math.radians(angle))
-        inner = (left + web, left + pitch - journal - web)
-        points += [(left, y), (inner[0], height), (inner[1], height)]
-        points += [(left + pitch - journal, y), (left + pitch - journal / 2, y)]
-        middle = (inner[0] + inner[1]) / 2
-        above = 10 if height >= y else -10
-        pen.text((middle, height + above), str(number))
-    points[-1] = (x + length, y)
-    pen.line(points, THICK)
-    size = min(5.0, journal * 0.35)
-    for number in range(count + 1):
-        centre = x + 8 + number * pitch
-        for side in (-1, 1):
-            pen.line([(centre - size, y + side * 4), (centre + size, y + side * 4)], 1.4)
-
-
-def _star_view(pen: Pen, centre: Point, radius: float, throw_angles: Sequence[float]) -> None:
-    """Directions of the throws seen from the nose; throws of one direction share a ray."""
-    pen.circle(centre, radius, width=HAIR)
-    for dx, dy in ((radius + 8, 0.0), (0.0, radius + 8)):
-        ends = [(centre[0] - dx, centre[1] - dy), (centre[0] + dx, centre[1] + dy)]
-        pen.line(ends, HAIR, CENTRE)
-    numbered = sorted((round(angle % 360, 6) % 360, n) for n, angle in enumerate(throw_angles, 1))
-    for angle, members in itertools.groupby(numbered, key=lambda pair: pair[0]):
-        ray = math.radians(angle)
-        end = polar(centre, radius, ray)
-        pen.line([centre, end], THICK)
-        pen.circle(end, 3.2, fill="#ffffff", width=1.2)
-        name = ", ".join(str(number) for _, number in members)
-        wide = text_size(name, FONT_SIZE)[0]
-        pen.text(polar(centre, radius + 10 + abs(math.sin(ray)) * wide / 2, ray), name)
-    pen.circle(centre, 2.6, fill="#ffffff", width=1.2)
-    pen.arc(centre, radius * 0.5, math.radians(20), math.radians(70), arrow=True)
-    pen.text(polar(centre, radius * 0.5 + 9, math.radians(45)), r"$\omega$")
-
-
 def _beside(start: Point, end: Point, share: float, offset: float) -> Point:
     """Point beside a segment, to the left of its direction for a positive offset."""
-    dx, dy = end[0] - start[0], end[1] - start[1]
-    norm = math.hypot(dx, dy) or 1.0
-    return (
-        start[0] + dx * share - dy / norm * offset,
-        start[1] + dy * share + dx / norm * offset,
-    )
-
-
-def _shift(point: Point, along: Point, distance: float) -> Point:
-    return (point[0] + along[0] * distance, point[1] + along[1] * distance)
+    along = direction(start, end)
+    foot = shifted(start, along, share * math.dist(start, end))
+    return shifted(foot, (-along[1], along[0]), offset)

@@ -32,11 +32,17 @@ def pytest_configure(config: pytest.Config) -> None:
 # a quick one stays, of those over all samples these samples.
 QUICK_SAMPLES = {"gots-diesel", "ecoboost-10"}
 SLOW = (
+    "tests/document/test_document_tables.py::test_layout",
     "tests/document/test_report_",
     "tests/e2e/test_dask.py",
+    "tests/fuzz/test_corpus.py::test_the_command",
     "tests/fuzz/test_properties.py",
     "tests/grading/test_class_of_sixty.py",
+    "tests/grading/test_grade.py::test_a_pdf_on_demand",
+    "tests/grading/test_grade.py::test_the_command_explains",
+    "tests/grading/test_grade.py::test_the_last_of_several",
     "tests/grading/test_hostile_files.py",
+    "tests/grading/test_issue.py::test_an_issue_can_be_repeated",
     "tests/kshm/test_invariants.py",
     "tests/manual/test_commands.py::test_commands",
     "tests/manual/test_manual_pages.py::test_html_fits",
@@ -44,8 +50,10 @@ SLOW = (
     "tests/referee/test_recalculation.py::test_libreoffice_agrees",
     "tests/robustness/",
     "tests/sweep/test_sweep.py::test_memory",
-    "tests/tables/test_diagram.py::test_libreoffice",
-    "tests/validation/test_validation_book.py::test_pdf",
+    "tests/tables/test_diagram.py",
+    "tests/tables/test_reference.py",
+    "tests/tables/test_regimes.py",
+    "tests/validation/test_validation_book.py",
     "tests/workbook/test_golden.py::test_saved_by_libreoffice",
     "tests/workbook/test_schema.py",
 )

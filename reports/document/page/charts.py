@@ -63,7 +63,8 @@ def panels_figure(
     if len(charts) == 1:
         return chart_figure(terms, first, size, caption=f"{first.group}: {first.panel}")
     words = "; ".join(
-        f"{letter}{NBSP}—{NBSP}{chart.panel}" for letter, chart in zip(LETTERS, charts, strict=False)
+        f"{letter}{NBSP}—{NBSP}{chart.panel}"
+        for letter, chart in zip(LETTERS, charts, strict=False)
     )
     x = first.drawn_by("report")[0].x
     draw = partial(

@@ -7,7 +7,6 @@ from dataclasses import dataclass, fields
 from markupsafe import Markup
 
 from reports.document.chapters.chapter import Chapter
-from reports.document.page.blocks import TitlePage
 from reports.inputs.sections.input_file import InputFile
 
 _KEYWORDS = (
@@ -21,6 +20,25 @@ _KEYWORDS = (
     "диаграмма износа",
     "уравновешенность",
 )
+
+
+@dataclass(frozen=True, slots=True)
+class TitlePage:
+    """Words of the title page; what is empty is left out or becomes a line to write on."""
+
+    title: str
+    subtitle: str = ""
+    kind: str = "Расчётно-пояснительная записка к курсовому проекту"
+    ministry: str = ""
+    institution: str = ""
+    department: str = ""
+    discipline: str = ""
+    student: str = ""
+    group: str = ""
+    supervisor: str = ""
+    variant: str = ""
+    city: str = ""
+    year: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 LETTERS = "абвгдежиклмнпрстуфхцшщэюя"  # without з, о, ё, й, ъ, ы, ь, as the standard lists them
 _BOTTOM, _TOP, _BETWEEN = 20.0, 22.0, 38.0  # pt below, above and between the panels
-_LEVEL = {"color": "#000000", "linewidth": 0.9, "linestyle": (0, (12, 3, 2, 3))}
+_LEVEL: dict[str, Any] = {"color": "#000000", "linewidth": 0.9, "linestyle": (0, (12, 3, 2, 3))}
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +81,9 @@ class Panel:
     def bounds(self) -> tuple[float, float]:
         """Least and greatest ordinate of all that is drawn."""
         columns = [np.asarray(curve.y, dtype=np.float64).tolist() for curve in self.curves]
-        return bounds([*columns, [item.y for item in (*self.levels, *self.marks)]])
+        return bounds(
+            [*columns, [level.y for level in self.levels], [mark.y for mark in self.marks]]
+        )
 
 
 def curves_figure(
@@ -153,7 +155,7 @@ def _plot(
 def _name(axes: Axes, panel: Panel, curves: Sequence[Points]) -> None:
     """Names of marks, levels and curves, in this order of right to the room."""
     to_sheet = axes.transData.transform
-    left, low, right, high = axes.get_window_extent().extents.tolist()
+    left, low, right, high = axes.get_window_extent().extents
     room = Room((left + 2, low + 2, right - 2, high - 2))
     lines = [dense(to_sheet(curve)) for curve in curves]
     ends = axes.get_xlim()

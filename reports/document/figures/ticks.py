@@ -56,7 +56,7 @@ def value_ticks(low: float, high: float, *, count: int = 6, zero: bool = True) -
     low, high = bounds([[low, high, *([0.0] if zero else [])]])
     low, high = nonsingular(low, high, expander=0.5, tiny=1e-12)
     locator = MaxNLocator(count, steps=_FACTORS, min_n_ticks=1)
-    places = locator.tick_values(float(low), float(high)).tolist()
+    places = [float(place) for place in locator.tick_values(float(low), float(high))]
     return at_steps(round(places[0] / (places[1] - places[0])), len(places), places[1] - places[0])
 
 

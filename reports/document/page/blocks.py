@@ -112,34 +112,6 @@ def symbol_head(symbol_tex: str, unit: str = "") -> Markup:
 
 
 @dataclass(frozen=True, slots=True)
-class WhereItem:
-    """A line of the «где» list: symbol in TeX, what it means, unit."""
-
-    symbol: str
-    meaning: str
-    unit: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class TitlePage:
-    """Words of the title page; what is empty is left out or becomes a line to write on."""
-
-    title: str
-    subtitle: str = ""
-    kind: str = "Расчётно-пояснительная записка к курсовому проекту"
-    ministry: str = ""
-    institution: str = ""
-    department: str = ""
-    discipline: str = ""
-    student: str = ""
-    group: str = ""
-    supervisor: str = ""
-    variant: str = ""
-    city: str = ""
-    year: str = ""
-
-
-@dataclass(frozen=True, slots=True)
 class DocumentInfo:
     """Metadata of the HTML and the PDF.  ``created`` is an ISO date and must not be the clock's."""
 

@@ -15,8 +15,8 @@ from reports.document.figures.wear import wear_diagram
 from reports.document.page.writer import Figure
 from reports.document.text import numbers
 from reports.document.text.mathsvg import plain
-from reports.document.text.symbols import GREEK
 from reports.document.text.terms import Terms
+from reports.document.text.tex import GREEK
 from reports.formula.numeric import evaluate
 from reports.shared.russian import NBSP, fixed
 from reports.spec.charts import ChartSpec, Series

@@ -9,7 +9,6 @@ import numpy as np
 from markupsafe import Markup
 
 from kshm.nomenclature.quantity import Quantity, quantity
-from reports.document.page.blocks import WhereItem
 from reports.document.text import numbers
 from reports.document.text.symbols import inline_html
 from reports.document.text.texts import rich
@@ -64,6 +63,15 @@ def plain_number(value: float) -> str:
     """A number with the digits it was given with."""
     digits = next((d for d in range(12) if round(value, d) == value), 12)
     return fixed(value, digits)
+
+
+@dataclass(frozen=True, slots=True)
+class WhereItem:
+    """A line of the «где» list: symbol in TeX, what it means, unit."""
+
+    symbol: str
+    meaning: str
+    unit: str = ""
 
 
 @dataclass(frozen=True)

@@ -51,10 +51,10 @@ def value_ticks(low: float, high: float, *, count: int = 6, zero: bool = True) -
         ValueError: The range is not finite.
     """
     from matplotlib.ticker import MaxNLocator
-    from matplotlib.transforms import nonsingular
 
     low, high = bounds([[low, high, *([0.0] if zero else [])]])
-    low, high = nonsingular(low, high, expander=0.5, tiny=1e-12)
+    if high - low <= 1e-12 * max(1.0, abs(high), abs(low)):
+        low, high = low - 0.5 * max(1.0, abs(low)), high + 0.5 * max(1.0, abs(high))
     locator = MaxNLocator(count, steps=_FACTORS, min_n_ticks=1)
     places = [float(place) for place in locator.tick_values(float(low), float(high))]
     return at_steps(round(places[0] / (places[1] - places[0])), len(places), places[1] - places[0])

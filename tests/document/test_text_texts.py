@@ -4,10 +4,9 @@ from hypothesis import strategies as st
 from markupsafe import Markup
 from pdftools import pages_of
 
-from reports.document.page import fonts
-from reports.document.page.fonts import fonts_css
 from reports.document.page.render import render
-from reports.document.text import texts
+from reports.document.text import fonts, texts
+from reports.document.text.fonts import fonts_css
 
 
 def test_foreign_signs_become_a_box_and_controls_go():

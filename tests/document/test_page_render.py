@@ -5,15 +5,15 @@ import re
 import pytest
 from pdftools import fonts_of, pages_of, poppler
 
-from reports.document.figures import Series, line_chart
+from reports.document.figures.curves import Curve, Panel, curves_figure
 from reports.document.page.render import (
     AttachedFile,
     RenderError,
     environment,
-    fonts_css,
     render,
     render_pdf,
 )
+from reports.document.text.fonts import fonts_css
 from reports.document.text.mathsvg import formula
 
 PAGE = """<!DOCTYPE html><html lang="ru"><head><title>Отчёт</title><style>
@@ -31,7 +31,9 @@ EVERYTHING = (
     + formula(
         r"\sqrt{\dfrac{R_{\mathrm{ш.ш}}}{\left(\dfrac{a}{b}\right)^{2}}}\approx\int_0^1 x"
     ).svg
-    + line_chart(range(5), [Series("$p'_j$", range(5))], r"$\varphi$, °", "мин⁻¹", angle=False)
+    + curves_figure(
+        range(5), [Panel([Curve("$p'_j$", range(5))], "мин⁻¹")], r"$\varphi$, °", angle=False
+    )
 )
 
 

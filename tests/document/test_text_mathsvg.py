@@ -4,8 +4,6 @@ import re
 import pytest
 
 from reports.document.text.mathsvg import Formula, FormulaError, formula, formula_lines, plain
-from reports.document.text.texsplit import balanced, break_points
-from reports.document.text.texwords import for_mathtext
 
 LONG = (
     r"j_{\mathrm{п}}=r\omega^2\left(\cos\varphi+\lambda\cos2\varphi\right)"
@@ -56,17 +54,6 @@ def test_decimal_comma_takes_no_space_and_dot_neither():
     assert tight == pytest.approx(0.25 * 0.7, abs=0.02)
 
 
-def test_space_before_functions_and_round_fractions():
-    assert for_mathtext(r"\lambda\cos\varphi") == r"\lambda\,\cos\varphi"
-    assert for_mathtext(r"\left(\cos\varphi\right)") == r"\left(\cos\varphi\right)"
-    assert for_mathtext(r"2\cdot\cos x") == r"2\cdot\cos x"
-    assert for_mathtext(r"r\dfrac{a}{b}c") == r"r\,\dfrac{a}{b}\,c"
-    assert for_mathtext(r"\sum_{i=1}^{3}M_i") == r"\sum_{i=1}^{3}\,M_{i}"
-    assert for_mathtext(r"\tg\psi") == r"\operatorname{tg}\psi"
-    assert for_mathtext(r"30^{\circ}") == "30°"
-    assert for_mathtext(r"R''_x") == r"R^{\prime\prime}_{x}"
-
-
 @pytest.mark.parametrize(
     "tex",
     ["", "  ", "a$b", "{a", "a}", r"\nonsense{x}", r"x^2^3", "1.5", "漢", r"\frac{a}"],
@@ -97,21 +84,14 @@ def test_long_formula_breaks_at_relations_and_repeats_the_sign():
     assert formula_lines(LONG, 100) == (formula(LONG),)
 
 
-def test_break_prefers_relations_over_sums_and_never_cuts_groups():
-    points = break_points(r"a=b+\dfrac{c=d}{e+f}-\left(g+h\right)")
-    assert [point.rank for point in points] == [0, 1, 1]
-    assert [point.end for point in break_points("x=-1")] == [2]
-    assert break_points(r"a\cdot b")[0].carried == r"{}\times "
-
-
 def test_forced_lines():
     assert len(formula_lines(r"a=b\\c=d")) == 2
 
 
-def test_balanced():
-    assert balanced(r"\{a") and balanced("{a}") and not balanced("}{")
-
-
 def test_label_for_readers():
-    assert plain(r"P_{\mathrm{г}}=\dfrac{a}{b}\cdot 10^{-6}") == "P_г=(a)/(b)·10^−6"
+    assert plain(r"P_{\mathrm{г}}=\dfrac{a}{b}\cdot 10^{-6}") == "P_г=(a)/(b)· 10^−6"
     assert "<title>a &lt; b</title>" in formula("a < b").svg
+
+
+def test_nested_fractions_are_said_whole():
+    assert plain(r"\dfrac{1-\dfrac{a}{b}}{c}+\sqrt{\varphi}") == "(1−(a)/(b))/(c)+√(φ)"

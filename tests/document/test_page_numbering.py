@@ -1,12 +1,13 @@
 import pytest
 
-from reports.document.page.numbering import Numbering, NumberingError
+from reports.document.page.numbering import Draft, Numbering, NumberingError
 
 
 @pytest.fixture
 def numbering():
     result = Numbering()
-    result.declare_all("figure", ["path", "speed"])
+    result.declare("figure", "path")
+    result.declare("figure", "speed")
     result.declare("table", "P4_1", number="П4.1")
     result.declare("formula", "j")
     return result
@@ -75,14 +76,18 @@ def test_sections_count_by_level():
         Numbering().section(2, "x")
 
 
-def test_section_reference_before_and_after():
-    numbering = Numbering()
-    numbering.declare("section", "dyn", number="1")
-    assert numbering.sec("dyn") == '<a class="ref" href="#sec-dyn">1</a>'
-    assert numbering.section(1, "Динамика", key="dyn").anchor == "sec-dyn"
-    numbering.check()
-    with pytest.raises(NumberingError, match=r"помещено дважды|объявлен под номером"):
-        numbering.section(1, "Динамика", key="dyn")
+def test_the_draft_gives_numbers_in_order_of_standing():
+    draft = Draft()
+    assert draft.refer("figure", "late") == "?"
+    for key in ("early", "late"):
+        draft.place("figure", key)
+    draft.place("table", "a", number="П1")
+    with pytest.raises(NumberingError, match="дважды"):
+        draft.place("figure", "late")
+    numbering = draft.numbering()
+    assert numbering.label("figure", "late").number == "2"
+    assert numbering.place("table", "a", number="П1").number == "П1"
+    assert numbering.count("figure") == 0 and numbering.count("table") == 1
 
 
 def test_anchors_are_ascii_and_distinct():
@@ -93,5 +98,6 @@ def test_anchors_are_ascii_and_distinct():
 
 def test_sources():
     numbering = Numbering()
-    numbering.declare_all("source", ["gots", "gost"])
+    for key in ("gots", "gost"):
+        numbering.declare("source", key)
     assert numbering.src("gost", "gots").startswith("[<a") and numbering.src("gost").endswith("]")

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from kshm.nomenclature.digits import Digits, scientific
 from reports.document.text import numbers
 from reports.shared.russian import MINUS, NBSP, fixed
 
@@ -29,9 +30,11 @@ def test_fixed(value, digits, text):
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
 def test_not_finite_is_refused(value):
-    for write in (fixed, numbers.significant, numbers.power_html, numbers.auto_tex):
+    for digits in (Digits(2), scientific(2)):
         with pytest.raises(ValueError, match="не конечно"):
-            write(value)
+            numbers.of_digits(value, digits)
+    with pytest.raises(ValueError, match="не конечно"):
+        numbers.significant(value, 4)
 
 
 def test_negative_digits_are_refused():
@@ -47,31 +50,26 @@ def test_significant():
 
 
 @pytest.mark.parametrize(
-    ("value", "step", "html", "tex"),
+    ("value", "html", "tex"),
     [
-        (1.25e-6, 1, "1,25×10<sup>−6</sup>", r"1{,}25\times 10^{-6}"),
-        (-2.1e11, 1, "−2,10×10<sup>11</sup>", r"-2{,}10\times 10^{11}"),
-        (21_000, 3, "21,0×10<sup>3</sup>", r"21{,}0\times 10^{3}"),
-        (9.999e-5, 1, "1,00×10<sup>−4</sup>", r"1{,}00\times 10^{-4}"),
-        (3.14159, 1, "3,14", "3{,}14"),
-        (0, 1, "0,00", "0{,}00"),
+        (1.25e-6, "1,25·10<sup>−6</sup>", r"1{,}25\cdot 10^{-6}"),
+        (-2.1e11, "−2,10·10<sup>11</sup>", r"-2{,}10\cdot 10^{11}"),
+        (9.999e-5, "1,00·10<sup>−4</sup>", r"1{,}00\cdot 10^{-4}"),
+        (3.14159, "3,14", "3{,}14"),
+        (0, "0,00", "0{,}00"),
     ],
 )
-def test_powers(value, step, html, tex):
-    assert numbers.power_html(value, 3, step=step) == html
-    assert numbers.power_tex(value, 3, step=step) == tex
-
-
-def test_auto_takes_powers_only_for_unhandy_sizes():
-    assert numbers.auto_html(0.00123) == "0,001230"
-    assert "×10" in numbers.auto_html(0.000123)
-    assert "×10" in numbers.auto_tex(1.5e7).replace(r"\times ", "×")
+def test_powers_of_ten(value, html, tex):
+    assert numbers.of_digits(value, scientific(2)) == html
+    assert numbers.of_digits_tex(value, scientific(2)) == tex
 
 
 def test_tex_of_groups_and_minus():
-    assert numbers.fixed_tex(-12345.6, 1) == r"-12\,345{,}6"
-    assert numbers.in_parentheses("-1{,}5") == r"\left(-1{,}5\right)"
-    assert numbers.in_parentheses("1{,}5") == "1{,}5"
+    assert numbers.of_digits_tex(-12345.6, Digits(1)) == r"-12\,345{,}6"
+
+
+def test_zeros_that_are_left_blank():
+    assert numbers.of_digits(0.0, Digits(2, hides="zeros")) == ""
 
 
 def test_aligned_fills_with_digit_halves():
@@ -91,11 +89,10 @@ def test_fixed_says_the_number(value, digits):
     assert _value(text) == pytest.approx(value, abs=0.5000001 * 10**-digits, rel=1e-12)
 
 
-@given(st.floats(1e-30, 1e30), st.integers(1, 8), st.sampled_from([1, 3]))
-def test_power_says_the_number(value, digits, step):
-    mantissa, exponent = numbers.split_power(value, digits, step=step)
-    assert exponent % step == 0
-    least = 1.0
-    assert least <= _value(mantissa) < 10**step
-    assert _value(mantissa) * 10.0**exponent == pytest.approx(value, rel=0.51 * 10 ** (1 - digits))
-    assert len(mantissa.replace(",", "")) >= digits
+@given(st.floats(1e-30, 1e30), st.integers(1, 8))
+def test_power_says_the_number(value, decimals):
+    tex = numbers.of_digits_tex(value, scientific(decimals)).replace("{,}", ",")
+    mantissa, _, exponent = tex.partition(r"\cdot 10^{")
+    assert 1 <= _value(mantissa) < 10 and len(mantissa) == decimals + 2
+    shown = _value(mantissa) * 10.0 ** int(exponent.rstrip("}") or 0)
+    assert shown == pytest.approx(value, rel=0.51 * 10**-decimals)

@@ -17,6 +17,21 @@ def ray_angles(rays: int) -> Array:
     return 2 * np.pi / rays * np.arange(rays, dtype=np.float64)
 
 
+def components(size: Array, ray: Array, rays: int) -> tuple[Array, Array]:
+    """Components along ray I and against rotation of forces that point at rays, Gots table 14.
+
+    Args:
+        size: lengths of the forces, shape (angles,).
+        ray: where they point, counted from 0 at ray I, halves between two rays, same shape.
+        rays: number of rays, 12 or 18.
+
+    Returns:
+        Two arrays of shape (angles,) in the unit of the lengths.
+    """
+    angle = 2 * np.pi / rays * ray
+    return size * np.cos(angle), size * np.sin(angle)
+
+
 def ray_loads(up: Array, against: Array, rays: int) -> Array:
     """Force [N or Pa] counted at each ray within ±60°, zero elsewhere, Gots table 14.
 

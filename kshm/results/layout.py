@@ -12,9 +12,11 @@ def has_single_rods(engine: Engine) -> bool:
 
 
 def shown_pins(engine: Engine) -> tuple[tuple[int, ...], ...]:
-    """Crankpins with loads of their own; pins with one rod each differ in phase only."""
-    groups = pins(engine.arrangement)
-    return groups[:1] if all(len(group) == 1 for group in groups) else groups
+    """Crankpins with results of their own; equal pins with one rod each differ in phase only."""
+    groups, shaft = pins(engine.arrangement), engine.crankshaft
+    sizes = set(zip(shaft.pin_diameters, shaft.pin_lengths, strict=True))
+    single = all(len(group) == 1 for group in groups)
+    return groups[:1] if single and len(sizes) == 1 else groups
 
 
 def pin_table(number: int) -> str:

@@ -85,7 +85,7 @@ def grade(
     ISSUED — папка, которую сделала команда issue; SUBMITTED — что сдали студенты.
     """
     if explain is not None:
-        from reports.grading.judging.explain import explain as explain_column
+        from reports.grading.pages.explain import explain as explain_column
 
         for line in explain_column(issued, Path(explain[0]), explain[1], rubric, secret):
             click.echo(line)

@@ -12,7 +12,7 @@ path                                  name
 crankshaft.firing_offsets_deg, i      ``firing_offset_<i+1>_deg``
 crankshaft.throw_angles_deg, i        ``throw_angle_<i+1>_deg``
 crankshaft.force_offsets_deg, i       ``force_offset_<i+1>_deg``
-crankshaft.main_lengths_mm, i         ``main_length_<i+1>_mm``
+crankshaft.main_lengths_mm, i         ``main_length_<i+1>_mm``, and so the other sizes
 crankshaft.webs, i, key               ``web_<i+1>_<key>``: ``web_3_mass_kg``
 crankshaft.arms, i, key               ``throw_<i+1>_<key>``: ``throw_1_l1_mm``,
                                       ``throw_1_left_web_mm``

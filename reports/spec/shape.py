@@ -22,6 +22,7 @@ class Shape:
     arrangement: Arrangement
     strokes: int
     offset: bool
+    own_pins: bool = False  # crankpins of sizes of their own
 
     @classmethod
     def of(cls, model: InputFile) -> Shape:
@@ -30,7 +31,10 @@ class Shape:
         offset = isinstance(given, GeometrySection) and (
             given.crank_offset_mm is not None or given.pin_offset_mm is not None
         )
-        return cls(arrangement_of(model), model.engine.strokes, offset)
+        shaft = model.crankshaft
+        lists = (shaft.pin_diameters_mm, shaft.pin_lengths_mm)
+        own_pins = any(len(set(sizes or ())) > 1 for sizes in lists)
+        return cls(arrangement_of(model), model.engine.strokes, offset, own_pins)
 
     @property
     def cylinders(self) -> int:
@@ -54,9 +58,10 @@ class Shape:
 
     @cached_property
     def pins(self) -> tuple[tuple[int, ...], ...]:
-        """Cylinders on every crankpin that has a table: one pin where all carry one rod."""
-        found = _numbered(pins(self.arrangement))
-        return found[:1] if all(len(group) == 1 for group in found) else found
+        """Cylinders on every crankpin that has a table: one where all are alike with one rod."""
+        groups = _numbered(pins(self.arrangement))
+        single = all(len(group) == 1 for group in groups)
+        return groups[:1] if single and not self.own_pins else groups
 
     @property
     def period(self) -> int:

@@ -26,7 +26,7 @@ from reports.tables.loads.throws import throws
 from reports.tables.loads.torques import torques
 from reports.tables.loads.wear import wear
 from reports.tables.motion.articulated import articulated
-from reports.tables.motion.mechanism import dimensions, kinematics
+from reports.tables.motion.mechanism import dimensions, kinematics, size_stand_ins
 from reports.tables.motion.neiman import neiman
 from reports.tables.motion.offset import offset
 from reports.tables.motion.reference import reference
@@ -67,7 +67,7 @@ def build_model(model: InputFile) -> Model:
 
 def stand_ins(model: InputFile) -> dict[str, str]:
     """Inputs that the file leaves out and the scalars that take their place."""
-    return {**mass_stand_ins(model), **cycle_stand_ins(model)}
+    return {**size_stand_ins(model), **mass_stand_ins(model), **cycle_stand_ins(model)}
 
 
 def chain(model: InputFile) -> Part:

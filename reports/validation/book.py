@@ -24,12 +24,18 @@ class Counts:
     """How many printed numbers there are and what became of them.
 
     ``close`` counts those that are ours rounded to the printed digits, whatever a table's
-    tolerance allows.
+    tolerance allows.  Signs, numbers of which only the place is checked and empty places are
+    checked too but are no numbers held against ours: they are counted apart, as all and as
+    those that agree.
     """
 
     total: int
     close: int
     by_verdict: dict[Verdict, int]
+    signs: tuple[int, int]
+    placed: tuple[int, int]
+    empty: tuple[int, int]
+    new: int  # of everything that is checked
 
     @property
     def agrees(self) -> int:
@@ -39,7 +45,7 @@ class Counts:
     @property
     def needs_a_person(self) -> bool:
         """Something deviates without a recorded reason, or a record is stale."""
-        return self.by_verdict[Verdict.NEW] > 0
+        return self.new > 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,13 +104,25 @@ class Book:
 def count(checks: Iterable[Check]) -> Counts:
     """Count checks by verdict."""
     listed = list(checks)
-    by_verdict = dict.fromkeys(Verdict, 0)
-    close = 0
-    for check in listed:
-        by_verdict[check.verdict] += 1
-        if check.verdict is Verdict.AGREES:
-            close += check.units is None or check.units <= _CLOSE
-    return Counts(len(listed), close, by_verdict)
+    numbers = [check for check in listed if check.is_number]
+    agreeing = [check for check in numbers if check.verdict is Verdict.AGREES]
+    by_verdict = {kind: sum(check.verdict is kind for check in numbers) for kind in Verdict}
+    places = [check for check in listed if check.cell.is_place]
+    return Counts(
+        total=len(numbers),
+        close=sum(check.units is None or check.units <= _CLOSE for check in agreeing),
+        by_verdict=by_verdict,
+        signs=_apart(check for check in listed if check.is_sign),
+        placed=_apart(check for check in places if check.cell.text),
+        empty=_apart(check for check in places if not check.cell.text),
+        new=sum(check.verdict is Verdict.NEW for check in listed),
+    )
+
+
+def _apart(checks: Iterable[Check]) -> tuple[int, int]:
+    """How many, and how many agree."""
+    verdicts = [check.verdict for check in checks]
+    return len(verdicts), verdicts.count(Verdict.AGREES)
 
 
 @lru_cache(maxsize=1)

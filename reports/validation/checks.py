@@ -108,6 +108,16 @@ class Check:
     should_be: str = ""
 
     @property
+    def is_sign(self) -> bool:
+        """Whether a sign is compared, which is no number."""
+        return self.printed is None and sign(self.cell.text) in ("+", "-")
+
+    @property
+    def is_number(self) -> bool:
+        """Whether a printed number is held against one that is computed without it."""
+        return not (self.is_sign or self.cell.is_place)
+
+    @property
     def name(self) -> tuple[str, str]:
         """Row and column."""
         return self.cell.row, self.cell.column

@@ -33,6 +33,13 @@ def _error(name: str, lam: float, degrees: float) -> float:
     return 100 * abs(float(_two_term(name, phi, lam) / _exact(name, phi, lam)) - 1)
 
 
+def _worst_angle(name: str) -> float:
+    """Angle of the greatest error of the two-term formula at λ = 0.32 [°]."""
+    degrees = np.linspace(0.0, 180.0, 1801)
+    phi = np.radians(degrees)
+    return float(degrees[np.abs(_two_term(name, phi, 0.32) - _exact(name, phi, 0.32)).argmax()])
+
+
 def _change(name: str) -> float:
     """Greatest change between λ = 0.16 and 0.303 over half a turn [%]."""
     phi = np.radians(np.arange(0.0, 181.0))
@@ -57,6 +64,10 @@ SEGAL: dict[str, Number] = {
     "v_error": lambda: _error("velocity", 0.32, 60),
     "j_error": lambda: _error("acceleration", 0.32, 90),
     "j_error_025": lambda: _error("acceleration", 0.25, 90),
+    "s_error_angle": lambda: _worst_angle("displacement"),
+    "v_error_angle": lambda: _worst_angle("velocity"),
+    "j_error_angle": lambda: _worst_angle("acceleration"),
+    "j_bdc": lambda: float(_two_term("acceleration", np.array(np.pi), 0.25)) / (1 - 0.25),
     "s_change": lambda: _change("displacement"),
     "v_change": lambda: _change("velocity"),
     "j_change": lambda: _change("acceleration"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from kshm.cycle.diagram import indicator_diagram
-from kshm.mechanics.wear import ray_angles, ray_loads, ray_sums
+from kshm.mechanics.wear import components, ray_loads, ray_sums
 from kshm.nomenclature.dizdn_listing import value_of
 from kshm.results.reference import reference_tables
 from reports.validation.checks import Lookup, Ours
@@ -60,18 +60,15 @@ def wear_windows() -> Lookup:
     """Rays and sums of table 14 for forces towards the middle of each printed window."""
     rows = [row for row in rows_of("table_14") if row["phi_deg"].isdigit()]
     keys = [key for key in rows[0] if key.startswith("ray")]
-    angles = ray_angles(_RAYS)
-    up, against = [], []
-    for row in rows:
-        marked = [index for index, key in enumerate(keys) if row[key]]
-        size = float(row[keys[marked[0]]])
-        middle = np.angle(np.exp(1j * angles[marked]).sum())
-        up.append(size * np.cos(middle))
-        against.append(size * np.sin(middle))
-    # The last row of a table repeats the first and is not counted.
-    x, y = np.array([*up, up[0]]), np.array([*against, against[0]])
-    loads = ray_loads(x, y, _RAYS)
-    sums = ray_sums(x, y, np.hypot(x, y), _RAYS)
+    marked = [[index for index, key in enumerate(keys) if row[key]] for row in rows]
+    sizes = [float(row[keys[rays[0]]]) for row, rays in zip(rows, marked, strict=True)]
+    # The last row of a cycle repeats the first and is not counted.
+    size = np.array([*sizes, sizes[0]])
+    up, against = components(
+        size, np.array([_middle(rays) for rays in [*marked, marked[0]]]), _RAYS
+    )
+    loads = ray_loads(up, against, _RAYS)
+    sums = ray_sums(up, against, size, _RAYS)
     places = {row["phi_deg"]: index for index, row in enumerate(rows)}
 
     def look(row: str, column: str) -> Ours:
@@ -80,6 +77,12 @@ def wear_windows() -> Lookup:
         return float(value) if value else ""
 
     return look
+
+
+def _middle(rays: list[int]) -> float:
+    """Middle of neighbouring rays, of which the last is the neighbour of the first."""
+    first = next(ray for ray in rays if (ray - 1) % _RAYS not in rays)
+    return first + (len(rays) - 1) / 2
 
 
 def cycle_outputs() -> Lookup:

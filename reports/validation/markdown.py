@@ -41,6 +41,8 @@ def _lines(book: Book) -> Iterator[str]:
     rows = [[SHORT[source], *count_cells(book.counts_of(source))] for source in SOURCES]
     rows.append(["**Всего**", *count_cells(book.counts)])
     yield from _table(("источник", *COUNT_HEADS), rows)
+    yield ""
+    yield shown.apart(book.counts)
     for source, title in SOURCES.items():
         yield ""
         yield f"## {SHORT[source]}"

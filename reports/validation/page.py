@@ -103,6 +103,7 @@ def validation_page(book: Book, *, media: Literal["print", "screen"]) -> str:
         doc=DocumentInfo(_TITLE, subject="Печатные числа пяти источников и расчёт"),
         title=_TITLE,
         counts=book.counts,
+        apart=shown.apart(book.counts),
         heading=heading,
         summary=summary,
         by_table=by_table,

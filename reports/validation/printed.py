@@ -53,6 +53,7 @@ class Cell:
         what: What the number is (Russian), of running text only.
         unit: Its unit (Russian), of running text only.
         units: Own tolerance in units of the last digit.
+        is_place: What is checked is where the number stands or that none does, not the number.
     """
 
     row: str
@@ -61,6 +62,7 @@ class Cell:
     what: str = ""
     unit: str = ""
     units: float | None = None
+    is_place: bool = False
 
 
 @lru_cache(maxsize=64)
@@ -100,7 +102,7 @@ def window_cells(table: str) -> Iterator[Cell]:
     for row in rows_of(table):
         label, *_ = row.values()
         for column, text in list(row.items())[1:]:
-            yield Cell(label, column, text)
+            yield Cell(label, column, text, is_place=label.isdigit())
 
 
 def force_cells(table: str) -> Iterator[Cell]:

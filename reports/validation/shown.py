@@ -6,7 +6,7 @@ import re
 
 from kshm.nomenclature.quantity import quantity
 from reports.shared.russian import MINUS, fixed
-from reports.validation.book import WORDS
+from reports.validation.book import WORDS, Counts
 from reports.validation.checks import UNKNOWN, Check, Verdict
 from reports.validation.printed import Number, rows_of
 
@@ -86,6 +86,17 @@ def verdict(check: Check) -> str:
     """Verdict in words with its reason and what should stand there."""
     word = WORDS[check.verdict]
     return f"{word}: {check.reason}" if check.reason else word
+
+
+def apart(counts: Counts) -> str:
+    """What is checked besides the numbers, in a sentence."""
+    signs, placed, empty = (
+        f"{all_} (совпадает {agree})" for all_, agree in (counts.signs, counts.placed, counts.empty)
+    )
+    return (
+        f"Кроме того сверены, но в числа не входят: знаки — {signs}; места сил в клетках лучей "
+        f"таблицы 14, где сама сила взята из печати, — {placed}; пустые места печати — {empty}."
+    )
 
 
 def row_head(check: Check) -> str:

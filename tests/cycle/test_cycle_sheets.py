@@ -124,7 +124,7 @@ def typed(book: bytes, name: str, value: float) -> tuple[Book, InputFile]:
     (field,) = (f for f in iter_fields(data) if f.name == name)
     section, key = (str(part) for part in field.path)
     changed = loaded("cycle-turbo-diesel", {f"{section}.{key}": value})
-    (result,) = Formualizer().recalculate([type_into(book, data, Change(field, value))])
+    (result,) = Formualizer().recalculate([type_into(book, data, [Change(field, value)])])
     return result, changed
 
 

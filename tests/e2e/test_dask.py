@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from reports.cli import main
-from reports.grading.batch import far as far_module
+from reports.grading.batch import cluster as cluster_module
 from reports.grading.batch.grade import Options as GradeOptions
 from reports.grading.batch.grade import grade
 from reports.shared import ordered
@@ -95,8 +95,8 @@ def test_grading_survives_a_killed_worker_byte_for_byte(
         (books / f"{number}.xlsx").write_bytes(data)
     issued, secret = classroom.folder() / "issued", classroom.folder() / "secret.key"
     killing, killed = killer(cluster)
-    monkeypatch.setattr(far_module, "in_order", killing)
-    monkeypatch.setattr(far_module, "PART", 1)
+    monkeypatch.setattr(cluster_module, "in_order", killing)
+    monkeypatch.setattr(cluster_module, "PART", 1)
     for name, options in (
         ("far", GradeOptions(dask=cluster.scheduler_address)),
         ("near", GradeOptions(workers=1)),

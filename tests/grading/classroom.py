@@ -6,9 +6,9 @@ from functools import lru_cache
 from pathlib import Path
 from tempfile import mkdtemp
 
+from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.issue import Result, assignment_for, issue
 from reports.grading.issuing.register import Issued, Register
-from reports.grading.judging.items import Assignment
 from reports.grading.judging.marking import Marker
 from reports.grading.judging.marking import Result as Marks
 from reports.grading.reading.submissions import Submission

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from openpyxl import Workbook
 
-from reports.grading.judging.items import Assignment
+from reports.grading.issuing.assignment import Assignment
 from reports.spec.evaluation import Values
 from reports.workbook.layout import Layout
 from tests.grading.fill import Formula
@@ -180,8 +180,7 @@ DEFECTS = (
     Defect("own helper", edit=_helper),
     Defect("inlined", one(V1, _inlined)),
     Defect("lookup", one("r_crank", lambda f: "=VLOOKUP(geometry_crank_radius_mm,"
-                                              "{radius}:{radius},1,FALSE)/1000"),
-           note="formualizer"),
+                                              "{radius}:{radius},1,FALSE)/1000")),
     Defect("indirect", one("V_c", lambda f: '=INDIRECT("V_h")/(geometry_compression_ratio-1)'),
            {"geometry.V_c": "unknown"}, manual=True),
     Defect("several", both(one(S1, lambda f: f"=-({f[1:]})"), typed("P3_2", "beta_rad"),

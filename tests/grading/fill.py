@@ -8,8 +8,8 @@ from collections.abc import Callable, Mapping
 from openpyxl import Workbook, load_workbook
 
 from reports.formula.excel import compile_formula
+from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.handout import fill_cells
-from reports.grading.judging.items import Assignment
 from reports.spec.blocks import TableSpec
 from reports.workbook.layout import FIRST_ROW, Layout, RowReferences, at_row
 

@@ -9,8 +9,8 @@ from collections.abc import Callable
 
 from lxml import etree
 
-from reports.recalculation.by_columns.syntax import column_number, pattern, render
 from reports.recalculation.by_formualizer import Formualizer
+from reports.recalculation.language import column_number, pattern, render
 from reports.workbook.caches import sheet_parts
 
 MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"

@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 
 from reports.grading.batch.grade import Options, grade
+from reports.grading.issuing.rubric import rubric_of
 from reports.grading.judging.marking import late_factor
-from reports.grading.judging.rubric import rubric_of
 from reports.grading.reading.submissions import collect
 from reports.shared.errors import InputError
 from tests.grading import classroom

@@ -14,8 +14,8 @@ from reports.exports.build import load_input
 from reports.grading.issuing.issue import issue
 from reports.grading.issuing.register import load_register
 from reports.grading.issuing.roster import read_roster
+from reports.grading.issuing.rubric import Rubric, load_rubric
 from reports.grading.issuing.variants import draw_variants, load_base
-from reports.grading.judging.rubric import Rubric, load_rubric
 from reports.shared.errors import InputError
 from reports.shared.resources import samples_dir
 from reports.spec.evaluation import evaluate_model

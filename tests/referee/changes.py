@@ -6,6 +6,7 @@ import io
 import random
 import re
 import zipfile
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from lxml import etree
@@ -44,51 +45,69 @@ def free_fields(data: InputFile) -> list[Field]:
     ]
 
 
-def with_value(data: InputFile, field: Field, value: float | str) -> InputFile | None:
-    """The input with one value changed; None where ``kshm check`` refuses it."""
+def with_values(data: InputFile, changes: Sequence[Change]) -> InputFile | None:
+    """The input with some values changed; None where ``kshm check`` refuses it."""
     raw = to_mapping(data)
-    set_value(raw, field.path, value)
+    for change in changes:
+        set_value(raw, change.field.path, change.value)
     try:
         return load_mapping(raw, source="changed").model
     except InputError:
         return None
 
 
-def random_change(data: InputFile, rng: random.Random) -> tuple[Change, InputFile]:
-    """A change of one free input cell that ``kshm check`` accepts, and the input it makes."""
-    free = free_fields(data)
-    while True:
-        field = rng.choice(free)
-        if field.choices is not None:
-            value: float | str = rng.choice(list(field.choices))
-        else:
-            value = round(float(field.value) * rng.uniform(0.8, 1.25) + rng.choice([0, 0, 0.01]), 6)
-        if value == field.value:
-            continue
-        changed = with_value(data, field, value)
-        if changed is not None:
-            return Change(field, value), changed
+def changed_everywhere(
+    data: InputFile, rng: random.Random, spread: float
+) -> tuple[list[Change], InputFile]:
+    """Every free input cell changed at once, and the input that this makes.
 
-
-def type_into(book: bytes, data: InputFile, change: Change) -> bytes:
-    """The workbook with the change typed into its cell; all formulas as they were.
-
-    The cell is changed in the sheet's part: opening and saving seventeen
-    thousand formulas for each of many changes would take minutes.
+    A formula that does not follow one of its inputs shows itself whichever input it is.
+    Cells whose change ``kshm check`` refuses together with the others keep their values.
+    ``spread`` is the largest share by which a number changes.
     """
-    cell = Layout.of(build_model(data)).cells[change.field.name]
-    shown = change.field.choices[change.value] if change.field.choices else change.value
+    wanted = [Change(field, _other(field, rng, spread)) for field in free_fields(data)]
+    taken: list[Change] = []
+    parts = [wanted]
+    while parts:  # halves of what is refused, so that few cells are tried alone
+        part = parts.pop()
+        made = with_values(data, [*taken, *part])
+        if made is not None:
+            taken, result = [*taken, *part], made
+        elif len(part) > 1:
+            parts += [part[len(part) // 2 :], part[: len(part) // 2]]
+    return taken, result
+
+
+def _other(field: Field, rng: random.Random, spread: float) -> float | str:
+    if field.choices is not None:
+        return rng.choice([choice for choice in field.choices if choice != field.value])
+    value = float(field.value)
+    return round(value * (1 + rng.uniform(spread / 5, spread)) + 0.01 * (value == 0), 6)
+
+
+def type_into(book: bytes, data: InputFile, changes: Sequence[Change]) -> bytes:
+    """The workbook with changes typed into their cells; all formulas as they were.
+
+    The cells are changed in the sheets' parts: opening and saving seventeen thousand
+    formulas would take minutes.
+    """
+    layout = Layout.of(build_model(data))
+    of_sheet: dict[str, list[tuple[str, float | str]]] = {}
+    for change in changes:
+        cell = layout.cells[change.field.name]
+        choices = change.field.choices
+        shown = choices[change.value] if choices else change.value
+        of_sheet.setdefault(cell.sheet, []).append((cell.coordinate, shown))
     stream = io.BytesIO()
     with (
         zipfile.ZipFile(io.BytesIO(book)) as source,
         zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as target,
     ):
-        part = sheet_parts(source)[cell.sheet]
+        parts = {part: of_sheet[title] for title, part in sheet_parts(source).items()
+                 if title in of_sheet}  # fmt: skip
         for name in source.namelist():
             content = source.read(name)
-            if name == part:
-                content = _typed(content, cell.coordinate, shown)
-            target.writestr(name, content)
+            target.writestr(name, _typed(content, parts[name]) if name in parts else content)
     return stream.getvalue()
 
 
@@ -112,15 +131,17 @@ def without_charts(book: bytes) -> bytes:
     return stream.getvalue()
 
 
-def _typed(content: bytes, coordinate: str, shown: float | str) -> bytes:
+def _typed(content: bytes, values: Sequence[tuple[str, float | str]]) -> bytes:
     root = etree.fromstring(content)
-    (cell,) = root.iterfind(f".//{MAIN}c[@r='{coordinate}']")
-    for child in list(cell):
-        cell.remove(child)
-    if isinstance(shown, str):
-        cell.set("t", "inlineStr")
-        etree.SubElement(etree.SubElement(cell, f"{MAIN}is"), f"{MAIN}t").text = shown
-    else:
-        cell.set("t", "n")
-        etree.SubElement(cell, f"{MAIN}v").text = repr(shown)
+    cells = {cell.get("r"): cell for cell in root.iter(f"{MAIN}c")}
+    for coordinate, shown in values:
+        cell = cells[coordinate]
+        for child in list(cell):
+            cell.remove(child)
+        if isinstance(shown, str):
+            cell.set("t", "inlineStr")
+            etree.SubElement(etree.SubElement(cell, f"{MAIN}is"), f"{MAIN}t").text = shown
+        else:
+            cell.set("t", "n")
+            etree.SubElement(cell, f"{MAIN}v").text = repr(shown)
     return bytes(etree.tostring(root))

@@ -106,7 +106,7 @@ def test_a_regime_in_the_open_workbook_is_live(tmp_path: Path) -> None:
     data = read(coarse())
     book = workbook_bytes(build_model(data))
     field = next(f for f in iter_fields(data) if f.name == "regime_speed_rpm_R3")
-    changed = type_into(book, data, Change(field, 6000.0))
+    changed = type_into(book, data, [Change(field, 6000.0)])
     (result,) = Formualizer().recalculate([changed])
     raw = coarse()
     raw["regimes"][1]["speed_rpm"] = 6000

@@ -73,12 +73,12 @@ def error(name: str, degrees: float, lam: float) -> float:
 
 
 def test_numbers_of_the_text() -> None:
-    """Example 1 and the errors; four numbers cannot be what the formulas give."""
+    """Example 1 and the errors; six numbers cannot be what the formulas give."""
     assert beyond("segal_text") == recorded("segal_text")
     assert {row for row, _ in beyond("segal_text")} == {
-        "check", "v_error", "j_error_025", "j_change",
+        "check", "v_error", "j_error_025", "j_change", "v_error_angle", "j_bdc",
     }  # fmt: skip
-    assert len(checks("segal_text")) == 12
+    assert len(checks("segal_text")) == 16
 
 
 def test_errors_that_cannot_be_reproduced() -> None:

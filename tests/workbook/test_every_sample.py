@@ -17,7 +17,7 @@ from reports.tables.registry import build_model
 from reports.workbook.caches import sheet_parts
 from reports.workbook.read import load_workbook_input
 from tests.conftest import sample_names
-from tests.referee.changes import free_fields, with_value
+from tests.referee.changes import Change, free_fields, with_values
 from tests.workbook.lint import (
     COMPILED,
     MAIN,
@@ -76,7 +76,9 @@ def with_every_value_changed(data: InputFile) -> tuple[InputFile, float]:
         else:
             # A value that is bound to another one may move in one direction only.
             others = [field.value * 1.003, field.value * 0.997, field.value + 0.01]
-        tried = (with_value(data, field, value) for value in others if value != field.value)
+        tried = (
+            with_values(data, [Change(field, value)]) for value in others if value != field.value
+        )
         found = next((changed for changed in tried if changed is not None), None)
         if found is not None:
             data, done = found, done + 1

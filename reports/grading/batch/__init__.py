@@ -1,1 +1,1 @@
-"""Many books at once, in workers."""
+"""Many books at once: in workers, on a cluster, taken up where it stopped."""

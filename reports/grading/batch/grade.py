@@ -12,13 +12,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from reports.grading.batch.far import grade_far
+from reports.grading.batch.cluster import grade_far
 from reports.grading.batch.pool import TIMEOUT_S, Outcome, grade_all
 from reports.grading.issuing.issue import latin
-from reports.grading.issuing.register import FILE, Register, load_register
-from reports.grading.issuing.ticket import read_secret, secret_path
+from reports.grading.issuing.register import FILE, Register, checked_register
+from reports.grading.issuing.rubric import load_rubric
 from reports.grading.judging.marking import FORMAT, Marker, blank_result
-from reports.grading.judging.rubric import load_rubric
 from reports.grading.pages.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
 from reports.grading.pages.pages import class_page, student_page
 from reports.grading.pages.summary import summarise, table_rows
@@ -102,19 +101,6 @@ def grade(
         batch.write_pdf()
     reused = len(submissions) - len(batch.waiting)
     return Graded(folder, summary, reused, time.monotonic() - started)
-
-
-def checked_register(issued: Path, secret_file: Path | None) -> Register:
-    """The register, proved to be the one that was issued with the secret.
-
-    Raises:
-        InputError: it is not.
-    """
-    register = load_register(issued)
-    if not register.books:
-        raise InputError(Problem(str(issued), "в реестре нет ни одной работы", "выдайте варианты"))
-    register.check(read_secret(secret_path(secret_file)), issued)
-    return register
 
 
 class _Batch:

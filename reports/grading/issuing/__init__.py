@@ -1,1 +1,1 @@
-"""Variants out: roster, work-books, register."""
+"""Variants out: rubric, assignment, roster, work-books, register."""

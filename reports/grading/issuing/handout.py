@@ -13,7 +13,7 @@ from openpyxl.workbook import Workbook
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
 
-from reports.grading.judging.items import Assignment
+from reports.grading.issuing.assignment import Assignment
 from reports.spec.blocks import Block, Grid, Model, TableSpec, scalars_of
 from reports.spec.charts import ChartSpec
 from reports.spec.evaluation import Evaluation, Values

@@ -11,13 +11,13 @@ from typing import Any
 
 import tomlkit
 
+from reports.grading.issuing.assignment import Assignment, assignment_of
 from reports.grading.issuing.handout import handout_bytes
 from reports.grading.issuing.register import FILE, Issued, Register, ticket_of
 from reports.grading.issuing.roster import Student, read_roster
+from reports.grading.issuing.rubric import Rubric, load_rubric
 from reports.grading.issuing.ticket import make_secret, read_secret, secret_path
 from reports.grading.issuing.variants import Base, Variant, draw_variants, load_base
-from reports.grading.judging.items import Assignment, assignment_of
-from reports.grading.judging.rubric import Rubric, load_rubric
 from reports.inputs.fields import Field, Value, iter_fields
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.input_file import InputFile

@@ -12,8 +12,8 @@ from typing import Any
 
 from reports.exports.numbers import neutralised
 from reports.grading.issuing.roster import Student
-from reports.grading.issuing.ticket import ticket
-from reports.grading.judging.rubric import Rubric, rubric_of
+from reports.grading.issuing.rubric import Rubric, rubric_of
+from reports.grading.issuing.ticket import read_secret, secret_path, ticket
 from reports.shared.errors import InputError, Problem
 from reports.shared.files import reason
 
@@ -129,6 +129,19 @@ def load_register(folder: Path) -> Register:
         return Register(str(data["batch"]), int(data["seed"]), str(data["source"]), rubric, books)
     except (KeyError, TypeError, ValueError):
         raise InputError(_damaged(path)) from None
+
+
+def checked_register(issued: Path, secret_file: Path | None) -> Register:
+    """The register, proved to be the one that was issued with the secret.
+
+    Raises:
+        InputError: it is not.
+    """
+    register = load_register(issued)
+    if not register.books:
+        raise InputError(Problem(str(issued), "в реестре нет ни одной работы", "выдайте варианты"))
+    register.check(read_secret(secret_path(secret_file)), issued)
+    return register
 
 
 def _damaged(path: Path) -> Problem:

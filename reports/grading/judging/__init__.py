@@ -1,1 +1,1 @@
-"""Verdicts, causes and points."""
+"""Verdicts, causes and points of one workbook; signals over all of them."""

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from reports.formula.numeric import evaluate_tree
 from reports.formula.parse import names, parse
-from reports.grading.judging.items import Item
+from reports.grading.issuing.assignment import Item
 from reports.grading.judging.verdicts import Judgement, close, tolerance
 from reports.grading.reading.student import Student, known_values
 from reports.inputs.sections.input_file import METHODS

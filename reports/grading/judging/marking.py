@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
+from reports.grading.issuing.assignment import Assignment, Item
 from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
+from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.causes import Causes, OtherVariant
-from reports.grading.judging.items import Assignment, Item
-from reports.grading.judging.rubric import Rubric
 from reports.grading.judging.verdicts import (
     BROKEN,
     CARRIED,
@@ -27,18 +27,20 @@ from reports.grading.judging.verdicts import (
     judge_all,
 )
 from reports.grading.reading.matching import Match, file_properties, find_by_name, find_owner
-from reports.grading.reading.stronger import recalculate_unknown
 from reports.grading.reading.student import Student, address
 from reports.grading.reading.submissions import Submission
 from reports.inputs.fields import cell_name
 from reports.inputs.ranges import Range
-from reports.recalculation.by_columns import BadBook, Grid, read_grid
+from reports.recalculation.evaluate import Engine
+from reports.recalculation.grid import BadBook, Grid
+from reports.recalculation.language import UnknownFormula
+from reports.recalculation.read import read_grid
 from reports.shared.errors import InputError
 from reports.workbook.intake import check_data
 from reports.workbook.layout import Layout
 from reports.workbook.package import Package
 
-FORMAT = 1
+FORMAT = 2
 SHOWN_ROWS = 12  # wrong cells shown in the feedback of an item
 Result = dict[str, Any]
 
@@ -121,11 +123,9 @@ class Marker:
         result["manual"].append(f"файл не принят: {why}")
         return result
 
-    def student(self, book: Issued, grid: Grid) -> tuple[Student, bool]:
-        """The workbook under its assignment; whether a stronger referee had to help."""
-        assignment, layout = self.assignment(book)
-        student = Student.of(assignment, layout, grid)
-        return student, recalculate_unknown(student)
+    def student(self, book: Issued, grid: Grid) -> Student:
+        """The workbook under its assignment."""
+        return Student.of(*self.assignment(book), grid)
 
     def _grade(
         self,
@@ -136,7 +136,7 @@ class Marker:
         book: Issued,
         package: Package,
     ) -> None:
-        student, helped = self.student(book, grid)
+        student = self.student(book, grid)
         judgements = judge_all(student)
         causes = Causes(student, self.others(book.number), self.titles(assignment))
         items = [_line(student, judgement, causes, assignment) for judgement in judgements]
@@ -150,7 +150,6 @@ class Marker:
                 for c in student.changed[:50]
             ],
             "altered": altered(student, read_grid(package) if student.changed else None)[:50],
-            "helped": helped,
         }
         notes = result["notes"]
         if student.changed:
@@ -277,8 +276,6 @@ def _fingerprint(item: Item, values: np.ndarray[Any, np.dtype[np.float64]]) -> s
 
 def altered(student: Student, original: Grid | None) -> list[str]:
     """Cells whose saved value is not what their formula gives."""
-    from reports.recalculation.by_columns import Engine, UnknownFormula
-
     grid = original or student.grid
     engine = student.engine if original is None else Engine(original)
     found = []
@@ -292,7 +289,7 @@ def altered(student: Student, original: Grid | None) -> list[str]:
                 continue
             try:
                 values = engine.all_of(run)
-            except (UnknownFormula, RecursionError):
+            except UnknownFormula:
                 continue
             away = np.abs(claims - values)
             if not (away > 1e-6).any():

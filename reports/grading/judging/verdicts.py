@@ -8,18 +8,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.grading.judging.items import Item
-from reports.grading.reading.student import (
-    BLANK,
-    ERROR,
-    LOST,
-    NUMBER,
-    TEXT,
-    Answer,
-    Student,
-    known_values,
-)
-from reports.recalculation.by_columns import UnknownFormula
+from reports.grading.issuing.assignment import Item
+from reports.grading.reading.student import LOST, Answer, Student, known_values
+from reports.recalculation.evaluate import BLANK, ERROR, NUMBER, TEXT
+from reports.recalculation.language import UnknownFormula
 
 Array = NDArray[np.float64]
 
@@ -140,10 +132,7 @@ def _judge_text(item: Item, student: Student, answers: list[Answer]) -> Judgemen
         if place is None or place.rows[0] is None or answer.problem:
             why = answer.problem or "ячейки не найдены в книге"
             return Judgement(item, UNKNOWN, nothing, nothing, reason=why)
-        column = student.grid.column(place.sheet, place.column)
-        found = column.constants.get(place.rows[0])
-        for run in column.runs:
-            found = run.texts.get(place.rows[0], found)
+        found = student.engine.shown(place.sheet, place.column, place.rows[0])
         if found is None:
             empty.append(i)
         elif str(found).casefold() != str(student.expected.value(node)).casefold():
@@ -234,7 +223,7 @@ def judge_all(student: Student) -> list[Judgement]:
     for item in student.assignment.items:
         try:
             found.append(judge(item, student))
-        except (UnknownFormula, RecursionError) as problem:
+        except UnknownFormula as problem:
             count = sum(student.assignment.length(node) for node in item.nodes)
             nothing = np.full(count, np.nan)
             found.append(Judgement(item, UNKNOWN, nothing, nothing, reason=str(problem)))

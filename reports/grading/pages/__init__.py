@@ -1,1 +1,1 @@
-"""Pages and tables for people."""
+"""Pages and tables for people; one verdict explained."""

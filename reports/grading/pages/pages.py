@@ -10,7 +10,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from kshm.nomenclature.digits import Digits
-from reports.grading.judging.rubric import Rubric
+from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.verdicts import WORDS
 from reports.grading.pages.chart import line_chart
 from reports.shared.resources import templates_dir

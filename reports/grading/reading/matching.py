@@ -12,8 +12,8 @@ from reports.grading.issuing.issue import latin
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.issuing.ticket import PATTERN
 from reports.grading.reading.submissions import Submission
-from reports.recalculation.by_columns import BadBook, Grid
-from reports.recalculation.by_columns.sheet_xml import parse_xml
+from reports.recalculation.grid import BadBook, Grid
+from reports.recalculation.sheets import parse_xml
 from reports.workbook.package import Package
 
 

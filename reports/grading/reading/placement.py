@@ -6,11 +6,12 @@ table are told by the angles in its first column.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from reports.grading.issuing.handout import anchor_name, cell_name
-from reports.recalculation.by_columns import Engine, Grid, UnknownFormula
+from reports.recalculation.evaluate import NUMBER, Engine
+from reports.recalculation.grid import Grid
+from reports.recalculation.language import UnknownFormula
 from reports.spec.blocks import Model, TableSpec
 from reports.workbook.layout import KEY_COLUMN, SYMBOL_COLUMN, TITLE_COLUMN, VALUE_COLUMN, Layout
 from reports.workbook.sheets import capital
@@ -70,7 +71,7 @@ def find_places(model: Model, layout: Layout, grid: Grid) -> Placement:
         at = grid.names.get((key if key in layout.named else cell_name(key)).casefold())
         by = "name"
         if at is None or at[0] not in grid.sheets:
-            at, by = search.scalar(model, key), "header"
+            at, by = search.scalar(model, key, cell.column), "header"
         if at is None and search.same_headers(model, layout, key):
             at = (cell.sheet, cell.row, cell.column)
         if at is not None:
@@ -150,10 +151,10 @@ def _calculated(grid: Grid, sheet: str, header: int, column: int) -> dict[int, f
     first, last = header + 2, header + _SEARCH_ROWS
     try:
         values, kinds = Engine(grid).values(sheet, column, first, last)
-    except (UnknownFormula, RecursionError):
+    except UnknownFormula:
         return {}
     numbers = zip(values.tolist(), kinds, strict=True)
-    return {first + i: value for i, (value, kind) in enumerate(numbers) if kind == "n"}
+    return {first + i: value for i, (value, kind) in enumerate(numbers) if kind == NUMBER}
 
 
 def _report_sheets(model: Model, layout: Layout, found: Placement) -> None:
@@ -196,20 +197,20 @@ class _Search:
             return None
         return hits[0][0], hits[0][1], hits[0][2] + distance
 
-    def scalar(self, model: Model, key: str) -> tuple[str, int, int] | None:
-        """The value cell of a list's scalar by its title and symbol."""
+    def scalar(self, model: Model, key: str, column: int) -> tuple[str, int, int] | None:
+        """The value cell of a scalar by its title and symbol, as far from them as in ``column``."""
         scalar = model.scalars[key]
         title = _plain(capital(scalar.note or scalar.quantity.title))
         symbol = _plain(scalar.quantity.symbol)
         step = SYMBOL_COLUMN - TITLE_COLUMN
         hits = [
-            (sheet, row, column)
-            for sheet, row, column in self.texts.get(title, [])
-            if _plain(str(self.grid.constant(sheet, row, column + step) or "")) == symbol
+            (sheet, row, at)
+            for sheet, row, at in self.texts.get(title, [])
+            if _plain(str(self.grid.constant(sheet, row, at + step) or "")) == symbol
         ]
         if len(hits) != 1:
             return None
-        return hits[0][0], hits[0][1], hits[0][2] + VALUE_COLUMN - TITLE_COLUMN
+        return hits[0][0], hits[0][1], hits[0][2] + column - TITLE_COLUMN
 
     def same_headers(self, model: Model, layout: Layout, key: str) -> bool:
         """Whether a grid's cell still stands under its own label, in its own row."""
@@ -240,10 +241,3 @@ class _Search:
 
 def _plain(text: str) -> str:
     return " ".join(text.split()).casefold()
-
-
-def nodes_at(placement: Placement) -> Iterator[tuple[str, int, int, str]]:
-    """Sheet, column, row and node of every placed cell of a scalar or input."""
-    for node, place in placement.places.items():
-        if len(place.rows) == 1 and place.rows[0] is not None:
-            yield place.sheet, place.column, place.rows[0], node

@@ -9,17 +9,17 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.grading.judging.items import Assignment
+from reports.grading.issuing.assignment import Assignment
 from reports.grading.reading.placement import Place, Placement, find_places
-from reports.recalculation.by_columns import Engine, Grid, UnknownFormula
-from reports.recalculation.by_columns.engine import Area
-from reports.recalculation.by_columns.grid import Column, Run
+from reports.recalculation.evaluate import BLANK, ERROR, Engine
+from reports.recalculation.grid import Area, Column, Grid, Run
+from reports.recalculation.language import UnknownFormula
 from reports.spec.evaluation import Evaluation
 from reports.workbook.inputs import shown
 from reports.workbook.layout import Layout
 
 Array = NDArray[np.float64]
-BLANK, NUMBER, TEXT, ERROR, LOST = "b", "n", "t", "e", "x"
+LOST = "x"  # beside the kinds of ``recalculation.evaluate``
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +61,6 @@ class Student:
     placement: Placement
     expected: Evaluation
     changed: list[Changed] = field(default_factory=list)
-    problems: dict[int, str] = field(default_factory=dict)  # id of a run → why it is unknown
 
     @classmethod
     def of(cls, assignment: Assignment, layout: Layout, grid: Grid) -> Student:
@@ -114,7 +113,7 @@ class Student:
     def _put(self, place: Place, index: int, name: str, value: float | str) -> None:
         row = place.rows[index]
         column = self.grid.sheets[place.sheet].setdefault(place.column, Column())
-        run = column.run_at(row) if column.runs and row is not None else None
+        run = next(iter(column.runs_in(row, row)), None) if row is not None else None
         found = column.constants.get(row) if row is not None else None
         if run is None and row not in column.errors and _same(found, value):
             return
@@ -124,8 +123,7 @@ class Student:
         text = "формула" if run is not None else "пусто" if found is None else str(found)
         where = f"{place.sheet}!{address(row, place.column)}"
         self.changed.append(Changed(where, name, value, text))
-        if run is not None:
-            _cut(column, run, row)
+        column.cut({row})
         column.errors.pop(row, None)
         column.constants[row] = value if isinstance(value, str) else float(value)
 
@@ -152,7 +150,7 @@ class Student:
         first, last = span.first, span.last
         try:
             numbers, kinds = self.engine.values(place.sheet, place.column, first, last)
-        except (UnknownFormula, RecursionError) as problem:
+        except UnknownFormula as problem:
             blank = np.zeros(count, dtype=bool)
             return Answer(place, np.full(count, np.nan), ERROR * count, blank, str(problem) or "?")
         typed = column.constants
@@ -176,7 +174,7 @@ class Student:
         column = self.grid.column(place.sheet, place.column)
         if span is None:
             return []
-        near = [run for run in column.runs if run.first <= span.last and run.last >= span.first]
+        near = column.runs_in(span.first, span.last)
         if span.whole:
             return near
         rows = {row for row in place.rows if row is not None}
@@ -205,18 +203,14 @@ class Student:
     def _precedents(self, node: str, enough: frozenset[str]) -> frozenset[str]:
         """Precedents of a node, or those found until one of ``enough`` is among them."""
         found: set[str] = set()
-        seen: set[int] = set()
+        seen: set[Run] = set()
         stack = self.runs(node)
         while stack:
             run = stack.pop()
-            if id(run) in seen:
+            if run in seen:
                 continue
-            seen.add(id(run))
-            try:
-                areas = list(self.engine.areas(run))
-            except UnknownFormula:
-                continue
-            for area in areas:
+            seen.add(run)
+            for area in self.grid.precedents(run):
                 hit, rest = self._nodes_in(area)
                 found |= hit
                 if not enough.isdisjoint(hit - {node}):
@@ -228,18 +222,21 @@ class Student:
     def _nodes_in(self, area: Area) -> tuple[set[str], list[Run]]:
         nodes: set[str] = set()
         helpers: list[Run] = []
-        for number in range(area.first_column, area.last_column + 1):
-            column = self.grid.sheets.get(area.sheet, {}).get(number)
-            if column is None:
+        taken: dict[int, list[tuple[int, int, Place]]] = {}
+        for (sheet, number), entries in self._columns_at.items():
+            if sheet != area.sheet or not area.first_column <= number <= area.last_column:
                 continue
-            taken: list[tuple[int, int, Place]] = []
-            for node, first, last, place in self._columns_at.get((area.sheet, number), []):
+            for node, first, last, place in entries:
                 if first <= area.last_row and last >= area.first_row:
                     nodes.add(node)
-                    taken.append((first, last, place))
-            for run in column.runs:
+                    taken.setdefault(number, []).append((first, last, place))
+        for number in self.grid.columns_of(area):
+            known = taken.get(number, [])
+            if _covered(area.first_row, area.last_row, known):
+                continue
+            for run in self.grid.column(area.sheet, number).runs_in(area.first_row, area.last_row):
                 low, high = max(run.first, area.first_row), min(run.last, area.last_row)
-                if low <= high and not _covered(low, high, taken):
+                if not _covered(low, high, known):
                     helpers.append(run)
         return nodes, helpers
 
@@ -259,7 +256,7 @@ class Student:
                 for row in range(run.first, run.last + 1):
                     if row in index:
                         values[index[row]] = part[row - run.first]
-        except (UnknownFormula, RecursionError):
+        except UnknownFormula:
             return None
         return values
 
@@ -268,14 +265,12 @@ class Student:
         """The workbook with the right values typed into all cells to fill in."""
         sheets = {
             title: {
-                number: Column(
-                    dict(c.constants), dict(c.errors), [r.part(r.first, r.count) for r in c.runs]
-                )
+                number: Column(dict(c.constants), dict(c.errors), list(c.runs))
                 for number, c in columns.items()
             }
             for title, columns in self.grid.sheets.items()
         }
-        grid = Grid(sheets, self.grid.names)
+        grid = Grid(sheets, self.grid.names, self.grid.areas)
         for node in self.assignment.fill_nodes:
             place = self.placement.places.get(node)
             if place is None:
@@ -283,10 +278,7 @@ class Student:
             right = self.expected.value(node)
             column = sheets[place.sheet].setdefault(place.column, Column())
             rows = {r for r in place.rows if r is not None}
-            kept: list[Run] = []
-            for run in column.runs:
-                kept += _without(run, rows)
-            column.runs = kept
+            column.cut(rows)
             for i, row in enumerate(place.rows):
                 if row is not None:
                     column.errors.pop(row, None)
@@ -302,26 +294,6 @@ def _covered(low: int, high: int, taken: list[tuple[int, int, Place]]) -> bool:
             return True
     rows = {row for _, _, place in taken for row in place.rows}
     return all(row in rows for row in range(low, high + 1))
-
-
-def _without(run: Run, rows: set[int]) -> list[Run]:
-    """The parts of a run outside some rows."""
-    parts: list[Run] = []
-    start = None
-    for row in range(run.first, run.last + 2):
-        outside = row <= run.last and row not in rows
-        if outside and start is None:
-            start = row
-        elif not outside and start is not None:
-            parts.append(run.part(start, row - start))
-            start = None
-    return parts
-
-
-def _cut(column: Column, run: Run, row: int) -> None:
-    """Take one cell out of a run."""
-    at = column.runs.index(run)
-    column.runs[at : at + 1] = _without(run, {row})
 
 
 def _same(found: float | str | bool | None, wanted: float | str) -> bool:

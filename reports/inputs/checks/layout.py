@@ -18,6 +18,7 @@ def check_layout(values: Values) -> Iterator[Finding]:
     """Yield what contradicts itself in the arrangement of the engine."""
     yield from _banks(values)
     yield from _counts(values)
+    yield from _sizes(values)
     yield from _phases(values)
     yield from _offset(values)
     yield from _articulated(values)
@@ -73,6 +74,9 @@ def _counts(values: Values) -> Iterator[Finding]:
     wanted = {
         "firing_offsets_deg": (cylinders, "по одному на цилиндр"),
         "throw_angles_deg": (throws, "по одному на колено"),
+        "pin_diameters_mm": (throws, "по одному на колено"),
+        "pin_lengths_mm": (throws, "по одной на колено"),
+        "main_diameters_mm": (throws + 1, "на один больше, чем колен"),
         "main_lengths_mm": (throws + 1, "на одну шейку больше, чем колен"),
         "force_offsets_deg": (throws, "по одному на колено"),
         "webs": (2 * throws, "по две щеки на колено"),
@@ -85,6 +89,22 @@ def _counts(values: Values) -> Iterator[Finding]:
             knees = f", колен {throws}" if throws != cylinders else ""
             hint = f"{rule}, цилиндров {cylinders}{knees}"
             yield Finding(("crankshaft", key), what, hint)
+
+
+def _sizes(values: Values) -> Iterator[Finding]:
+    """Sizes of journals: one for all or a list, not both and not neither."""
+    for each in ("pin_diameters_mm", "pin_lengths_mm", "main_diameters_mm"):
+        one = each.replace("s_mm", "_mm")
+        if not values.sure("crankshaft", one, each):
+            continue
+        given = [key for key in (one, each) if values.get("crankshaft", key) is not None]
+        if len(given) == 2:
+            what = f"размер задан дважды: {one} и {each}"
+            yield Finding(("crankshaft", each), what, "оставьте один ключ")
+        elif not given:
+            what = "обязательный ключ не задан"
+            hint = f"один размер для всех шеек, или список {each}, если они разные"
+            yield Finding(("crankshaft", one), what, hint)
 
 
 def _phases(values: Values) -> Iterator[Finding]:

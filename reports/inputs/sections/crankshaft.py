@@ -86,9 +86,33 @@ class CrankshaftSection(Strictly):
         ],
         Strict(False),
     ]
-    pin_diameter_mm: Annotated[float, number("Диаметр шатунной шейки", "d_шш", MM, 2, 2000)]
-    pin_length_mm: Annotated[float, number("Рабочая длина шатунной шейки", "l_шш", MM, 1, 2000)]
-    main_diameter_mm: Annotated[float, number("Диаметр коренных шеек", "d_кш", MM, 2, 2000)]
+    pin_diameter_mm: Annotated[
+        float | None, number("Диаметр шатунной шейки", "d_шш", MM, 2, 2000)
+    ] = None
+    pin_diameters_mm: Annotated[
+        tuple[Annotated[float, number("Шатунная шейка {n}: диаметр", "d_шш{n}", MM, 2, 2000)], ...]
+        | None,
+        Strict(False),
+    ] = None
+    pin_length_mm: Annotated[
+        float | None, number("Рабочая длина шатунной шейки", "l_шш", MM, 1, 2000)
+    ] = None
+    pin_lengths_mm: Annotated[
+        tuple[
+            Annotated[float, number("Шатунная шейка {n}: рабочая длина", "l_шш{n}", MM, 1, 2000)],
+            ...,
+        ]
+        | None,
+        Strict(False),
+    ] = None
+    main_diameter_mm: Annotated[
+        float | None, number("Диаметр коренных шеек", "d_кш", MM, 2, 2000)
+    ] = None
+    main_diameters_mm: Annotated[
+        tuple[Annotated[float, number("Коренная шейка {n}: диаметр", "d_кш{n}", MM, 2, 2000)], ...]
+        | None,
+        Strict(False),
+    ] = None
     main_lengths_mm: Annotated[
         tuple[
             Annotated[float, number("Коренная шейка {n}: рабочая длина", "l_кш{n}", MM, 1, 2000)],

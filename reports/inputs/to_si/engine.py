@@ -228,11 +228,16 @@ def _crankshaft(shaft: CrankshaftSection) -> Crankshaft:
             angle=DEG.to_si(shaft.rear_angle_deg),
             arm=MM.to_si(shaft.rear_arm_mm),
         ),
-        pin_diameters=(MM.to_si(shaft.pin_diameter_mm),) * throws,
-        pin_lengths=(MM.to_si(shaft.pin_length_mm),) * throws,
-        main_diameters=(MM.to_si(shaft.main_diameter_mm),) * journals,
+        pin_diameters=_sizes(shaft.pin_diameter_mm, shaft.pin_diameters_mm, throws),
+        pin_lengths=_sizes(shaft.pin_length_mm, shaft.pin_lengths_mm, throws),
+        main_diameters=_sizes(shaft.main_diameter_mm, shaft.main_diameters_mm, journals),
         main_lengths=tuple(MM.to_si(length) for length in shaft.main_lengths_mm),
     )
+
+
+def _sizes(one: float | None, each: tuple[float, ...] | None, count: int) -> tuple[float, ...]:
+    """Sizes of all journals [m] from one for all or one each."""
+    return tuple(MM.to_si(size) for size in each or (one or 0.0,) * count)
 
 
 def _throw(

@@ -77,7 +77,7 @@ def _table(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
             """),
             Column(
                 "I_engine_kgm2",
-                f"{shape.throws}*I_crank + I_counterweights + "
+                f"{_cranks(shape)} + I_counterweights + "
                 + " + ".join(f"moving{i}" for i in numbers),
                 "сумма по цилиндрам",
             ),
@@ -102,7 +102,36 @@ def _table(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
     )
 
 
-def _parts(model: InputFile) -> ScalarTable:
+def _cranks(shape: Shape) -> str:
+    """Moments of inertia of all throws."""
+    if not shape.own_pins:
+        return f"{shape.throws}*I_crank"
+    return " + ".join(["I_crank", *(f"I_crank_throw{i}" for i in range(2, shape.throws + 1))])
+
+
+def _main_journals(model: InputFile, count: int) -> tuple[str, str]:
+    """Mean diameter of the main journals [m] and the inertia of the mean one [kg·m²]."""
+    lengths = [f"main_length_{k}_mm" for k in range(1, count + 1)]
+    if model.crankshaft.main_diameters_mm is None:
+        d_k, total = "of_mm(crankshaft_main_diameter_mm)", f"total({', '.join(lengths)})"
+        return d_k, f"pi*{d_k}**4/32*of_mm({total})/{count}*{_STEEL}"
+    sizes = [f"main_diameter_{k}_mm" for k in range(1, count + 1)]
+    each = (f"of_mm({d})**4*of_mm({length})" for d, length in zip(sizes, lengths, strict=True))
+    return f"(of_mm({' + '.join(sizes)})/{count})", f"pi/32*({' + '.join(each)})/{count}*{_STEEL}"
+
+
+def _throw(number: int, d_k: str) -> tuple[str, str]:
+    """Moments of inertia of a throw's pin and of one of its webs [kg·m²]."""
+    d_sh, length = f"of_mm(pin_diameter_{number}_mm)", f"of_mm(pin_length_{number}_mm)"
+    bore = "2*sqrt(F_piston/pi)"
+    height = f"(r_crank + {d_sh}/2 + {d_k}/2 + 1/100)"
+    wide, thick = f"(balance_web_width_share*{bore})", f"(balance_web_thickness_share*{bore})"
+    web = f"{height}*{wide}*{thick}*{_STEEL}"
+    pin = f"pi*{d_sh}**4/32*{length}*{_STEEL} + pi*{d_sh}**2/4*{length}*{_STEEL}*r_crank**2"
+    return pin, f"{web}/12*({height}**2 + {wide}**2) + {web}*r_crank**2/4"
+
+
+def _parts(model: InputFile, shape: Shape) -> ScalarTable:
     masses = model.masses
     share = "balance_rod_small_end_share"
     if masses.reciprocating_kg is not None:
@@ -116,12 +145,13 @@ def _parts(model: InputFile) -> ScalarTable:
             else "(1 - masses_rod_small_end_share)*L_rod"
         )
     lengths = len(model.crankshaft.main_lengths_mm)
-    main = "total(" + ", ".join(f"main_length_{k + 1}_mm" for k in range(lengths)) + ")"
-    d_k, d_sh = "of_mm(crankshaft_main_diameter_mm)", "of_mm(crankshaft_pin_diameter_mm)"
-    bore, pin = "2*sqrt(F_piston/pi)", "of_mm(crankshaft_pin_length_mm)"
-    height = f"(r_crank + {d_sh}/2 + {d_k}/2 + 1/100)"
-    wide, thick = f"(balance_web_width_share*{bore})", f"(balance_web_thickness_share*{bore})"
-    web = f"{height}*{wide}*{thick}*{_STEEL}"
+    d_k, main = _main_journals(model, lengths)
+    own = range(2, shape.throws + 1) if shape.own_pins else ()
+    others = [
+        f"I_crank_throw{i} of I_crank = I_main + {pin} + 2*({web}) | Ильченко (35)"
+        for i, (pin, web) in ((i, _throw(i, d_k)) for i in own)
+    ]
+    pin, web = _throw(1, d_k)
     webs = " + ".join(f"web_{k}_counterweight_kg" for k in range(1, 2 * (lengths - 1) + 1))
     return ScalarTable(
         "inertia_parts",
@@ -129,15 +159,14 @@ def _parts(model: InputFile) -> ScalarTable:
         RESULTS,
         (
             *scalar_list(f"""
-                I_main = pi*{d_k}**4/32*of_mm({main})/{lengths}*{_STEEL} | Ильченко (32), d⁴
-                I_pin = pi*{d_sh}**4/32*{pin}*{_STEEL} + pi*{d_sh}**2/4*{pin}*{_STEEL}*r_crank**2
-                    | Ильченко (33), d⁴
-                I_web = {web}/12*({height}**2 + {wide}**2) + {web}*r_crank**2/4
-                    | Ильченко (34), толщина h
+                I_main = {main} | Ильченко (32), d⁴
+                I_pin = {pin} | Ильченко (33), d⁴
+                I_web = {web} | Ильченко (34), толщина h
                 I_crank = I_main + I_pin + 2*I_web | Ильченко (35)
                 rod_mass = {rod} | исходные данные или m₂ и доля
                 rod_x = {centre} | исходные данные или доля
             """),
+            *(scalar for text in others for scalar in scalar_list(text)),
             _rod_inertia(model),
             *scalar_list(f"""
                 piston_mass = {piston} | исходные данные или m_j
@@ -207,20 +236,20 @@ def _rod_model() -> ScalarTable:
             rm_middle = 1.3*rm_least | табл. 1: (1,2…1,4)hмин
             rm_width = 0.55*rm_small_length | табл. 1: (0,5…0,6)lш
             rm_wall = min(13/4000, 3*rm_width/10, 3*rm_least/10) | табл. 1: 2,5…4 мм
-            rm_cap = 0.55*of_mm(crankshaft_pin_diameter_mm) | табл. 1: (0,5…0,6)dш
+            rm_cap = 0.55*of_mm(pin_diameter_1_mm) | табл. 1: (0,5…0,6)dш
             {r} = sqrt({area.format(h="rm_least")}/pi) | Ильченко (21): равная площадь
             {big} = sqrt({area.format(h="rm_middle")}/pi) | Ильченко (21): равная площадь
             rm_span = L_rod - rm_cap - rm_small_outer/2 | Ильченко, под (21)
             rm_m_small = {_STEEL}*pi*rm_small_length*((rm_small_outer/2)**2 - (rm_small_bore/2)**2)
                 | Ильченко (30), lш и dн
-            rm_m_big = {_STEEL}*pi*of_mm(crankshaft_pin_length_mm)*(rm_cap**2
-                - (of_mm(crankshaft_pin_diameter_mm)/2)**2) | Ильченко (30)
+            rm_m_big = {_STEEL}*pi*of_mm(pin_length_1_mm)*(rm_cap**2
+                - (of_mm(pin_diameter_1_mm)/2)**2) | Ильченко (30)
             rm_m_shank = {_STEEL}*pi/3*rm_span*({big}**2 + {r}**2 + {big}*{r}) | Ильченко (30)
             rod_model_mass = rm_m_small + rm_m_big + rm_m_shank | Ильченко (30)
             rm_I_small = {_STEEL}*pi/2*rm_small_length*((rm_small_outer/2)**4
                 - (rm_small_bore/2)**4) | Ильченко (20)
-            rm_I_big = {_STEEL}*pi/2*of_mm(crankshaft_pin_length_mm)*(rm_cap**4
-                - (of_mm(crankshaft_pin_diameter_mm)/2)**4) | Ильченко (20)
+            rm_I_big = {_STEEL}*pi/2*of_mm(pin_length_1_mm)*(rm_cap**4
+                - (of_mm(pin_diameter_1_mm)/2)**4) | Ильченко (20)
             rm_I_shank = {_STEEL}*pi/20*({big}**5 - {r}**5)*rm_span/({big} - {r})
                 + {_STEEL}*pi*rm_span**3/30*({big}**2 + 6*{r}**2 + 3*{big}*{r}) | Ильченко (28)
             rm_z = rm_span*({big}**2 + 3*{r}**2 + 2*{big}*{r})/(4*({big}**2 + {r}**2 + {big}*{r}))
@@ -250,7 +279,7 @@ def inertia(scope: Scope) -> Part:
     if not scope.shape.by_orders:
         return Part()
     table = _table(scope.shape, scope.cycle)
-    return Part((table, _results(), _parts(scope.input), _rod_model()), _charts())
+    return Part((table, _results(), _parts(scope.input, scope.shape), _rod_model()), _charts())
 
 
 def _charts() -> tuple[ChartSpec, ...]:

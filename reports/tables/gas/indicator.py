@@ -11,7 +11,7 @@ from reports.spec.parts import Part, Scope
 from reports.spec.shape import TIMING, Shape
 from reports.tables.gas.diagram import diagram_blocks
 from reports.tables.gas.pressure import WORK, Corners, corner_points, pressure
-from reports.tables.motion.articulated import hung_corners
+from reports.tables.motion.articulated import SUFFIX, hung_height, hung_ratio
 
 
 def indicator(scope: Scope) -> Part:
@@ -31,6 +31,14 @@ def _corner_points(model: InputFile) -> tuple[ScalarTable, ...]:
     if shape.articulated:
         tables.append(corner_points(model, hung_corners(shape)))
     return tuple(tables)
+
+
+def hung_corners(shape: Shape) -> Corners:
+    """Volume and dead centres of the cylinders with articulated rods."""
+    return Corners(
+        shape, lambda phi: hung_ratio(hung_height(shape, phi)),
+        "phi_tdc_art_deg", "phi_bdc_art_deg", SUFFIX,
+    )  # fmt: skip
 
 
 def _table(model: InputFile, rows: tuple[float, ...]) -> TableSpec:

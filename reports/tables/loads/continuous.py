@@ -223,7 +223,7 @@ def _correction(k: int, throws: int, axis: str) -> str:
 def _compared(shape: Shape) -> Grid:
     """Both schemes side by side for every support."""
     numbers = range(1, shape.throws + 2)
-    projected = "(of_mm(crankshaft_main_diameter_mm)*of_mm(main_length_{k}_mm))"
+    projected = "(of_mm(main_diameter_{k}_mm)*of_mm(main_length_{k}_mm))"
 
     def row(of: str, text: str, source: str) -> GridRow:
         name, _, kind = of.partition("_")

@@ -9,7 +9,7 @@ from reports.spec.listing import column_list
 from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape
 from reports.tables.gas.indicator import displaced, own_pressure, timing
-from reports.tables.motion.articulated import hung_table
+from reports.tables.loads.hung import hung_table
 from reports.tables.motion.mechanism import acceleration
 
 

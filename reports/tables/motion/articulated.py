@@ -7,20 +7,18 @@ written in the frame of its own cylinder, velocities and accelerations follow li
 
 from __future__ import annotations
 
-from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, over_phi
 from reports.spec.listing import column_list, scalar_list
 from reports.spec.parts import Part, Scope
-from reports.spec.shape import TIMING, Shape
-from reports.tables.gas.pressure import WORK, Corners, pressure
+from reports.spec.shape import Shape
 
 SHEET = "Прицепной шатун"
 SUFFIX = "_art"
 SOURCE = "геометрия, Гоц, рис. 2 в"
 STEPS = 7  # Newton's method for the dead centres
-_BANK = "rad(crankshaft_bank_angle_deg)"
-_RHO, _LENGTH = "of_mm(articulated_radius_mm)", "of_mm(articulated_rod_length_mm)"
+BANK = "rad(crankshaft_bank_angle_deg)"
+RHO, _LENGTH = "of_mm(articulated_radius_mm)", "of_mm(articulated_rod_length_mm)"
 
 
 def _links(shape: Shape, phi: str, prefix: str = "", suffix: str = "") -> dict[str, str]:
@@ -33,7 +31,7 @@ def _links(shape: Shape, phi: str, prefix: str = "", suffix: str = "") -> dict[s
     def n(key: str) -> str:
         return f"{prefix}{key}{suffix}"
 
-    alpha = f"(rad({phi}) + {_BANK})"
+    alpha = f"(rad({phi}) + {BANK})"
     offset, k = ("e_offset", "k_offset") if shape.offset else ("0", "0")
     sine = f"(sin({alpha}) - {k})"
     root = f"(1 - lam**2*{sine}**2)"
@@ -42,18 +40,18 @@ def _links(shape: Shape, phi: str, prefix: str = "", suffix: str = "") -> dict[s
         # (18) and (19) over ω and ω².
         "turn_1": f"lam*cos({alpha})/sqrt{root}",
         "turn_2": f"lam*(lam**2*cos({alpha})**2*{sine} - {root}*sin({alpha}))/{root}**1.5",
-        "chi_rad": f"rad(articulated_angle_deg) - {_BANK} - {n('beta_master_rad')}",
-        "q_x": f"r_crank*sin(rad({phi})) + {_RHO}*sin({n('chi_rad')})",
-        "q_y": f"r_crank*cos(rad({phi})) + {_RHO}*cos({n('chi_rad')})",
-        "q_x1": f"r_crank*cos(rad({phi})) - {n('turn_1')}*{_RHO}*cos({n('chi_rad')})",
-        "q_y1": f"{n('turn_1')}*{_RHO}*sin({n('chi_rad')}) - r_crank*sin(rad({phi}))",
+        "chi_rad": f"rad(articulated_angle_deg) - {BANK} - {n('beta_master_rad')}",
+        "q_x": f"r_crank*sin(rad({phi})) + {RHO}*sin({n('chi_rad')})",
+        "q_y": f"r_crank*cos(rad({phi})) + {RHO}*cos({n('chi_rad')})",
+        "q_x1": f"r_crank*cos(rad({phi})) - {n('turn_1')}*{RHO}*cos({n('chi_rad')})",
+        "q_y1": f"{n('turn_1')}*{RHO}*sin({n('chi_rad')}) - r_crank*sin(rad({phi}))",
         # Towards the crank axis, along the radius to the crankpin, across it.
         "q_x2": (
-            f"-(r_crank*sin(rad({phi}))) - {_RHO}*({n('turn_1')}**2*sin({n('chi_rad')})"
+            f"-(r_crank*sin(rad({phi}))) - {RHO}*({n('turn_1')}**2*sin({n('chi_rad')})"
             f" + {n('turn_2')}*cos({n('chi_rad')}))"
         ),
         "q_y2": (
-            f"-(r_crank*cos(rad({phi}))) - {_RHO}*({n('turn_1')}**2*cos({n('chi_rad')})"
+            f"-(r_crank*cos(rad({phi}))) - {RHO}*({n('turn_1')}**2*cos({n('chi_rad')})"
             f" - {n('turn_2')}*sin({n('chi_rad')}))"
         ),
         "beta_rad": f"asin(({n('q_x')} - {offset})/{_LENGTH})",
@@ -70,25 +68,18 @@ def _links(shape: Shape, phi: str, prefix: str = "", suffix: str = "") -> dict[s
     }
 
 
-def hung_corners(shape: Shape) -> Corners:
-    """Volume and dead centres of the cylinders with articulated rods."""
-    return Corners(
-        shape, lambda phi: _ratio(_height(shape, phi)),
-        "phi_tdc_art_deg", "phi_bdc_art_deg", SUFFIX,
-    )  # fmt: skip
-
-
-def _ratio(height: str) -> str:
+def hung_ratio(height: str) -> str:
+    """V/V_c from the height of the piston pin [m]."""
     return f"1 + (geometry_compression_ratio - 1)*(y_tdc_art - ({height}))/S_art"
 
 
-def _height(shape: Shape, phi: str) -> str:
+def hung_height(shape: Shape, phi: str) -> str:
     """Height of the piston pin over the shaft [m] in one expression."""
-    alpha = f"(rad({phi}) + {_BANK})"
+    alpha = f"(rad({phi}) + {BANK})"
     offset, k = ("e_offset", "k_offset") if shape.offset else ("0", "0")
-    chi = f"(rad(articulated_angle_deg) - {_BANK} - asin(lam*(sin({alpha}) - {k})))"
-    across = f"(r_crank*sin(rad({phi})) + {_RHO}*sin({chi}) - {offset})"
-    return f"r_crank*cos(rad({phi})) + {_RHO}*cos({chi}) + sqrt({_LENGTH}**2 - {across}**2)"
+    chi = f"(rad(articulated_angle_deg) - {BANK} - asin(lam*(sin({alpha}) - {k})))"
+    across = f"(r_crank*sin(rad({phi})) + {RHO}*sin({chi}) - {offset})"
+    return f"r_crank*cos(rad({phi})) + {RHO}*cos({chi}) + sqrt({_LENGTH}**2 - {across}**2)"
 
 
 def articulated(scope: Scope) -> Part:
@@ -147,7 +138,8 @@ def _sizes() -> ScalarTable:
     )
 
 
-def _helpers(shape: Shape, phi: str, left_out: tuple[str, ...] = ()) -> list[Column]:
+def hung_helpers(shape: Shape, phi: str, left_out: tuple[str, ...] = ()) -> list[Column]:
+    """Columns of the linkage that the formulas of a table name."""
     return [
         Column(key, text, SOURCE, helper=True, of=key if key.endswith("rad") else f"hung_{key}")
         for key, text in _links(shape, phi).items()
@@ -169,7 +161,7 @@ def _motion(shape: Shape, turn: tuple[float, ...]) -> TableSpec:
             v_exact_m_s = -(omega*y_1) | {SOURCE}
             j_exact_m_s2 = -(omega**2*y_2) | {SOURCE}
         """),
-        *_helpers(shape, "phi_deg", tuple(shown)),
+        *hung_helpers(shape, "phi_deg", tuple(shown)),
     ]
     return TableSpec(
         "articulated",
@@ -183,68 +175,6 @@ def _motion(shape: Shape, turn: tuple[float, ...]) -> TableSpec:
             "его поршня точное."
         ),
     )
-
-
-def hung_table(model: InputFile, rows: tuple[float, ...], number: int) -> TableSpec:
-    """Forces of a cylinder whose rod hangs on the master rod."""
-    shape = Shape.of(model)
-    corners = hung_corners(shape)
-    period = shape.period
-    timing = f"mod(phase_deg - phi_tdc_art_deg, {period}) + phi_tdc_art_deg"
-    unit = "articulated_big_end_kg*omega**2"
-    phi = "rad(phase_deg)"
-    columns = [
-        *column_list(f"""
-            phi_deg
-            phase_deg of phase{number}_deg = mod(phi_deg - firing_offset_{number}_deg, {period})
-                | угол в цикле
-            volume_ratio = {_ratio('y')} | {SOURCE}
-            p_MPa = {pressure(model, TIMING, 'volume_ratio', corners)} | Гоц, 2.4
-            Pg_MPa = p_MPa - gas_ambient_pressure_mpa | Гоц (33)
-            Pj_MPa = to_MPa(articulated_reciprocating_kg*omega**2*y_2/F_piston) | Гоц (30)
-            Ps_MPa = Pg_MPa + Pj_MPa | Гоц, 2.4
-            N_MPa = Ps_MPa*tan(beta_rad) | Гоц (34)
-            S_MPa = Ps_MPa/cos(beta_rad) | Гоц (35)
-            T_MPa = to_x*cos({phi}) - to_y*sin({phi}) | статика шатунов
-            K_MPa = -(to_x*sin({phi})) - to_y*cos({phi}) | статика шатунов
-            M_Nm = of_MPa(T_MPa)*F_piston*r_crank | Гоц, 2.5
-            Nadd_MPa = bend/(L_rod*cos(beta_master_rad)) | статика главного шатуна
-            Mrod_Nm = of_MPa(bend)*F_piston | статика главного шатуна
-        """),
-        *_helpers(shape, "phase_deg"),
-        Column(TIMING, timing, "угол от ВМТ", helper=True, of="phase_deg"),
-        _force("push_x", f"N_MPa - to_MPa({unit}*q_x2/F_piston)"),
-        _force("push_y", f"-Ps_MPa - to_MPa({unit}*q_y2/F_piston)"),
-        *column_list(f"""
-            helpers:
-            bend of hung_bend = {_RHO}*(push_y*sin(chi_rad) - push_x*cos(chi_rad))
-                | момент относительно шейки
-        """),
-        # The master piston's wall answers across the master cylinder, turned by the bank angle.
-        _force("to_x", f"push_x + Nadd_MPa*cos({_BANK})"),
-        _force("to_y", f"push_y + Nadd_MPa*sin({_BANK})"),
-        *column_list(f"""
-            helpers:
-            volume_dm3 = V_c_art*volume_ratio | Гоц, 1.1
-            work_J = {WORK} | ∫p dV
-        """),
-    ]  # fmt: skip
-    return TableSpec(
-        f"cylinder_{number}",
-        f"Ц{number}",
-        f"Силы в цилиндре {number} с прицепным шатуном",
-        "Цилиндры",
-        tuple(columns),
-        rows,
-        note=(
-            "T и K цилиндра с прицепным шатуном — составляющие на шатунной шейке его силы вместе "
-            "с боковой силой ΔN, которую она вызывает у поршня главного шатуна."
-        ),
-    )
-
-
-def _force(key: str, text: str) -> Column:
-    return Column(key, text, "статика шатунов", helper=True, of=f"hung_{key}")
 
 
 def _charts() -> tuple[ChartSpec, ...]:

@@ -19,6 +19,22 @@ EXACT = (
 )
 
 
+def size_stand_ins(model: InputFile) -> dict[str, str]:
+    """Sizes of a single journal where the input gives one size for all."""
+    shaft, throws = model.crankshaft, len(model.crankshaft.throw_angles_deg)
+    sizes = (
+        ("pin_diameter", shaft.pin_diameters_mm, throws),
+        ("pin_length", shaft.pin_lengths_mm, throws),
+        ("main_diameter", shaft.main_diameters_mm, throws + 1),
+    )
+    return {
+        f"{name}_{number}_mm": f"crankshaft_{name}_mm"
+        for name, each, count in sizes
+        if each is None
+        for number in range(1, count + 1)
+    }
+
+
 def dimensions(scope: Scope) -> Part:
     """Dimensions, masses and constant forces."""
     return Part((_sizes(scope.input), _masses(scope.input)))

@@ -24,7 +24,7 @@ def summary(scope: Scope) -> Part:
     rays = model.calculation.wear_rays
     blocks = (
         _torque(model, shape),
-        *(_pin(number, pins, rays) for number in range(1, pins + 1)),
+        *(_pin(number, shape, rays) for number in range(1, pins + 1)),
         *(_journal(k, rays) for k in range(1, journals + 1)),
         _running(throws),
         _loads(journals, pins),
@@ -79,9 +79,10 @@ def _hung_work(shape: Shape) -> tuple[Scalar, ...]:
     return (Scalar("W_hung", f"col_sum({table}.work_J)", "∫p dV"),)
 
 
-def _pin(number: int, pins: int, rays: int) -> ScalarTable:
-    projected = "(of_mm(crankshaft_pin_diameter_mm)*of_mm(crankshaft_pin_length_mm))"
-    n = pin_name(number)
+def _pin(number: int, shape: Shape, rays: int) -> ScalarTable:
+    n, pins = pin_name(number), len(shape.pins)
+    throw = shape.throw_of(shape.pins[number - 1][0])
+    projected = f"(of_mm(pin_diameter_{throw}_mm)*of_mm(pin_length_{throw}_mm))"
     name, table = f"Rpin{n}", "crankpin" if number == 1 else f"crankpin_{number}"
     return ScalarTable(
         f"summary_pin{n}",
@@ -103,7 +104,7 @@ def _pin(number: int, pins: int, rays: int) -> ScalarTable:
 
 def _journal(k: int, rays: int) -> ScalarTable:
     name, table = f"Rmain{k}", f"P4_3_{k}"
-    projected = f"(of_mm(crankshaft_main_diameter_mm)*of_mm(main_length_{k}_mm))"
+    projected = f"(of_mm(main_diameter_{k}_mm)*of_mm(main_length_{k}_mm))"
     return ScalarTable(
         f"summary_main_{k}",
         f"Коренная шейка {k}",

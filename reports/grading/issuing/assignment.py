@@ -8,7 +8,7 @@ from fnmatch import fnmatchcase
 from functools import cached_property
 
 from kshm.nomenclature.quantity import Quantity
-from reports.grading.judging.rubric import Rubric
+from reports.grading.issuing.rubric import Rubric
 from reports.shared.errors import InputError, Problem
 from reports.spec.blocks import Block, Column, Grid, Model, Scalar, TableSpec
 from reports.spec.graph import Graph, graph_of, nodes_of

@@ -70,7 +70,7 @@ def _parts(
 def graded(part: Part) -> Answers:
     """Answers for a part, in the order of its files."""
     done = subprocess.run(
-        [sys.executable, "-m", "reports.grading.batch.far"],
+        [sys.executable, "-m", "reports.grading.batch.cluster"],
         input=pickle.dumps(part), stdout=subprocess.PIPE, check=False,
     )  # fmt: skip
     if done.returncode != 0:

@@ -8,19 +8,19 @@ from pathlib import Path
 import numpy as np
 
 from reports.formula.excel import compile_formula
-from reports.grading.batch.grade import checked_register
-from reports.grading.issuing.register import FILE
+from reports.grading.issuing.assignment import Item
+from reports.grading.issuing.register import FILE, checked_register
+from reports.grading.issuing.rubric import load_rubric
 from reports.grading.judging.causes import Causes
-from reports.grading.judging.items import Item
 from reports.grading.judging.marking import Marker
-from reports.grading.judging.rubric import load_rubric
 from reports.grading.judging.verdicts import WORDS, WRONG, Judgement, judge, tolerance
 from reports.grading.pages.pages import number, rows
 from reports.grading.reading.matching import find_owner
 from reports.grading.reading.student import Student
 from reports.grading.reading.submissions import collect
-from reports.recalculation.by_columns import BadBook, read_grid
-from reports.recalculation.by_columns.syntax import column_number, render
+from reports.recalculation.grid import BadBook
+from reports.recalculation.language import column_number, render
+from reports.recalculation.read import read_grid
 from reports.shared.errors import InputError, Problem
 from reports.shared.russian import short
 from reports.workbook.intake import check_data
@@ -55,13 +55,11 @@ def explain(
     if match.book is None:
         raise InputError(Problem(file.name, "; ".join(match.doubts), "проверьте файл"))
     marker = Marker(register)
-    student, helped = marker.student(match.book, grid)
+    student = marker.student(match.book, grid)
     item = _find_item(student, target)
     judgement = judge(item, student)
     yield f"Студент: {match.book.student.full}, вариант {match.book.number}"
     yield "Основание: " + "; ".join(match.evidence)
-    if helped:
-        yield "Книгу пересчитал formualizer: в ней есть функции вне быстрого списка."
     others = marker.others(match.book.number)
     causes = Causes(student, others, marker.titles(student.assignment))
     yield from _about(student, item, judgement, causes)
@@ -115,7 +113,11 @@ def _about(student: Student, item: Item, judgement: Judgement, causes: Causes) -
             yield f"Где: лист «{place.sheet}», найдено {how}"
         yield f"Формула учебника ({item.source or 'без номера'}): {_textbook(student, node)}"
         for run in student.runs(node)[:_SHOWN]:
-            text = render(run.pattern, run.first, run.column) if run.pattern else "=" + run.text
+            text = (
+                render(run.formula.pattern, run.first, run.column)
+                if run.formula
+                else "=" + run.text
+            )
             yield f"Формула студента, строки {run.first}–{run.last}: {text[:300]}"
     found = frozenset().union(*(student.precedents(node) for node in item.nodes))
     names = ", ".join(sorted(found)) or "ни на одну величину книги"

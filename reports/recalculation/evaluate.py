@@ -1,0 +1,301 @@
+"""Values of a grid's formulas, calculated anew by formualizer.
+
+Whatever cannot be calculated for certain is unknown, and so is all that depends on it:
+an error of the library is never taken for an error of the student's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cached_property
+from math import isfinite
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reports.recalculation.formulas import is_doubtful
+from reports.recalculation.grid import Area, Grid, Run, is_backwards
+from reports.recalculation.language import UnknownFormula
+from reports.recalculation.lifted import NOT_LIFTED, WRONG, register
+from reports.recalculation.plain_book import formula_text, plain_book
+
+if TYPE_CHECKING:
+    from formualizer import Workbook
+
+Array = NDArray[np.float64]
+BLANK, NUMBER, TEXT, ERROR = "b", "n", "t", "e"
+
+# Errors of formulas; whatever else formualizer says is its own trouble.
+_ERRORS = {
+    "Div": "#DIV/0!", "Num": "#NUM!", "Value": "#VALUE!", "Ref": "#REF!", "Na": "#N/A",
+    "Null": "#NULL!", "Circ": "#CIRC!",
+}  # fmt: skip
+_LIMIT_MS = 40_000
+_SCRATCH = "\N{GREEK SMALL LETTER PHI}"
+
+
+class Engine:
+    """Values of a grid's cells.
+
+    A formula that cannot be calculated for certain raises ``UnknownFormula`` from every
+    method that needs its value.
+    """
+
+    def __init__(self, grid: Grid) -> None:
+        self.grid = grid
+        self._scratch = 0
+        self._singly: dict[tuple[str, int, int], Any] = {}  # calculated cell by cell
+
+    def values(self, sheet: str, column: int, first: int, last: int) -> tuple[Array, str]:
+        """Numbers of a column's cells and a letter for the kind of each.
+
+        The letters: ``n`` number, ``b`` blank, ``t`` text, ``e`` error; the number of
+        a blank, a text and an error is NaN.
+        """
+        known = self.grid.column(sheet, column)
+        numbers = np.full(last - first + 1, np.nan)
+        kinds = [BLANK] * len(numbers)
+        for row, constant in known.constants.items():
+            if first <= row <= last:
+                is_text = isinstance(constant, str)
+                numbers[row - first] = np.nan if is_text else float(constant)
+                kinds[row - first] = TEXT if is_text else NUMBER
+        for row in known.errors:
+            if first <= row <= last:
+                kinds[row - first] = ERROR
+        for run in known.runs_in(first, last):
+            found, letters = self._of(run)
+            low, high = max(first, run.first), min(last, run.last)
+            inside = slice(low - run.first, high - run.first + 1)
+            numbers[low - first : high - first + 1] = found[inside]
+            kinds[low - first : high - first + 1] = letters[inside]
+        return numbers, "".join(kinds)
+
+    def all_of(self, run: Run) -> Array:
+        """Numbers of all cells of a run, NaN where there is none."""
+        return self._of(run)[0]
+
+    def shown(self, sheet: str, column: int, row: int) -> float | str | None:
+        """What stands in a cell; a calculated text is folded by case, an error as ``#DIV/0!``."""
+        known = self.grid.column(sheet, column)
+        for run in known.runs_in(row, row):
+            index = row - run.first
+            number, kind = self._of(run)[0][index], self._of(run)[1][index]
+            value = self._raw[run][index]
+            if kind == ERROR:
+                return _ERRORS[value["kind"]] if isinstance(value, dict) else "#NUM!"
+            return str(value) if kind == TEXT else float(number)
+        return known.errors.get(row, known.constants.get(row))
+
+    def once(self, run: Run) -> Array:
+        """Values that a run's formula would have on this grid, which need not hold the run."""
+        self._check(run)
+        self._scratch += 1
+        title = f"{_SCRATCH}{self._scratch}"
+        self._book.add_sheet(title)
+        count = 1 if run.array else run.count
+        texts = [
+            [f"={formula_text(self.grid, run, run.first + i, run.column, run.sheet)}"]
+            for i in range(count)
+        ]
+        try:
+            self._book.set_formulas_batch(title, run.first, run.column, texts)
+            self._evaluate([(title, run.first + i, run.column) for i in range(count)])
+        except RuntimeError as error:
+            raise UnknownFormula(str(error)) from None
+        return _numbers(self._read(title, run), run)[0]
+
+    # --- what is known --------------------------------------------------------------------
+
+    def _of(self, run: Run) -> tuple[Array, str]:
+        values = self._values
+        if run in self._unknown:
+            raise UnknownFormula(self._unknown[run])
+        return values[run]
+
+    @cached_property
+    def _values(self) -> dict[Run, tuple[Array, str]]:
+        """Numbers and kinds of every run that is known; fills ``_unknown``."""
+        found = {}
+        for run, values in self._raw.items():
+            try:
+                found[run] = _numbers(values, run)
+            except UnknownFormula as error:
+                self._unknown[run] = str(error)
+        if len(found) < len(self._raw):
+            self._spread(self._unknown)
+        return found
+
+    @cached_property
+    def _unknown(self) -> dict[Run, str]:
+        """Runs that are not calculated, and why."""
+        found: dict[Run, str] = {}
+        for run in self.grid.runs():
+            reason = self._refusal(run)
+            if reason:
+                found[run] = reason
+        self._spread(found)
+        return found
+
+    def _spread(self, unknown: dict[Run, str]) -> None:
+        """What depends on an unknown cell is unknown."""
+        if not unknown:
+            return
+        dependents: dict[Run, list[Run]] = {}
+        for run in self.grid.runs():
+            if run.formula is not None and run not in unknown:
+                for area in self.grid.precedents(run):
+                    for other in self.grid.runs_of(area):
+                        dependents.setdefault(other, []).append(run)
+        stack = list(unknown)
+        while stack:
+            run = stack.pop()
+            for other in dependents.get(run, ()):
+                if other not in unknown:
+                    unknown[other] = unknown[run]
+                    stack.append(other)
+
+    def _refusal(self, run: Run) -> str:
+        """Why a run is not calculated, empty where it is."""
+        if run.formula is None or run.problem:
+            return run.problem
+        try:
+            references = run.formula.references
+        except UnknownFormula as error:
+            return str(error)
+        if run.formula.refusal:
+            return run.formula.refusal
+        for found in references:
+            area = self.grid.named(found.name) if found.name else None
+            if found.name and area is None and "LET" not in run.formula.functions:
+                return f"name {found.name}"
+            one = found.first == found.last if area is None else _is_cell(area)
+            if not (one or run.array or found.whole or found.spread):
+                return "a range where one value is wanted"
+            if area is None and is_backwards(run, found):
+                return "a range that ends before it begins"
+        if run.formula.gives_array and not run.array:
+            return "a range where one value is wanted"
+        return "number written as a text" if self._reads_doubtful(run) else ""
+
+    def _reads_doubtful(self, run: Run) -> bool:
+        """Whether a run calculates with a text that only some spreadsheets take for a number."""
+        return any(
+            area.sheet == sheet
+            and area.first_column <= column <= area.last_column
+            and area.first_row <= row <= area.last_row
+            and (found.spread or is_doubtful(text))
+            for found, area in (self.grid.located(run) if self._doubtful else ())
+            if not found.whole
+            for sheet, column, row, text in self._doubtful
+        )
+
+    @cached_property
+    def _doubtful(self) -> list[tuple[str, int, int, str]]:
+        return [
+            (sheet, number, row, value)
+            for sheet, columns in self.grid.sheets.items()
+            for number, column in columns.items()
+            for row, value in column.constants.items()
+            if isinstance(value, str) and is_doubtful(value, in_product=True)
+        ]
+
+    def _check(self, run: Run) -> None:
+        """Raise where a run that this grid need not hold cannot be calculated on it."""
+        reason = self._refusal(run)
+        if not reason and self._values is not None:
+            for area in self.grid.precedents(run):
+                for other in self.grid.runs_of(area):
+                    reason = reason or self._unknown.get(other, "")
+        if reason:
+            raise UnknownFormula(reason)
+
+    # --- formualizer ----------------------------------------------------------------------
+
+    @cached_property
+    def _book(self) -> Workbook:
+        import formualizer
+
+        config = formualizer.EvaluationConfig()
+        config.cycle_detection = "runtime"
+        config.enable_parallel = False
+        config.max_eval_time_ms = _LIMIT_MS
+        runs = [run for run in self.grid.runs() if run not in self._unknown]
+        book = formualizer.Workbook.from_bytes(
+            plain_book(self.grid, runs),
+            config=formualizer.WorkbookConfig(
+                mode=formualizer.WorkbookMode.Interactive, eval_config=config
+            ),
+        )
+        register(book, self._replaced(runs))
+        return book
+
+    @staticmethod
+    def _replaced(runs: list[Run]) -> frozenset[str]:
+        """Functions that formualizer would get wrong in some of these runs."""
+        found: frozenset[str] = frozenset()
+        for run in runs:
+            assert run.formula is not None
+            over_rectangles = run.array is not None or run.formula.takes_arrays
+            found |= run.formula.functions & (NOT_LIFTED if over_rectangles else WRONG)
+        return found
+
+    @cached_property
+    def _raw(self) -> dict[Run, list[Any]]:
+        """What formualizer says of the cells of every run that it was given."""
+        runs = [run for run in self.grid.runs() if run not in self._unknown]
+        self._evaluate(
+            (run.sheet, row, run.column) for run in runs for row in range(run.first, run.last + 1)
+        )
+        return {run: self._read(run.sheet, run) for run in runs}
+
+    def _evaluate(self, cells: Iterable[tuple[str, int, int]]) -> None:
+        """Everything at once; cell by cell where one formula keeps the others from it."""
+        from formualizer import ExcelEvaluationError
+
+        try:
+            self._book.evaluate_all()
+        except ExcelEvaluationError:
+            for cell in cells:
+                try:
+                    self._singly[cell] = self._book.evaluate_cell(*cell)
+                except ExcelEvaluationError as error:
+                    self._singly[cell] = {"kind": str(error)}
+
+    def _read(self, sheet: str, run: Run) -> list[Any]:
+        from formualizer import RangeAddress
+
+        area = RangeAddress(sheet, run.first, run.column, run.last, run.column)
+        values = self._book.sheet(sheet).get_values(area)
+        return [
+            self._singly.get((sheet, run.first + i, run.column), value)
+            for i, (value,) in enumerate(values)
+        ]
+
+
+def _is_cell(area: Area) -> bool:
+    return area.first_row == area.last_row and area.first_column == area.last_column
+
+
+def _numbers(values: list[Any], run: Run) -> tuple[Array, str]:
+    """Numbers and kinds of values as formualizer gives them.
+
+    Raises:
+        UnknownFormula: it could not tell one of them.
+    """
+    numbers = np.full(len(values), np.nan)
+    kinds = []
+    for index, value in enumerate(values):
+        kind = ERROR
+        if isinstance(value, (bool, int, float)):
+            if isfinite(value):
+                numbers[index], kind = float(value), NUMBER
+        elif isinstance(value, str):
+            kind = TEXT
+        elif not (isinstance(value, dict) and value.get("kind") in _ERRORS):
+            what = value.get("kind", "") if isinstance(value, dict) else type(value).__name__
+            msg = f"formualizer: {what}"
+            raise UnknownFormula(msg)
+        kinds.append(kind)
+    return numbers, "".join(kinds)

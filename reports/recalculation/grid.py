@@ -1,0 +1,190 @@
+"""The cells of a workbook, column by column: what was typed, runs of formulas, saved values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reports.recalculation.formulas import Formula, Reference
+
+MAX_ROW, MAX_COLUMN, MAX_CELLS, MAX_SHEETS = 20_000, 1_000, 400_000, 200
+
+Constant = float | str | bool
+
+
+class BadBook(ValueError):  # noqa: N818 - an expected find
+    """A workbook that cannot be read; the message is Russian."""
+
+
+@dataclass(frozen=True, slots=True)
+class Area:
+    """A rectangle of cells."""
+
+    sheet: str
+    first_row: int
+    last_row: int
+    first_column: int
+    last_column: int
+
+
+@dataclass(slots=True, eq=False)
+class Run:
+    """Cells of one column below each other with the same formula.
+
+    ``array`` is the extent of an array formula, of which the run is one column.
+    """
+
+    sheet: str
+    column: int
+    first: int
+    count: int
+    formula: Formula | None  # None: a formula that cannot be read
+    text: str
+    problem: str = ""
+    array: Area | None = None
+
+    @property
+    def last(self) -> int:
+        """Last row."""
+        return self.first + self.count - 1
+
+    def part(self, first: int, count: int) -> Run:
+        """The same formula in other rows of the column."""
+        problem = self.problem or ("часть формулы массива" if self.array else "")
+        return Run(self.sheet, self.column, first, count, self.formula, self.text, problem)
+
+
+@dataclass(slots=True)
+class Column:
+    """One column of a sheet: typed-in values, runs of formulas, claims of their values."""
+
+    constants: dict[int, Constant] = field(default_factory=dict)
+    errors: dict[int, str] = field(default_factory=dict)  # typed-in error values
+    runs: list[Run] = field(default_factory=list)
+    saved_rows: list[int] = field(default_factory=list)  # of cells with formulas
+    saved: list[float] = field(default_factory=list)  # NaN where no number is saved
+
+    def saved_of(self, run: Run) -> NDArray[np.float64]:
+        """Numbers saved for the cells of a run; NaN where nothing or something else was saved."""
+        rows = np.array(self.saved_rows, dtype=np.intp)
+        found = np.full(run.count, np.nan)
+        inside = (rows >= run.first) & (rows <= run.last)
+        found[rows[inside] - run.first] = np.array(self.saved)[inside]
+        return found
+
+    def runs_in(self, first: int, last: int) -> list[Run]:
+        """The runs with cells in some rows."""
+        return [run for run in self.runs if run.first <= last and first <= run.last]
+
+    def cut(self, rows: set[int]) -> None:
+        """Take the formulas out of some rows."""
+        kept: list[Run] = []
+        for run in self.runs:
+            kept += _without(run, rows)
+        self.runs = kept
+
+
+@dataclass(slots=True)
+class Grid:
+    """A workbook: sheets by title, columns by number; defined names, folded by case."""
+
+    sheets: dict[str, dict[int, Column]] = field(default_factory=dict)
+    names: dict[str, tuple[str, int, int]] = field(default_factory=dict)  # of single cells
+    areas: dict[str, Area] = field(default_factory=dict)  # names of more than one cell
+    cells: int = 0
+
+    def column(self, sheet: str, number: int) -> Column:
+        """A column, empty where there is none."""
+        return self.sheets.get(sheet, {}).get(number) or Column()
+
+    def constant(self, sheet: str, row: int, column: int) -> Constant | None:
+        """Typed-in value of a cell."""
+        return self.column(sheet, column).constants.get(row)
+
+    def title(self, sheet: str) -> str | None:
+        """Title of a sheet as the book writes it; titles do not differ by case."""
+        if sheet in self.sheets:
+            return sheet
+        wanted = sheet.casefold()
+        return next((title for title in self.sheets if title.casefold() == wanted), None)
+
+    def runs(self) -> Iterator[Run]:
+        """All runs."""
+        for columns in self.sheets.values():
+            for column in columns.values():
+                yield from column.runs
+
+    def named(self, name: str) -> Area | None:
+        """The cells of a defined name."""
+        cell = self.names.get(name)
+        if cell is not None:
+            return Area(cell[0], cell[1], cell[1], cell[2], cell[2])
+        return self.areas.get(name)
+
+    def columns_of(self, area: Area) -> list[int]:
+        """Numbers of the columns of a rectangle that hold anything."""
+        columns = self.sheets.get(area.sheet, {})
+        if area.last_column - area.first_column < len(columns):
+            return [n for n in range(area.first_column, area.last_column + 1) if n in columns]
+        return [n for n in columns if area.first_column <= n <= area.last_column]
+
+    def runs_of(self, area: Area) -> Iterator[Run]:
+        """The runs with cells in a rectangle."""
+        for number in self.columns_of(area):
+            yield from self.sheets[area.sheet][number].runs_in(area.first_row, area.last_row)
+
+    def precedents(self, run: Run) -> Iterator[Area]:
+        """All rectangles that a run refers to, over all its rows."""
+        return (area for _, area in self.located(run))
+
+    def located(self, run: Run) -> Iterator[tuple[Reference, Area]]:
+        """References of a run with the cells that they name, over all its rows."""
+        for found in run.formula.references if run.formula is not None else ():
+            if found.name:
+                area = self.named(found.name)
+                if area is not None:
+                    yield found, area
+                continue
+            top, bottom = (run.first, run.first) if run.array else (run.first, run.last)
+            left = run.array.first_column if run.array else run.column
+            ends = (found.first, found.last)
+            rows = [r.row if r.row_fixed else at + r.row for r in ends for at in (top, bottom)]
+            columns = [r.column if r.column_fixed else left + r.column for r in ends]
+            sheet = run.sheet if found.sheet is None else self.title(found.sheet)
+            if sheet is not None:
+                yield found, Area(sheet, min(rows), max(rows), min(columns), max(columns))
+
+
+def is_backwards(run: Run, found: Reference) -> bool:
+    """Whether a range ends before it begins in some row of a run."""
+    first, last = found.first, found.last
+
+    def place(fixed: bool, at: int, cell: int) -> int:
+        return at if fixed else cell + at
+
+    columns = (place(ref.column_fixed, ref.column, run.column) for ref in (first, last))
+    rows = [
+        [place(ref.row_fixed, ref.row, row) for ref in (first, last)]
+        for row in (run.first, run.last)
+    ]
+    left, right = columns
+    return left > right or any(top > bottom for top, bottom in rows)
+
+
+def _without(run: Run, rows: set[int]) -> list[Run]:
+    """The parts of a run outside some rows."""
+    if rows.isdisjoint(range(run.first, run.last + 1)):
+        return [run]
+    parts: list[Run] = []
+    start = None
+    for row in range(run.first, run.last + 2):
+        outside = row <= run.last and row not in rows
+        if outside and start is None:
+            start = row
+        elif not outside and start is not None:
+            parts.append(run.part(start, row - start))
+            start = None
+    return parts

@@ -1,0 +1,141 @@
+"""A grid written as the plainest workbook that holds it, for formualizer to calculate.
+
+People's files are read once, into the grid; the library sees what the grid holds and
+nothing else: no saved values, no formats, no formulas outside the whitelist.
+"""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from collections.abc import Collection
+from html import escape
+
+from reports.recalculation.grid import Area, Column, Constant, Grid, Run
+from reports.recalculation.language import Token, column_letters, quoted, render, unquoted
+
+_MAIN = 'xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"'
+_OFFICE = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+_PACKAGE = "http://schemas.openxmlformats.org/package/2006"
+_TYPES = "application/vnd.openxmlformats-officedocument.spreadsheetml"
+
+
+def folded(text: str) -> str:
+    """A text for comparisons that do not tell capitals; formualizer folds Latin letters only."""
+    return text.lower()
+
+
+def plain_book(grid: Grid, runs: Collection[Run]) -> bytes:
+    """The workbook with all constants of a grid and some of its runs."""
+    stream = io.BytesIO()
+    numbers = range(1, len(grid.sheets) + 1)
+    of_sheet: dict[str, list[Run]] = {}
+    for run in runs:
+        of_sheet.setdefault(run.sheet, []).append(run)
+    with zipfile.ZipFile(stream, "w") as archive:  # read at once: not worth compressing
+        overrides = "".join(
+            f'<Override PartName="/xl/worksheets/sheet{i}.xml" '
+            f'ContentType="{_TYPES}.worksheet+xml"/>'
+            for i in numbers
+        )
+        archive.writestr(
+            "[Content_Types].xml",
+            f'<Types xmlns="{_PACKAGE}/content-types"><Default Extension="rels" '
+            'ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
+            '<Default Extension="xml" ContentType="application/xml"/>'
+            f'<Override PartName="/xl/workbook.xml" ContentType="{_TYPES}.sheet.main+xml"/>'
+            f"{overrides}</Types>",
+        )
+        archive.writestr("_rels/.rels", _relations([("officeDocument", "xl/workbook.xml")]))
+        sheets = "".join(
+            f'<sheet name="{escape(title)}" sheetId="{i}" r:id="r{i}"/>'
+            for i, title in zip(numbers, grid.sheets, strict=True)
+        )
+        archive.writestr(
+            "xl/workbook.xml",
+            f'<workbook {_MAIN} xmlns:r="{_OFFICE}"><sheets>{sheets}</sheets></workbook>',
+        )
+        parts = [("worksheet", f"worksheets/sheet{i}.xml") for i in numbers]
+        archive.writestr("xl/_rels/workbook.xml.rels", _relations(parts))
+        for i, (title, columns) in zip(numbers, grid.sheets.items(), strict=True):
+            part = _sheet(grid, columns, of_sheet.get(title, []))
+            archive.writestr(f"xl/worksheets/sheet{i}.xml", part)
+    return stream.getvalue()
+
+
+def _relations(parts: list[tuple[str, str]]) -> str:
+    made = "".join(
+        f'<Relationship Id="r{i}" Type="{_OFFICE}/{kind}" Target="{target}"/>'
+        for i, (kind, target) in enumerate(parts, 1)
+    )
+    return f'<Relationships xmlns="{_PACKAGE}/relationships">{made}</Relationships>'
+
+
+def _extent(area: Area, fixed: str = "") -> str:
+    ends = ((area.first_column, area.first_row), (area.last_column, area.last_row))
+    first, last = (f"{fixed}{column_letters(c)}{fixed}{r}" for c, r in ends)
+    return first if first == last else f"{first}:{last}"
+
+
+def _sheet(grid: Grid, columns: dict[int, Column], runs: list[Run]) -> str:
+    rows: dict[int, list[str]] = {}
+    for number, column in columns.items():
+        letters = column_letters(number)
+        for row, value in column.constants.items():
+            rows.setdefault(row, []).append(f'<c r="{letters}{row}"{_value(value)}</c>')
+        for row, text in column.errors.items():
+            cell = f'<c r="{letters}{row}" t="e"><v>{escape(text)}</v></c>'
+            rows.setdefault(row, []).append(cell)
+    for shared, run in enumerate(runs):
+        letters = column_letters(run.column)
+        about, follows = "", ""
+        if run.array is not None:
+            if run.column > run.array.first_column:
+                continue  # its values come with those of the first column
+            about = f' t="array" ref="{_extent(run.array)}"'
+        elif run.count > 1:
+            about = f' t="shared" ref="{letters}{run.first}:{letters}{run.last}" si="{shared}"'
+            follows = f'"><f t="shared" si="{shared}"/></c>'
+        first = f'<c r="{letters}{run.first}"><f{about}>{_formula(grid, run)}</f></c>'
+        rows.setdefault(run.first, []).append(first)
+        if follows:
+            for row in range(run.first + 1, run.last + 1):
+                rows.setdefault(row, []).append(f'<c r="{letters}{row}{follows}')
+    lines = "".join(f'<row r="{row}">{"".join(rows[row])}</row>' for row in sorted(rows))
+    return f"<worksheet {_MAIN}><sheetData>{lines}</sheetData></worksheet>"
+
+
+def _value(value: Constant) -> str:
+    if isinstance(value, bool):
+        return f' t="b"><v>{value:d}</v>'
+    if isinstance(value, str):
+        return f' t="str"><v>{escape(folded(value))}</v>'
+    return f"><v>{value!r}</v>"
+
+
+def _formula(grid: Grid, run: Run) -> str:
+    text = formula_text(grid, run, run.first, run.column)
+    if run.array is not None:  # its extent bounds what it fills
+        area = run.array
+        height, width = run.count, area.last_column - area.first_column + 1
+        text = f"TAKE({text},{height},{width})"
+    return escape(text, quote=False)
+
+
+def formula_text(grid: Grid, run: Run, row: int, column: int, own: str = "") -> str:
+    """Formula of a run in one cell without its ``=``, as formualizer takes it."""
+    assert run.formula is not None
+    tokens = [_plain(grid, token) for token in run.formula.pattern]
+    return render(tokens, row, column, own)[1:]
+
+
+def _plain(grid: Grid, token: Token) -> Token:
+    """A token with its text folded, its sheet as it is called, its name as the cells meant."""
+    kind, value = token
+    if kind == "text":
+        return kind, folded(value)
+    if kind == "sheet":
+        named = unquoted(value)
+        return kind, quoted(grid.title(named) or named)
+    area = grid.named(value.casefold()) if kind == "name" else None
+    return token if area is None else ("area", f"{quoted(area.sheet)}{_extent(area, '$')}")

@@ -1,0 +1,83 @@
+"""A workbook's parts put together: its sheets by title, its defined names, its strings."""
+
+from __future__ import annotations
+
+import re
+import zipfile
+from posixpath import join, normpath
+
+from lxml import etree
+
+from reports.recalculation.grid import MAX_SHEETS, Area, BadBook, Grid
+from reports.recalculation.language import column_number
+from reports.recalculation.sheets import MAIN, parse_xml, read_sheet, rich_text
+from reports.workbook.package import Package
+
+_STRICT = "{http://purl.oclc.org/ooxml/spreadsheetml/main}"
+_REL = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}"
+_ADDRESS = re.compile(
+    r"('(?:[^']|'')+'|[^\W\d][\w.]*)!\$?([A-Z]{1,3})\$?([0-9]{1,7})"
+    r"(?::\$?([A-Z]{1,3})\$?([0-9]{1,7}))?"
+)
+
+
+def read_grid(book: bytes | Package) -> Grid:
+    """All cells of a workbook that has passed the intake.
+
+    Raises:
+        BadBook: damaged, or cells out of bounds.
+    """
+    try:
+        return _read(book if isinstance(book, Package) else Package(book))
+    except (zipfile.BadZipFile, KeyError, EOFError, NotImplementedError, OSError):
+        msg = "файл .xlsx повреждён"
+        raise BadBook(msg) from None
+
+
+def _read(package: Package) -> Grid:
+    root = parse_xml(package.read("xl/workbook.xml"))
+    if str(root.tag).startswith(_STRICT):
+        msg = "книга сохранена в строгом формате Open XML; сохраните её как обычную .xlsx"
+        raise BadBook(msg)
+    relations = parse_xml(package.read("xl/_rels/workbook.xml.rels"))
+    targets = {rel.get("Id"): rel for rel in relations.iter("{*}Relationship")}
+    sheets = list(root.iter(f"{MAIN}sheet"))
+    if len(sheets) > MAX_SHEETS:
+        msg = f"в книге больше {MAX_SHEETS} листов"
+        raise BadBook(msg)
+    grid = Grid()
+    _read_names(grid, root)
+    texts = [part for rel in targets.values() if (part := _part(rel, "sharedStrings"))]
+    strings: list[str] = []
+    if sheets and texts:
+        strings = [rich_text(item) for item in parse_xml(package.read(texts[0])).iter("{*}si")]
+    for sheet in sheets:
+        relation = targets.get(sheet.get(f"{_REL}id"))
+        part = _part(relation, "worksheet") if relation is not None else ""
+        if part:
+            title = str(sheet.get("name"))
+            grid.sheets[title] = {}
+            read_sheet(grid, title, package.read(part), strings)
+    return grid
+
+
+def _part(relation: etree._Element, kind: str) -> str:
+    """Name of the part that a relation of a kind leads to."""
+    if not str(relation.get("Type")).endswith(f"/{kind}"):
+        return ""
+    target = str(relation.get("Target"))
+    return target[1:] if target.startswith("/") else normpath(join("xl", target))
+
+
+def _read_names(grid: Grid, root: etree._Element) -> None:
+    for name in root.iter(f"{MAIN}definedName"):
+        match = _ADDRESS.fullmatch(str(name.text or "").strip())
+        if match is None or name.get("localSheetId") is not None:
+            continue
+        title = match[1].strip("'").replace("''", "'")
+        folded = str(name.get("name")).casefold()
+        row, column = int(match[3]), column_number(match[2])
+        if match[4] is None:
+            grid.names[folded] = (title, row, column)
+        else:
+            grid.areas[folded] = Area(title, row, int(match[5]), column, column_number(match[4]))

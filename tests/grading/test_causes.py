@@ -1,0 +1,94 @@
+"""Each usual mistake is named by its own words, on numbers alone."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+import pytest
+
+from reports.grading.issuing.assignment import Item
+from reports.grading.judging.causes import Causes
+from reports.grading.judging.verdicts import WRONG, Judgement
+from reports.grading.reading.student import Student
+from reports.recalculation.read import read_grid
+from tests.grading import classroom
+from tests.grading.fill import filled_book
+
+
+@lru_cache(maxsize=1)
+def student() -> Student:
+    book = filled_book(classroom.handout(), classroom.assignment())
+    return classroom.marker().student(classroom.book(), read_grid(book))
+
+
+def item_of(name: str) -> Item:
+    return next(item for item in student().assignment.items if item.id == name)
+
+
+def right(name: str, inputs: dict[str, float | str] | None = None) -> np.ndarray:
+    run = student().expected.fork(inputs or {})
+    return np.ravel(np.asarray(run.value(item_of(name).nodes[0]), dtype=float))
+
+
+def cause(name: str, values: np.ndarray) -> str:
+    marker, book = classroom.marker(), classroom.book()
+    causes = Causes(student(), marker.others(book.number), marker.titles(student().assignment))
+    return causes.find(Judgement(item_of(name), WRONG, right(name), np.asarray(values, float)))
+
+
+V1, S1, S, V, J1 = (f"P3_1.{key}" for key in ("v1_m_s", "s1_mm", "s_mm", "v_m_s", "j1_m_s2"))
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "words"),
+    [
+        (V1, lambda v: -v, "обратный знак"),
+        (S1, lambda v: v / 1000, "значения меньше правильных в 1000 раз"),
+        (S1, lambda v: v * 1e6, "значения больше правильных в 1e+06 раз"),
+        ("P3_2.beta_rad", np.degrees, "в градусах вместо радиан"),
+        (J1, lambda v: np.roll(v, 1), "на одну строку вниз"),
+        (J1, lambda v: np.roll(v, -1), "на одну строку вверх"),
+        (V1, lambda v: 2 * v, "ход поршня S вместо радиуса"),
+        (S, lambda v: right(V), "это значения соседнего столбца"),
+        (V, lambda v: 2 * right(V1) - v, "знак слагаемого"),
+        ("P4_1.beta_rad", lambda v: v * 2, "вдвое больше правильного"),
+        ("geometry.V_h", lambda v: v * 10, "в 10 раз"),
+        ("geometry.V_h", lambda v: right("geometry.V_c"), "это значение величины"),
+    ],
+)
+def test_a_change_of_the_numbers_is_named(name, change, words):
+    assert words in cause(name, change(right(name).copy()))
+
+
+def test_degrees_in_a_sine_are_named():
+    angles = np.array([float(label) for label in item_of(V1).labels])
+    scale = right(V1)[3] / np.sin(np.radians(angles[3]))
+    assert "градусы вместо радиан" in cause(V1, scale * np.sin(angles))
+
+
+def test_another_students_parameter_and_another_method_are_named():
+    other = classroom.register().books[1]
+    speed = float(other.drawn["regime.speed_rpm"])
+    assert speed != classroom.book().drawn["regime.speed_rpm"]
+    found = cause("geometry.omega", right("geometry.omega", {"regime_speed_rpm": speed}))
+    assert "из варианта 2" in found
+    assert f"{speed:g}" in found
+    model = student().assignment.model
+    labels = model.fields["calculation_method"].choices
+    now = labels[str(model.fields["calculation_method"].value)]
+    other_method = next(label for label in labels.values() if label != now)
+    name = next(
+        item.id for item in student().assignment.items
+        if item.is_column and not np.allclose(
+            right(item.id), right(item.id, {"calculation_method": other_method}), rtol=1e-3
+        )
+    )  # fmt: skip
+    assert "формула вместо" in cause(name, right(name, {"calculation_method": other_method}))
+
+
+def test_what_fits_nothing_has_no_cause():
+    noise = np.random.default_rng(1).normal(size=right(V1).size) * 37
+    assert cause(V1, noise) == ""
+    assert cause(V1, np.full(right(V1).size, np.nan)) == ""
+    assert cause(V1, right(V1)) == ""  # what is right is no mistake

@@ -1,0 +1,97 @@
+"""Whose file it is: by the identifier, then by the names, with what speaks against it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from reports.grading.issuing.handout import TICKET_NAME, TICKET_TITLE
+from reports.grading.reading.matching import Match, find_by_name, find_owner
+from reports.grading.reading.submissions import Submission
+from reports.recalculation.grid import Column, Grid
+from tests.grading import classroom
+
+FORGED = "K" + "A" * 24
+
+
+class Parts:
+    """A package with one property, or none."""
+
+    def __init__(self, ticket: str = "") -> None:
+        self.ticket = ticket
+
+    def read(self, name: str) -> bytes:
+        if not self.ticket:
+            raise KeyError(name)
+        return (f'<P xmlns="x"><property name="{TICKET_NAME}"><v>{self.ticket}</v></property></P>'
+                ).encode()  # fmt: skip
+
+
+def grid_with(ticket: str, *, named: bool = True) -> Grid:
+    cells = {1: Column({3: TICKET_TITLE}), 2: Column({3: ticket})} if ticket else {}
+    names = {TICKET_NAME.casefold(): ("A", 3, 2)} if named and ticket else {}
+    return Grid({"A": cells}, names)
+
+
+def submission(key: str, moodle: str = "") -> Submission:
+    return Submission(key, Path(key), None, None, moodle_name=moodle)
+
+
+def owner(key: str = "x.xlsx", cell: str = "", prop: str = "", **more) -> Match:
+    register = classroom.register()
+    where = submission(key, more.pop("moodle", ""))
+    return find_owner(register, where, grid_with(cell, **more), Parts(prop))
+
+
+def tickets() -> list[str]:
+    return [book.ticket for book in classroom.register().books]
+
+
+@pytest.mark.parametrize("where", ["name", "property", "label"])
+def test_an_identifier_in_any_of_its_places_is_enough(where):
+    mine = tickets()[1]
+    match = owner(
+        cell=mine if where != "property" else "", prop=mine if where == "property" else "",
+        named=where == "name",
+    )  # fmt: skip
+    assert match.book is classroom.register().books[1]
+    assert mine in match.evidence[0]
+    assert match.doubts == ()
+
+
+def test_identifiers_of_two_people_are_nobodys():
+    match = owner(cell=tickets()[0], prop=tickets()[2])
+    assert match.book is None
+    assert "идентификаторы разных работ" in match.doubts[0]
+
+
+def test_an_identifier_that_was_not_issued_is_no_proof():
+    name = classroom.register().books[1].student.surname
+    match = owner(f"{name}.xlsx", cell=FORGED)
+    assert match.book is None
+    assert "не выдавался" in match.doubts[0]
+
+
+def test_a_name_that_contradicts_the_identifier_is_a_doubt():
+    books = classroom.register().books
+    match = owner(cell=tickets()[0], moodle=books[1].student.full)
+    assert match.book is books[0]
+    assert books[1].student.full in match.doubts[0]
+    assert owner(cell=tickets()[0], moodle=books[0].student.full).doubts == ()
+
+
+def test_without_an_identifier_the_only_fitting_name_decides():
+    books = classroom.register().books
+    for key in (f"группа/{books[1].folder}/кр.xlsx", f"Moja {books[1].file}", "petrov kr.xlsx"):
+        match = owner(key)
+        assert match.book is books[1], key
+        assert "идентификатора нет" in match.evidence[0]
+    assert owner("кр.xlsx").book is None
+    assert owner("Иванов и Петров.xlsx").book is None
+
+
+def test_a_file_that_cannot_be_read_is_known_by_name():
+    register = classroom.register()
+    assert find_by_name(register, submission("Петров.xlsx")).book is register.books[1]
+    assert find_by_name(register, submission("x.xlsx")) == Match(None, (), ())

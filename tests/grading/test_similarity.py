@@ -1,0 +1,54 @@
+"""Signals that works may have a common origin: each, and only where it is one."""
+
+from __future__ import annotations
+
+from reports.grading.judging.similarity import signals
+
+
+def result(number: int, **more) -> dict:
+    made = {
+        "status": "graded", "number": number, "student": f"Студент {number}", "key": f"{number}",
+        "file": f"{number}.xlsx", "sha256": f"{number}", "items": [], "properties": {},
+        "manual": [],
+    }  # fmt: skip
+    return made | more
+
+
+def line(item: str, mark: str, right: str, of: float = 1.0) -> dict:
+    return {"id": item, "mark": mark, "right_mark": right, "of": of}
+
+
+def test_different_works_give_no_signal():
+    assert signals([result(1), result(2)]) == []
+
+
+def test_one_file_of_two_people():
+    (text,) = signals([result(1, sha256="a"), result(2, sha256="a"), result(3)])
+    assert text == "одинаковые файлы: Студент 1 (1.xlsx), Студент 2 (2.xlsx)"
+
+
+def test_equal_wrong_values_where_the_right_ones_differ():
+    first = result(1, items=[line("a", "x", "r1"), line("b", "y", "r1")])
+    second = result(2, items=[line("a", "x", "r2"), line("b", "y", "r2")])
+    (text,) = signals([first, second])
+    assert "Студент 1 (1.xlsx) и Студент 2 (2.xlsx) — 2 (например, a, b)" in text
+    # Where the right values are equal, or nothing is paid for them, equal wrong ones say nothing.
+    same = result(3, items=[line("a", "x", "r1")])
+    assert signals([first, same]) == []
+    free = [result(n, items=[line("a", "x", f"r{n}", of=0.0)]) for n in (1, 2)]
+    assert signals(free) == []
+    # Two files of one person are no signal.
+    assert signals([first, second | {"number": 1}]) == []
+
+
+def test_files_that_one_person_saved_last():
+    people = [result(n, properties={"lastModifiedBy": "Вася"}) for n in (1, 2)]
+    (text,) = signals(people)
+    assert text.startswith("файлы последним сохранил «Вася»")
+    common = [result(n, properties={"lastModifiedBy": "openpyxl"}) for n in (1, 2)]
+    assert signals(common) == []
+
+
+def test_foreign_identifiers_are_told():
+    (text,) = signals([result(1, manual=["идентификатор выдан: Петров"])])
+    assert text == "Студент 1 (1.xlsx): идентификатор выдан: Петров"

@@ -1,0 +1,220 @@
+"""People's formulas by formualizer: what it gets wrong is met, what it cannot do is unknown."""
+
+from __future__ import annotations
+
+import io
+import re
+import zipfile
+
+import numpy as np
+import pytest
+
+from reports.inputs.fields import to_mapping
+from reports.inputs.load import load_mapping
+from reports.recalculation.by_formualizer import Formualizer
+from reports.recalculation.evaluate import Engine
+from reports.recalculation.language import UnknownFormula
+from reports.recalculation.protocol import row_and_column
+from reports.recalculation.read import read_grid
+from reports.tables.registry import build_model
+from reports.workbook.caches import sheet_parts
+from reports.workbook.write import workbook_bytes
+from tests.conftest import sample
+from tests.referee.books import engine_of
+
+COLUMN = 26
+
+
+def coarse(name: str) -> bytes:
+    raw = to_mapping(sample(name))
+    raw["calculation"]["step_deg"] = 30
+    return workbook_bytes(build_model(load_mapping(raw, source=name).model))
+
+
+@pytest.mark.parametrize("name", ["gots-diesel", "cycle-turbo-diesel"])
+def test_a_grid_gives_what_the_whole_workbook_gives(name):
+    """Only this test holds the grid of runs against formualizer's own reading of a file."""
+    book = coarse(name)
+    engine = Engine(read_grid(book))
+    (wanted,) = Formualizer().recalculate([book])
+    compared = 0
+    for sheet, cells in wanted.items():
+        for cell, value in cells.items():
+            row, column = row_and_column(cell)
+            own = engine.shown(sheet, column, row)
+            if isinstance(value, str):
+                assert str(own).lower() == value.lower(), (sheet, cell)
+            else:
+                assert own == pytest.approx(value, rel=1e-9, abs=1e-12), (sheet, cell)
+            compared += 1
+    assert compared > 3000
+
+
+def test_cached_values_are_not_read():
+    book = coarse("gots-diesel")
+    stream = io.BytesIO()
+    with (
+        zipfile.ZipFile(io.BytesIO(book)) as source,
+        zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as target,
+    ):
+        parts = set(sheet_parts(source).values())
+        for name in source.namelist():
+            data = source.read(name)
+            if name in parts:
+                data = re.sub(rb"(</f>|<f/>)<v>[^<]*</v>", rb"\1<v>7</v>", data)
+            target.writestr(name, data)
+    values = []
+    for data in (book, stream.getvalue()):
+        engine = Engine(read_grid(data))
+        runs = [run for column in engine.grid.sheets["П4.1"].values() for run in column.runs]
+        values.append(np.concatenate([engine.all_of(run) for run in runs]))
+    assert np.array_equal(values[0], values[1])
+
+
+def value(formula: str, **cells: object) -> float | str | None:
+    return engine_of({**cells, "Z1": formula}).shown("Sheet", COLUMN, 1)
+
+
+def array_value(formula: str, **cells: object) -> float | str | None:
+    return engine_of(cells, {"Z1": formula}).shown("Sheet", COLUMN, 1)
+
+
+NUMBERS = {"A1": 1.0, "A2": -2.0, "A3": 3.0, "B1": "=1/0", "B2": "=SQRT(-1)"}
+
+
+@pytest.mark.parametrize(
+    ("formula", "wanted"),
+    [
+        ("=SUM(ABS(A1:A3))", 6.0), ("=SUM(SIGN(A1:A3))", 1.0), ("=SUM(INT(A1:A3/2))", 0.0),
+        ("=SUM(TRUNC(A1:A3/2))", 0.0), ("=SUM(ROUND(A1:A3*1.45,1))", 3.0),
+        ("=SUM(POWER(A1:A3,2))", 14.0), ("=SUM(MOD(A1:A3,2))", 2.0),
+        ("=SUM(RADIANS(A1:A3*90))", np.pi), ("=SUM(DEGREES(A1:A3))", np.degrees(2)),
+        ("=SUM(SQRT(A1:A3^2))", 6.0), ("=SUM(EXP(LN(ABS(A1:A3))))", 6.0),
+        ("=SUM(LOG(ABS(A1:A3),2)-LN(ABS(A1:A3))/LN(2))", 0.0), ("=SUM(ATAN(A1:A3*0+1))*4/3", np.pi),
+        ("=SUM(ASIN(A1:A3/3)+ACOS(A1:A3/3))/1.5", np.pi), ("=SUM(NOT(A1:A3>0)*1)", 1.0),
+        ("=SUM(SQRT(A1:A3))", "#NUM!"), ("=SUM(ABS(B1:B2))", "#DIV/0!"),
+        ("=SUM(LN(A1:A3*0))", "#NUM!"),
+        ("=SUM(MOD(A1:A3,0))", "#DIV/0!"), ('=SUM(ABS(A1:A3&"x"))', "#VALUE!"),
+    ],
+)  # fmt: skip
+def test_functions_are_lifted_over_arrays_and_keep_kinds_of_errors(formula, wanted):
+    """Of all tests this one alone has every function that formualizer does not lift itself."""
+    found = array_value(formula, **NUMBERS)
+    assert found == (wanted if isinstance(wanted, str) else pytest.approx(wanted, abs=1e-12))
+
+
+def test_capitals_of_any_alphabet_are_not_told_apart():
+    for formula in (
+        '="да"="Да"',
+        '=A1="ДА"',
+        "=A1=A2",
+        '=MATCH("ДА",A1:A2,0)',
+        '=COUNTIF(A1:A2,"дА")=2',
+    ):
+        assert value(formula, A1="да", A2="Да") == 1.0, formula
+
+
+@pytest.mark.parametrize(
+    "formula",
+    ['=INDIRECT("A1")', '=WEBSERVICE("http://x")', "=A1+nothing", "=[1]Sheet1!A1",
+     "=RAND()", "=NOW()",
+     "=" + "(" * 80 + "1" + ")" * 80, "=" + "+".join(["1"] * 300), "=SUM(A3:A1)", "=A1:A3",
+     "=A1:A3*2",
+     "=INDEX(A1:B3,0,1)", "={1,2}", "=MATCH(A1:A3,A1:A3,0)", '="1,5"+1', "=C1*2",
+     "=SUMPRODUCT(C2:C2,A1:A1)",
+     "=A1 A2", "=1+", "=Sheet!", "=SUM(A1:)", "=" + "A1+" * 3000 + "1"],
+)  # fmt: skip
+def test_what_cannot_be_calculated_for_certain_is_unknown(formula):
+    engine = engine_of({"A1": 1.0, "C1": "1,5", "C2": "15", "Z1": formula, "Z2": "=Z1+1",
+                        "Z3": "=IFERROR(Z2,5)", "Z4": "=A1+1"})  # fmt: skip
+    for row in (1, 2, 3):  # and so is what depends on it, whatever hides errors
+        with pytest.raises(UnknownFormula):
+            engine.values("Sheet", COLUMN, row, row)
+    assert engine.values("Sheet", COLUMN, 4, 4)[0].tolist() == [2.0]
+
+
+def test_errors_of_formualizers_own_are_never_the_students():
+    from reports.recalculation.evaluate import _numbers
+
+    for kind in ("Error", "NImpl", "Name", "Cancelled", "Spill", "#REF!"):
+        with pytest.raises(UnknownFormula):
+            _numbers([1.0, {"type": "Error", "kind": kind}], None)
+    assert _numbers([1.0, {"type": "Error", "kind": "Div"}, "a", True], None)[1] == "netn"
+
+
+def test_one_formula_that_formualizer_stops_at_leaves_the_others(monkeypatch):
+    import formualizer
+
+    from reports.recalculation import evaluate
+
+    engine = engine_of({"A1": 2.0, "Z1": "=A1*3", "Z2": "=A1*0"})
+    monkeypatch.setattr(evaluate, "formula_text", evaluate.formula_text)
+
+    class Stopping:
+        def __init__(self, book):
+            self.book = book
+
+        def evaluate_all(self):
+            raise formualizer.ExcelEvaluationError("#REF!")
+
+        def __getattr__(self, name):
+            return getattr(self.book, name)
+
+        def evaluate_cell(self, sheet, row, column):
+            if row == 2:
+                raise formualizer.ExcelEvaluationError("#REF!")
+            return self.book.evaluate_cell(sheet, row, column)
+
+    engine.__dict__["_book"] = Stopping(engine._book)
+    assert engine.shown("Sheet", COLUMN, 1) == 6.0
+    with pytest.raises(UnknownFormula):
+        engine.shown("Sheet", COLUMN, 2)
+
+
+@pytest.mark.parametrize(
+    ("formula", "wanted"),
+    [("=1/0", "#DIV/0!"), ("=SQRT(-1)", "#NUM!"), ("=MATCH(9,A1:A2,0)", "#N/A"),
+     ('=A1+"a"', "#VALUE!"),
+     ("=Лист!A1", "#REF!"), ("=1E308*10", "#NUM!"), ("=Z1+1", "#CIRC!")],
+)  # fmt: skip
+def test_errors_are_no_numbers(formula, wanted):
+    engine = engine_of({"A1": 3.0, "A2": 4.0, "Z1": formula})
+    assert engine.shown("Sheet", COLUMN, 1) == wanted
+    numbers, kinds = engine.values("Sheet", COLUMN, 1, 1)
+    assert kinds == "e"
+    assert np.isnan(numbers[0])
+
+
+def test_a_recurrence_a_circle_and_a_choice_that_avoids_it():
+    cells = {"A1": 1.0, "A2": "=A1+1", "A3": "=A2+1", "A4": "=A3+1", "B1": "=C1+1", "C1": "=B1+1",
+             "D1": "=IF(TRUE,1,D2)", "D2": "=D1+1"}  # fmt: skip
+    engine = engine_of(cells)
+    assert engine.values("Sheet", 1, 1, 4)[0].tolist() == [1, 2, 3, 4]
+    assert engine.values("Sheet", 2, 1, 1)[1] == "e"
+    assert engine.values("Sheet", 4, 1, 2)[0].tolist() == [1, 2]  # no circle that is live
+
+
+def test_array_formulas_fill_their_extent_and_nothing_else():
+    engine = engine_of({"A1": 1.0, "A2": 2.0, "A3": 3.0, "D1": "=B2+B3", "E1": "=B4+C3"},
+                       {"B1:B3": "=A1:A3*2", "C1:C2": "=A1:A3*3"})  # fmt: skip
+    assert engine.values("Sheet", 2, 1, 3)[0].tolist() == [2, 4, 6]
+    assert engine.values("Sheet", 2, 1, 3)[1] == "nnn"
+    assert engine.values("Sheet", 3, 1, 3) == (pytest.approx([3, 6, np.nan], nan_ok=True), "nnb")
+    assert engine.shown("Sheet", 4, 1) == 10.0
+    assert engine.shown("Sheet", 5, 1) == 0.0
+    with pytest.raises(UnknownFormula):  # of two cells it fills one
+        engine_of({"A1": 1.0}, {"B1:B2": "=A1:A1*2"}).values("Sheet", 2, 1, 2)
+
+
+def test_a_formula_of_one_column_on_other_cells():
+    engine = engine_of({"A1": 2.0, "A2": 3.0, "B1": "=A1*10", "B2": "=A2*10+B1", "C1": "=B1+B2"})
+    (run,) = engine.grid.sheets["Sheet"][3].runs
+    second = engine.grid.sheets["Sheet"][2].runs[1]
+    assert engine.once(run).tolist() == [70.0]
+    column = engine.grid.sheets["Sheet"][2]
+    column.cut({1, 2})
+    column.constants |= {1: 1.0, 2: 5.0}
+    other = Engine(engine.grid)  # the column typed over, its dependents calculated anew
+    assert other.once(run).tolist() == [6.0]
+    assert other.once(second).tolist() == [31.0]
+    assert other.values("Sheet", 3, 1, 1)[0].tolist() == [6.0]

@@ -46,7 +46,13 @@ def checks(chapter: Chapter) -> Markup:
     terms = chapter.terms
     keys = check_keys(terms)
     plan = TablePlan(partial(_check_table, terms, keys), "Проверки расчёта", lined=True)
-    return chapter.page("checks.html.j2", plan=plan, failed=failed(terms), count=len(keys))
+    return chapter.page(
+        "checks.html.j2",
+        plan=plan,
+        failed=failed(terms),
+        count=len(keys),
+        remarks=terms.model.remarks,
+    )
 
 
 def check_keys(terms: Terms) -> list[str]:

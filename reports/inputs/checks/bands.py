@@ -10,6 +10,10 @@ from dataclasses import dataclass
 
 MEMORY = "по памяти"
 TABLE_4 = "таблица 4 учебника с запасом"
+# One size for all journals, or one for each.
+PIN_DIAMETERS = ("pin_diameter_mm", "pin_diameters_mm")
+PIN_LENGTHS = ("pin_length_mm", "pin_lengths_mm")
+MAIN_DIAMETERS = ("main_diameter_mm", "main_diameters_mm")
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,8 +56,8 @@ def _cycle(key: str, words: str, low: float, high: float, unit: str = "", kind: 
 
 
 BANDS: tuple[Band, ...] = (
-    Band("crankshaft.pin_diameter_mm", "D", "d_шш/D", 0.3, 0.95),
-    Band("crankshaft.main_diameter_mm", "D", "d_кш/D", 0.3, 1.15),
+    *(Band(f"crankshaft.{key}", "D", "d_шш/D", 0.3, 0.95) for key in PIN_DIAMETERS),
+    *(Band(f"crankshaft.{key}", "D", "d_кш/D", 0.3, 1.15) for key in MAIN_DIAMETERS),
     _arm("l1_mm", "l_1", 0.065, 0.64),
     _arm("l2_mm", "l_2", 0.065, 0.64),
     _arm("l3_mm", "l_3", 0.04, 0.39),
@@ -144,7 +148,7 @@ BANDS: tuple[Band, ...] = (
     _cycle("exhaust_heat_kj_kg_k", "c_pг", 1, 1.3, "кДж/(кг·К)"),
     _cycle("adaptability", "K", 1.02, 1.6),
     _cycle("stroke_bore", "S/D", 0.6, 1.6),
-    _cycle("size_step_mm", "Δ", 0.1, 5, "мм"),
+    _cycle("size_step_mm", "Δ", 0.5, 4.9, "мм"),
     Band("cycle.torque_speed_rpm", "n", "n_M/n", 0.3, 0.95),
     Band("cycle.idle_speed_rpm", "n", "n_х/n", 0.08, 0.5),
 )
@@ -155,7 +159,7 @@ LARGE_SIZES = Band("geometry", "", "S/D", 0.6, 4.5)  # crosshead engines
 LARGE_BORE_MM = 250.0
 SPEED = Band("regime.speed_rpm", "", "средняя скорость поршня Sn/30", 2.8, 26, unit="м/с")
 LOWER_SPEED = Band("regimes.speed_rpm", "", "частота вращения к номинальной", 0.12, 1.19)
-PIN_LENGTH = Band("crankshaft.pin_length_mm", "", "l_шш/d_шш", 0.25, 1.6)
+PIN_LENGTH = Band("crankshaft.pin_length_mm", "", "l_шш/d_шш", 0.25, 1.2)
 MAIN_LENGTH = Band("crankshaft.main_lengths_mm", "", "l_кш/d_кш", 0.2, 1.6)
 MAIN_TO_PIN = Band("crankshaft.main_diameter_mm", "", "d_кш/d_шш", 0.97, 1.75)
 REDUCED_WEB = Band("crankshaft.webs.centre_mm", "F", "m_щ·ρ/r/F_п", 26, 255, unit="кг/м²")
@@ -171,5 +175,6 @@ RELATIONS = (
     SIZES, LARGE_SIZES, SPEED, LOWER_SPEED, PIN_LENGTH, MAIN_LENGTH, MAIN_TO_PIN, REDUCED_WEB,
     EFFICIENCY, RESIDUAL, RISE, POWER, MEAN_PRESSURE_OF_POWER,
 )  # fmt: skip
-# A point of the diagram that stands out from both its neighbours by this factor.
-LONE_POINT = 2.5
+# A point of the diagram stands out from both its neighbours by these factors: from near
+# ones and from those further than so many degrees.
+LONE_POINT, LONE_POINT_FAR, NEAR_DEG = 2.5, 4.0, 30.0

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
 from pydantic import BaseModel
@@ -17,27 +16,12 @@ from reports.inputs.checks import bands
 from reports.inputs.checks.bands import BANDS, Band
 from reports.inputs.checks.volume import volume_ratio
 from reports.inputs.findings import Finding, Path
-from reports.inputs.sections.gas import GasSection, TableGasSection
+from reports.inputs.sections.gas import CycleGasSection, GasSection, TableGasSection
 from reports.inputs.sections.input_file import InputFile, Regime
+from reports.inputs.to_si.geometry import Sizes
 from reports.inputs.units import number_text
 
-_SIMILAR_MM = 150.0  # masses over the piston area grow with the bore of larger engines
 _MOST_OFF = 0.5  # share of the sizes that disagree with the bore when the bore is wrong
-
-
-@dataclass(frozen=True, slots=True)
-class Sizes:
-    """Bore, crank radius and rod [mm], given or found by the cycle."""
-
-    bore: float
-    radius: float
-    rod: float
-
-    @property
-    def area(self) -> float:
-        """Piston area [m²], larger in proportion for engines with heavier parts."""
-        plain = math.pi * (self.bore / 1000) ** 2 / 4
-        return plain * max(1.0, self.bore / _SIMILAR_MM)
 
 
 def check_plausibility(model: InputFile, sizes: Sizes) -> Iterator[Finding]:
@@ -46,7 +30,9 @@ def check_plausibility(model: InputFile, sizes: Sizes) -> Iterator[Finding]:
     tested = sum(1 for _, band, _ in _tested(model, sizes) if band.base in ("D", "F"))
     off = [finding for finding, band in found if band.base in ("D", "F")]
     ratio = list(_stroke(model, sizes))
-    if ratio and len(off) > _MOST_OFF * tested:
+    found_by_power = getattr(model.geometry, "bore_mm", None) is None
+    wrong_bore = bool(ratio or found_by_power) and len(off) > _MOST_OFF * tested
+    if wrong_bore:
         yield _wrong_bore(model, sizes, len(off), tested)
         yield from (finding for finding, band in found if band.base not in ("D", "F"))
     else:
@@ -55,8 +41,10 @@ def check_plausibility(model: InputFile, sizes: Sizes) -> Iterator[Finding]:
     yield from _speed(model, sizes)
     yield from _shaft(model, sizes)
     yield from _efficiency(model)
-    yield from _gas(model, model.gas, model.regime, sizes, ())
-    for index, regime in enumerate(model.regimes):
+    yield from _gas(model, model.gas, ())
+    if not wrong_bore:
+        yield from _power(model, model.gas, model.regime, sizes, ())
+    for index in range(len(model.regimes)):
         yield from _lower_regime(model, sizes, index)
 
 
@@ -73,7 +61,7 @@ def _by_band(model: InputFile, sizes: Sizes) -> Iterator[tuple[Finding, Band]]:
 def _tested(model: InputFile, sizes: Sizes) -> Iterator[Tested]:
     kind = kind_of(model)
     bases = {
-        "": 1.0, "D": sizes.bore, "r": sizes.radius, "L": sizes.rod, "F": sizes.area,
+        "": 1.0, "D": sizes.bore, "r": sizes.radius, "L": sizes.rod, "F": sizes.mass_area,
         "n": float(model.regime.speed_rpm),
     }  # fmt: skip
     own = {band.key for band in BANDS if band.kind and band.kind == kind}
@@ -147,6 +135,9 @@ def _wrong_bore(model: InputFile, sizes: Sizes, off: int, tested: int) -> Findin
         f"D = {_short(sizes.bore)} мм не вяжется с другими данными: S/D = "
         f"{_short(2 * sizes.radius / sizes.bore)}, необычны {off} из {tested} размеров и масс"
     )
+    if getattr(model.geometry, "bore_mm", None) is None:
+        hint = "диаметр найден по мощности: проверьте её и частоту вращения"
+        return Finding(("cycle", "power_kw"), what, hint, warning=True)
     return Finding(("geometry", "bore_mm"), what, "проверьте диаметр цилиндра", warning=True)
 
 
@@ -163,10 +154,11 @@ def _lower_regime(model: InputFile, sizes: Sizes, index: int) -> Iterator[Findin
         band, value = bands.EFFICIENCY, float(regime.mechanical_efficiency)
         yield from _judged((*path, "mechanical_efficiency"), band, value)
     for key, band in ((band.key.split(".")[-1], band) for band in BANDS if band.base == ""):
-        value = getattr(regime.gas, key, None) if band.key.startswith("gas.") else None
-        if isinstance(value, int | float) and not (band.zero and value == 0):
-            yield from _judged((*path, "gas", key), band, float(value))
-    yield from _gas(model, regime.gas, regime, sizes, path)
+        given = getattr(regime.gas, key, None) if band.key.startswith("gas.") else None
+        if isinstance(given, int | float) and not (band.zero and given == 0):
+            yield from _judged((*path, "gas", key), band, float(given))
+    yield from _gas(model, regime.gas, path)
+    yield from _power(model, regime.gas, regime, sizes, path)
 
 
 def _efficiency(model: InputFile) -> Iterator[Finding]:
@@ -178,51 +170,58 @@ def _efficiency(model: InputFile) -> Iterator[Finding]:
 
 # --- journals and webs ---
 def _shaft(model: InputFile, sizes: Sizes) -> Iterator[Finding]:
-    shaft = "crankshaft"
-    pins, mains = each(model, f"{shaft}.pin_diameter_mm"), each(model, f"{shaft}.main_diameter_mm")
-    for key, band, diameters in (
-        ("pin_length_mm", bands.PIN_LENGTH, pins),
-        ("main_lengths_mm", bands.MAIN_LENGTH, mains),
+    pins, mains = _entries(model, bands.PIN_DIAMETERS), _entries(model, bands.MAIN_DIAMETERS)
+    for keys, band, diameters in (
+        (bands.PIN_LENGTHS, bands.PIN_LENGTH, pins),
+        (("main_lengths_mm",), bands.MAIN_LENGTH, mains),
     ):
-        for index, (path, length) in enumerate(values_at(model, f"{shaft}.{key}")):
-            yield from _judged(path, band, length / diameters[min(index, len(diameters) - 1)])
-    path = next(iter(values_at(model, f"{shaft}.main_diameter_mm")))[0]
-    yield from _judged(path, bands.MAIN_TO_PIN, max(mains) / max(pins))
+        for index, (path, length) in enumerate(_entries(model, keys)):
+            yield from _judged(path, band, length / diameters[min(index, len(diameters) - 1)][1])
+    path, main = max(mains, key=lambda entry: entry[1])
+    yield from _judged(path, bands.MAIN_TO_PIN, main / max(pin for _, pin in pins))
     for index, web in enumerate(model.crankshaft.webs):
         if web.actual_mass_kg is None or web.centre_mm is None or web.centre_mm <= 0:
             continue
-        reduced = web.actual_mass_kg * web.centre_mm / sizes.radius / sizes.area
-        yield from _judged((shaft, "webs", index, "centre_mm"), bands.REDUCED_WEB, reduced)
+        reduced = web.actual_mass_kg * web.centre_mm / sizes.radius / sizes.mass_area
+        yield from _judged(("crankshaft", "webs", index, "centre_mm"), bands.REDUCED_WEB, reduced)
 
 
-def each(model: InputFile, key: str) -> list[float]:
-    """The numbers at a key, one or one for each throw."""
-    return [value for _, value in values_at(model, key)]
+def _entries(model: InputFile, keys: tuple[str, ...]) -> list[tuple[Path, float]]:
+    """Places and sizes of journals [mm], one for all or one for each."""
+    return [entry for key in keys for entry in values_at(model, f"crankshaft.{key}")]
 
 
 # --- pressures and power ---
-def _gas(
-    model: InputFile, gas: GasSection, regime: Regime, sizes: Sizes, path: Path
-) -> Iterator[Finding]:
-    ratio = float(getattr(model.geometry, "compression_ratio", 0.0))
+def _gas(model: InputFile, gas: GasSection, path: Path) -> Iterator[Finding]:
     own = (*path, "gas")
     if isinstance(gas, TableGasSection):
         yield from _points(gas, own)
-        work = _area_of(gas, sizes, ratio)
-    elif hasattr(gas, "compression_exponent"):
-        yield from _polytropes(gas, ratio, own)
-        work = mean_pressure(gas, ratio)
+        return
+    yield from _timing(gas, own, model.engine.strokes)
+    if not isinstance(gas, CycleGasSection):
+        yield from _polytropes(gas, _ratio(model), own)
         if not path:
+            work = mean_pressure(gas, _ratio(model))
             yield from _judged((*own, "max_pressure_mpa"), bands.MEAN_PRESSURE, work)
-        if model.engine.strokes == 4:
-            yield from _order(gas, own)
-    else:
-        return
+
+
+def _ratio(model: InputFile) -> float:
+    return float(model.geometry.compression_ratio)
+
+
+def _power(
+    model: InputFile, gas: GasSection, regime: Regime, sizes: Sizes, path: Path
+) -> Iterator[Finding]:
+    """The given power against the work of the diagram."""
     power = regime.indicated_power_kw
-    if power is None:
+    if power is None or isinstance(gas, CycleGasSection):
         return
+    if isinstance(gas, TableGasSection):
+        work = _area_of(gas, sizes, _ratio(model))
+    else:
+        work = mean_pressure(gas, _ratio(model))
     where = (*(path or ("regime",)), "indicated_power_kw")
-    swept = math.pi * (sizes.bore / 1000) ** 2 / 4 * 2 * sizes.radius / 1000  # m³
+    swept = sizes.piston_area * 2 * sizes.radius / 1000  # m³
     cycles = float(regime.speed_rpm) / 30 / model.engine.strokes * model.engine.cylinders
     needed = power / 1000 / (swept * cycles)  # MPa
     if work > 0:
@@ -245,12 +244,17 @@ def _polytropes(gas: Any, ratio: float, path: Path) -> Iterator[Finding]:  # noq
         yield Finding((*path, "expansion_exponent"), what, hint, warning=True)
 
 
-def _order(gas: Any, path: Path) -> Iterator[Finding]:  # noqa: ANN401
+def _timing(gas: Any, path: Path, strokes: int) -> Iterator[Finding]:  # noqa: ANN401
     before, after = gas.exhaust_start_before_bdc_deg, gas.exhaust_end_after_bdc_deg
-    if before < after:
+    if strokes == 4 and before < after:
         what = f"выпуск начинается за {_short(before)}° до НМТ, а кончается через {_short(after)}°"
         hint = "обычно первый угол больше: не переставлены ли они"
         yield Finding((*path, "exhaust_start_before_bdc_deg"), what, hint, warning=True)
+    advance, delay = gas.injection_advance_deg, gas.ignition_delay_deg
+    if delay > advance:
+        what = f"задержка воспламенения {_short(delay)}° больше опережения {_short(advance)}°"
+        hint = "обычно она меньше: не переставлены ли углы"
+        yield Finding((*path, "ignition_delay_deg"), what, hint, warning=True)
 
 
 def mean_pressure(gas: Any, ratio: float) -> float:  # noqa: ANN401
@@ -264,7 +268,7 @@ def mean_pressure(gas: Any, ratio: float) -> float:  # noqa: ANN401
     def expanded(exponent: float, shrinking: float) -> float:
         if abs(exponent - 1) < 1e-9:
             return -math.log(shrinking)
-        return (1 - shrinking ** (exponent - 1)) / (exponent - 1)
+        return float(1 - shrinking ** (exponent - 1)) / (exponent - 1)
 
     top = float(gas.max_pressure_mpa)
     gained = top * (rho - 1) + top * rho * expanded(n_2, rho / ratio)
@@ -293,9 +297,10 @@ def _points(gas: TableGasSection, path: Path) -> Iterator[Finding]:
     named = {finding.path for finding in found}
     for index in range(1, len(pressures) - 1):
         near = (pressures[index - 1], pressures[index + 1])
-        lone = pressures[index] > bands.LONE_POINT * max(near) or (
-            pressures[index] < min(near) / bands.LONE_POINT
-        )
+        factor = bands.LONE_POINT
+        if gas.points[index + 1][0] - gas.points[index - 1][0] > 2 * bands.NEAR_DEG:
+            factor = bands.LONE_POINT_FAR
+        lone = not min(near) / factor <= pressures[index] <= max(near) * factor
         if lone and (*here, index) not in named:
             what = f"давление {_short(pressures[index])} МПа выпадает из соседних точек"
             hint = f"рядом {_short(near[0])} и {_short(near[1])} МПа; проверьте запятую"

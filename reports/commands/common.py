@@ -68,6 +68,13 @@ def load(source: Path) -> Loaded:
     from reports.exports.build import load_input
 
     loaded = load_input(source)
-    for problem in loaded.warnings:
-        click.echo(f"Внимание: {problem.line()}", err=True)
+    tell(loaded)
     return loaded
+
+
+def tell(loaded: Loaded) -> None:
+    """What is odd about an input, and what it explains itself."""
+    from reports.exports.build import remarks_of
+
+    for line in remarks_of(loaded):
+        click.echo(line, err=True)

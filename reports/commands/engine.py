@@ -17,6 +17,7 @@ from reports.commands.common import (
     dask_option,
     file_argument,
     load,
+    tell,
     verbose_option,
 )
 from reports.shared.errors import KshmError
@@ -59,21 +60,24 @@ def check(source: Path, as_json: bool, verbose: bool) -> int:
     try:
         loaded = load_input(source)
         problems: tuple[Any, ...] = ()
-        warnings = loaded.warnings
+        warnings, accepted = loaded.warnings, loaded.accepted
     except InputError as error:
         if not as_json:
             raise
-        problems, warnings = error.problems, ()
+        problems, warnings, accepted = error.problems, (), ()
     if as_json:
         data = {
             "ok": not problems,
             "errors": [_as_dict(problem) for problem in problems],
             "warnings": [_as_dict(problem) for problem in warnings],
         }
+        if accepted:
+            data["accepted"] = [
+                _as_dict(item.problem) | {"reason": item.reason} for item in accepted
+            ]
         click.echo(json.dumps(data, ensure_ascii=False, indent=1))
         return BAD if problems else (LOOK if warnings else DONE)
-    for problem in warnings:
-        click.echo(f"Внимание: {problem.line()}", err=True)
+    tell(loaded)
     click.echo(f"{source}: ошибок нет")
     return LOOK if warnings else DONE
 
@@ -151,6 +155,11 @@ def build(
     for built in build_each(inputs, folder, kinds, dask):  # type: ignore[arg-type]
         for path in built.files:
             click.echo(f"{path}")
+        for line in built.accepted:
+            click.echo(f"Принято: {line}", err=True)
+        for line in built.failed:
+            click.echo(f"Внимание: {line}", err=True)
+            code = max(code, LOOK)
         if built.missing is not None:
             for line in built.missing.lines():
                 click.echo(line, err=True)

@@ -16,10 +16,12 @@ Kind = Literal["xlsx", "pdf", "html"]
 
 @dataclass(frozen=True, slots=True)
 class Built:
-    """Files written, and what could not be made and why."""
+    """Files written, what could not be made and why, failed checks and explained ones."""
 
     files: tuple[Path, ...]
     missing: SystemPartMissing | None = None
+    failed: tuple[str, ...] = ()
+    accepted: tuple[str, ...] = ()
 
 
 def load_input(path: Path) -> Loaded:
@@ -45,14 +47,16 @@ def build(path: Path, loaded: Loaded, folder: Path, kinds: tuple[Kind, ...]) -> 
         InputError: the input gives no finite result.
     """
     from reports.spec.evaluation import evaluate_model
+    from reports.tables.overview.verdicts import failed_checks
     from reports.tables.registry import build_model
 
     make_dir(folder)
-    model = build_model(loaded.model)
+    model = build_model(loaded.model, remarks_of(loaded))
     files: list[Path] = []
     missing: SystemPartMissing | None = None
     with Progress("Расчёт") as progress:
         values = evaluate_model(model)
+        checks = failed_checks(model, values)
         book = b""
         if "xlsx" in kinds or "pdf" in kinds:
             from reports.workbook.write import workbook_bytes
@@ -82,4 +86,14 @@ def build(path: Path, loaded: Loaded, folder: Path, kinds: tuple[Kind, ...]) -> 
             target = folder / f"{path.stem}.html"
             write_text(target, report_html(model, values, source=path))
             files.append(target)
-    return Built(tuple(files), missing)
+    failed = tuple(check.line() for check in checks if not check.reason)
+    accepted = tuple(check.line() for check in checks if check.reason)
+    return Built(tuple(files), missing, failed, accepted)
+
+
+def remarks_of(loaded: Loaded) -> tuple[str, ...]:
+    """Lines about an input that stand beside the checks of its calculation."""
+    return (
+        *(f"Внимание: {problem.line()}" for problem in loaded.warnings),
+        *(f"Принято: {accepted.line()}" for accepted in loaded.accepted),
+    )

@@ -29,10 +29,12 @@ class Order:
 
 @dataclass(frozen=True, slots=True)
 class Delivery:
-    """Files by name, and what the other machine lacked."""
+    """Files by name, what the other machine lacked, failed checks and explained ones."""
 
     files: list[tuple[str, bytes]]
     missing: tuple[str, str, str] | None = None
+    failed: tuple[str, ...] = ()
+    accepted: tuple[str, ...] = ()
 
 
 def build_each(
@@ -57,7 +59,8 @@ def build_each(
         if delivery.missing:
             part, command, purpose = delivery.missing
             missing = SystemPartMissing(part, command, purpose=purpose)
-        yield Built(tuple(folder / name for name, _ in delivery.files), missing)
+        files = tuple(folder / name for name, _ in delivery.files)
+        yield Built(files, missing, delivery.failed, delivery.accepted)
 
 
 def delivered(order: Order) -> Delivery:
@@ -68,7 +71,8 @@ def delivered(order: Order) -> Delivery:
         built = build(source, order.loaded, out, order.kinds)
         files = [(path.name, path.read_bytes()) for path in built.files]
         lacks = built.missing
-        return Delivery(files, (lacks.part, lacks.command, lacks.purpose) if lacks else None)
+        missing = (lacks.part, lacks.command, lacks.purpose) if lacks else None
+        return Delivery(files, missing, built.failed, built.accepted)
 
 
 def _order(path: Path, loaded: Loaded, kinds: tuple[Kind, ...]) -> Order:

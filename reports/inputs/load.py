@@ -17,6 +17,7 @@ from pydantic import ValidationError
 
 from reports.inputs import cells, load_regimes, messages
 from reports.inputs.checks import cross_checks
+from reports.inputs.checks.plausibility import check_plausibility
 from reports.inputs.diagram_file import with_points
 from reports.inputs.fields import Path, key_text
 from reports.inputs.findings import Finding, Values
@@ -35,6 +36,7 @@ from reports.inputs.sections.input_file import (
     RegimeValues,
 )
 from reports.inputs.source import read_text, refuse_bomb, refused
+from reports.inputs.to_si.geometry import sizes_of
 from reports.shared.errors import InputError, Problem, one_line
 
 MAX_PROBLEMS = 200
@@ -44,10 +46,23 @@ Locate = Callable[[Path], str]
 
 @dataclass(frozen=True, slots=True)
 class Loaded:
-    """A checked input and what is odd about it."""
+    """A checked input, what is odd about it, and what is odd and explained."""
 
     model: InputFile
     warnings: tuple[Problem, ...]
+    accepted: tuple[Accepted, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Accepted:
+    """An oddity that the file itself explains."""
+
+    problem: Problem
+    reason: str
+
+    def line(self) -> str:
+        """The one-line message."""
+        return one_line(f"{self.problem.where}: {self.problem.what}; причина: {self.reason}", 600)
 
 
 def load_toml(path: FilePath | str) -> Loaded:
@@ -113,14 +128,21 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
         raise InputError(_capped(source, reader.problems, reader.uncounted))
     parts = cast(dict[str, Any], models)
     model = InputFile(**parts, regimes=further)
+    found = None
     if model.cycle is not None:
         # Only a file with a cycle pays for the numeric part.
-        from reports.inputs.to_si.cycle import cycle_findings
+        from reports.inputs.to_si.cycle import cycle_and_findings
 
-        reader.take(cycle_findings(model))
+        run, findings = cycle_and_findings(model)
+        reader.take(findings)
         if reader.problems:
             raise InputError(reader.problems)
-    return Loaded(model, tuple(reader.warnings))
+        if run is not None and run.design is not None:
+            found = run.design.bore, run.design.stroke
+    known = {key for key, _ in reader.warnings}  # a line for each key
+    odd = check_plausibility(model, sizes_of(model, found))
+    reader.take(finding for finding in odd if key_text(finding.path) not in known)
+    return reader.loaded(model)
 
 
 class _Reader:
@@ -131,15 +153,20 @@ class _Reader:
         self.locate = locate
         self.regime = regime
         self.problems: list[Problem] = []
-        self.warnings: list[Problem] = []
+        self.warnings: list[tuple[str, Problem]] = []
         self.values = Values()
         self.empty: set[Path] = set()
         self.uncounted = 0
 
-    def problem(self, path: Path, what: str, hint: str = "") -> Problem:
+    def key(self, path: Path) -> str:
         if self.regime is not None:
             path = load_regimes.inside(self.regime, path)
-        key = one_line(key_text(path), 100)
+        return one_line(key_text(path), 100)
+
+    def problem(self, path: Path, what: str, hint: str = "") -> Problem:
+        key = self.key(path)
+        if self.regime is not None:
+            path = load_regimes.inside(self.regime, path)
         cell = self.locate(path) if self.locate is not None and path else ""
         place = f"{cell} ({key})" if cell else key
         return Problem(": ".join(part for part in (self.source, place) if part), what, hint)
@@ -147,7 +174,23 @@ class _Reader:
     def take(self, findings: Iterable[Finding]) -> None:
         for finding in findings:
             problem = self.problem(finding.path, finding.what, finding.hint)
-            (self.warnings if finding.warning else self.problems).append(problem)
+            if finding.warning:
+                self.warnings.append((self.key(finding.path), problem))
+            else:
+                self.problems.append(problem)
+
+    def loaded(self, model: InputFile) -> Loaded:
+        """The model with its oddities, those it explains itself apart."""
+        reasons = {} if model.checks is None else {
+            entry.what: entry.reason for entry in model.checks.accepted
+        }  # fmt: skip
+        return Loaded(
+            model,
+            tuple(problem for key, problem in self.warnings if key not in reasons),
+            tuple(
+                Accepted(problem, reasons[key]) for key, problem in self.warnings if key in reasons
+            ),
+        )
 
     def from_cells(self, data: dict[str, Any]) -> dict[str, Any]:
         source = str(data["gas"].get("source")) if isinstance(data.get("gas"), dict) else ""

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from reports.inputs.meta import Strictly, hints, submodel
 from reports.inputs.sections.articulated import ArticulatedSection
 from reports.inputs.sections.balance import BalanceSection
+from reports.inputs.sections.checks import ChecksSection
 from reports.inputs.sections.crankshaft import CrankshaftSection
 from reports.inputs.sections.cycle import CycleSection
 from reports.inputs.sections.gas import (
@@ -146,6 +147,19 @@ _ALL = (
         absent=True,
         lists={"lambdas": ListKey("Справочные таблицы: значения λ", "reference_lambda_{n}_value")},
         words=("Таблицы 1–3, 5–8 и рисунки 3–10 учебника для любых λ; lambdas — список:",),
+    ),
+    Section(
+        "checks",
+        "Принятые расхождения",
+        ChecksSection,
+        optional=True,
+        absent=True,
+        lists={"accepted": ListKey("Принятые расхождения", "accepted_{n}_{key}")},
+        words=(
+            "Что необычно или не сходится, но так и должно быть: what — ключ из предупреждения",
+            '(например, geometry.bore_mm) или имя проверки ("power"), reason — причина. Она',
+            "будет названа в книге и в отчёте, а код завершения останется 0:",
+        ),
     ),
 )
 SECTIONS: dict[str, Section] = {section.name: section for section in _ALL}

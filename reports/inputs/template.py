@@ -66,6 +66,7 @@ def _explained() -> str:
     values = tomllib.loads(_sample_text(BLANK_SAMPLE))
     values["report"] = {"year": datetime.now(tz=UTC).year}
     values["engine"]["name"] = "Двигатель"
+    del values["regime"]["indicated_power_kw"]  # the book's own, of another diagram
     document = tomlkit.document()
     for line in _HEAD:
         document.add(tomlkit.comment(line))
@@ -84,9 +85,14 @@ def _explained() -> str:
 def _commented(section: Section) -> Iterator[str]:
     """An optional section as comments: its words, its head, its keys."""
     yield from section.words
-    yield f"[{section.name}]"
-    for key, annotation in hints(section.model).items():
-        yield f"{key} = … {_note(find_meta(annotation))}"
+    lists = dict(records(section.model))
+    plain = {key: item for key, item in hints(section.model).items() if key not in lists}
+    heads = {f"[{section.name}]": plain} if plain else {}
+    heads |= {f"[[{section.name}.{key}]]": hints(inner) for key, inner in lists.items()}
+    for head, keys in heads.items():
+        yield head
+        for key, annotation in keys.items():
+            yield f"{key} = … {_note(find_meta(annotation))}"
 
 
 def _table(model: type[Strictly], values: dict[str, Any]) -> Table:

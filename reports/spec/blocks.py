@@ -117,12 +117,17 @@ Block = TableSpec | ScalarTable | Grid
 
 @dataclass(frozen=True)
 class Model:
-    """All specifications for one input file: what a workbook or a report consists of."""
+    """All specifications for one input file: what a workbook or a report consists of.
+
+    ``remarks`` are the lines to stand beside the checks: what is odd about the input, what
+    is odd and explained, what is not calculated and why.
+    """
 
     input: InputFile
     inputs: tuple[Field, ...]
     blocks: tuple[Block, ...]
     charts: tuple[ChartSpec, ...]
+    remarks: tuple[str, ...] = ()
 
     @cached_property
     def tables(self) -> Mapping[str, TableSpec]:
@@ -182,7 +187,7 @@ class Model:
 
     def with_inputs(self, input_file: InputFile, inputs: tuple[Field, ...]) -> Model:
         """The same specifications for an input of the same structure."""
-        made = Model(input_file, inputs, self.blocks, self.charts)
+        made = Model(input_file, inputs, self.blocks, self.charts, self.remarks)
         # What follows from the blocks and from the names of the inputs is the same as well.
         for name in ("tables", "scalars", "input_runs", "sheets", "nodes", "grid_runs", "programs"):
             made.__dict__[name] = getattr(self, name)

@@ -35,6 +35,7 @@ from reports.tables.motion.segal import segal
 from reports.tables.motion.two_term import two_term
 from reports.tables.overview.scheme import scheme
 from reports.tables.overview.summary import summary
+from reports.tables.overview.verdicts import accepted_checks
 
 # Files of tables in the order of their sheets.
 BEFORE: tuple[PartOf, ...] = (scheme, processes, results, speed)
@@ -50,8 +51,11 @@ AFTER: tuple[PartOf, ...] = (
 )  # fmt: skip
 
 
-def build_model(model: InputFile) -> Model:
-    """Specifications of every table, scalar and chart for the input's structure."""
+def build_model(model: InputFile, remarks: tuple[str, ...] = ()) -> Model:
+    """Specifications of every table, scalar and chart for the input's structure.
+
+    ``remarks`` are lines about the input, told beside the checks.
+    """
     scope, regimes = Scope(model), regime_models(model, chain)
     parts = (
         joined(scope, BEFORE),
@@ -62,7 +66,9 @@ def build_model(model: InputFile) -> Model:
     )
     blocks = tuple(block for part in parts for block in part.blocks)
     charts = tuple(chart for part in parts for chart in part.charts)
-    return Model(model, tuple(iter_fields(model)), substituted(blocks, stand_ins(model)), charts)
+    blocks = substituted(blocks, stand_ins(model))
+    remarks = (*remarks, *accepted_checks(model, blocks))
+    return Model(model, tuple(iter_fields(model)), blocks, charts, remarks)
 
 
 def stand_ins(model: InputFile) -> dict[str, str]:

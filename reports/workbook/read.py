@@ -41,8 +41,9 @@ def load_workbook_input(path: Path) -> Loaded:
             continue
         wanted[target] = places[name]
         _put(raw, target, value)
-    for section in ("gas", "crankshaft", "reference"):
-        _close_lists(raw.get(section, {}))
+    for section in SECTIONS.values():
+        if section.lists:
+            _close_lists(raw.get(section.name, {}))
     for regime in raw.get("regimes", {}).values():
         _close_lists(regime.get("gas", {}))
     _close_lists(raw)

@@ -53,6 +53,7 @@ _CHARACTER_CM = 0.25
 _SLOT = 16  # rows that a chart takes, so that pages hold whole charts
 _PORTRAIT_COLUMNS = 9
 _MOST_CHECKS = 40
+_REMARK_CHARACTERS = 60  # in a line of the widest column
 _CYCLE_TITLES = {CYCLE_SHEET: "Расчет рабочего цикла"}
 _CYCLE_WIDTHS = {2: 20, 4: 17, SOURCE_COLUMN: 28, 6: 17, 7: 17, 8: 17}
 _RANGE_WIDTHS = {1: 76, 2: 4, 4: 16, SOURCE_COLUMN: 42}
@@ -135,6 +136,8 @@ def _blocks(sheet: Worksheet, model: Model, writer: Writer) -> None:
             writer.list(sheet, block)
             if block.verdicts is not None:
                 _colour_verdicts(sheet, *block.verdicts)
+            if block.id == "checks":
+                _remarks(sheet, model.remarks)
         elif isinstance(block, Grid):
             writer.grid(sheet, block)
     if notes:
@@ -151,6 +154,20 @@ def _colour_verdicts(sheet: Worksheet, good: str, bad: str) -> None:
     sheet.conditional_formatting.add(
         place, CellIsRule("equal", [f'"{bad}"'], fill=red, font=Font(bold=True, color="9C0006"))
     )
+
+
+def _remarks(sheet: Worksheet, remarks: Sequence[str]) -> None:
+    """Lines about the input below its checks: odd, or odd and explained."""
+    if not remarks:
+        return
+    first = sheet.max_row + 2
+    title = sheet.cell(first, 1, "Замечания к исходным данным при построении книги")
+    title.style = styles.SUBTITLE
+    for row, text in enumerate(remarks, first + 1):
+        cell = styles.as_text(sheet.cell(row, 1, text))
+        cell.style = styles.TEXT
+        cell.alignment = Alignment(wrap_text=True, vertical="top")
+        sheet.row_dimensions[row].height = 15 * ceil(len(text) / _REMARK_CHARACTERS)
 
 
 def _contents(sheet: Worksheet, model: Model, legend: Sequence[tuple[str, str]]) -> None:

@@ -258,3 +258,31 @@ def test_help_is_russian() -> None:
     assert "Использование:" in done.stdout
     for word in ("Usage", "Options", "Commands", "Show this"):
         assert word not in done.stdout + kshm("build", "--help").stdout
+
+
+def test_the_first_command_of_the_readme_ends_well(tmp_path: Path) -> None:
+    done = kshm("build", "samples/gots-diesel.toml", "-o", tmp_path, "--only", "xlsx")
+    assert done.returncode == 0
+    assert "Принято: не выполнена проверка «Средняя тангенциальная сила" in done.stderr
+
+
+def test_a_failed_check_is_told_and_ends_with_one(tmp_path: Path) -> None:
+    source = edited(
+        tmp_path, ("[[checks.accepted]]", ""), ('what = "power"', ""), ("reason =", "#")
+    )
+    done = kshm("build", source, "-o", tmp_path, "--only", "xlsx")
+    assert done.returncode == 1
+    (line,) = done.stderr.splitlines()
+    assert line.startswith("Внимание: не выполнена проверка «Средняя тангенциальная сила")
+    assert (tmp_path / "engine.xlsx").is_file()
+
+
+def test_remarks_stand_in_the_book(tmp_path: Path) -> None:
+    import openpyxl
+
+    source = with_key(tmp_path, "mechanical_efficiency", "1.0")
+    assert kshm("build", source, "-o", tmp_path, "--only", "xlsx").returncode == 1
+    sheet = openpyxl.load_workbook(tmp_path / "engine.xlsx")["Проверки"]
+    texts = [str(cell.value) for row in sheet.iter_rows() for cell in row if cell.value]
+    assert any(t.startswith("Внимание: engine.toml: regime.mechanical_efficiency") for t in texts)
+    assert any(t.startswith("Принято расхождение «Средняя тангенциальная") for t in texts)

@@ -25,7 +25,8 @@ CASES = {
     ),
     "low intake pressure": (
         ("gas", "intake_pressure_mpa", 0.025),
-        "gas.intake_pressure_mpa: давление впуска 0.025 МПа необычно; обычно от 0.03 до 0.5 МПа",
+        "gas.intake_pressure_mpa: p_a = 0.025 МПа необычно; обычно от 0.05 до 0.49 МПа "
+        "(по памяти); проверьте единицу и запятую",
     ),
     "pz below pure compression": (
         ("gas", "max_pressure_mpa", 8.5),

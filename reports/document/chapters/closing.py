@@ -42,9 +42,16 @@ SHORT_EVERY = 3  # rows of the tables over the crank angle in a short report
 
 def checks(chapter: Chapter) -> Markup:
     """Table of checks and what the failed ones mean."""
-    keys = check_keys(chapter.terms)
-    plan = TablePlan(partial(_check_table, chapter.terms, keys), "Проверки расчёта", lined=True)
-    return chapter.page("checks", plan=plan, failed=failed(chapter.terms), count=len(keys))
+    terms = chapter.terms
+    keys = check_keys(terms)
+    plan = TablePlan(partial(_check_table, terms, keys), "Проверки расчёта", lined=True)
+    return chapter.page(
+        "checks",
+        plan=plan,
+        failed=failed(terms),
+        count=len(keys),
+        remarks=terms.model.remarks,
+    )
 
 
 def check_keys(terms: Terms) -> list[str]:

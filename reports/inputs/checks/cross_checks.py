@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from reports.inputs.checks.accepted import check_accepted
 from reports.inputs.checks.cycle import check_cycle
 from reports.inputs.checks.gas import check_gas
 from reports.inputs.checks.layout import check_layout
@@ -30,6 +31,7 @@ def check(values: Values) -> Iterator[Finding]:
     yield from check_gas(values)
     yield from check_cycle(values)
     yield from check_reference(values)
+    yield from check_accepted(values)
 
 
 def _geometry(values: Values) -> Iterator[Finding]:

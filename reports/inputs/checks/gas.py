@@ -99,10 +99,6 @@ def _odd_pressures(values: Values) -> Iterator[Finding]:
     ambient = values.get("gas", "ambient_pressure_mpa")
     intake = values.get("gas", "intake_pressure_mpa")
     residual = values.get("gas", "residual_pressure_mpa")
-    if intake is not None and not 0.03 <= intake <= 0.5:
-        what = f"давление впуска {MPA.text(intake)} необычно"
-        path = ("gas", "intake_pressure_mpa")
-        yield Finding(path, what, "обычно от 0.03 до 0.5 МПа", warning=True)
     if None in (ambient, intake, residual):
         return
     highest = 1.5 * max(intake, ambient)

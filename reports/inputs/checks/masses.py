@@ -19,10 +19,6 @@ _ADVICE = (
     "либо piston_group_kg, rod_kg и одно из rod_centre_mm, rod_small_end_share"
 )
 _MORE = "; еще способы: взвешивание, качания, оценка estimate_fuel"
-_USUAL_AREA = {  # table 4 over all materials [kg/m²]
-    "piston_group_kg": ((80, 200), (150, 400), "поршневой группы"),
-    "rod_kg": ((100, 200), (250, 400), "шатуна"),
-}
 _GRAVITY_MM = 9810.0
 
 
@@ -43,7 +39,6 @@ def check_masses(values: Values) -> Iterator[Finding]:
     yield from _centre(values)
     yield from _swung(values)
     yield from _inertia(values)
-    yield from _area(values)
 
 
 def _ways(given: set[str]) -> Iterator[Finding]:
@@ -201,22 +196,3 @@ def _inertia(values: Values) -> Iterator[Finding]:
         what = f"I_ш/(m_ш·l²) = {number_text(round(ratio, 4))} необычно"
         path = ("masses", "rod_inertia_kg_m2")
         yield Finding(path, what, "обычно от 0.02 до 0.5: проверьте кг·м²", warning=True)
-
-
-def _area(values: Values) -> Iterator[Finding]:
-    """Masses over the piston area against the bounds of table 4."""
-    bore = values.get("geometry", "bore_mm")
-    if bore is None:
-        return
-    area = math.pi * (bore / 1000) ** 2 / 4
-    kind = values.get("masses", "estimate_fuel") or values.get("cycle", "kind")
-    for key, (petrol, diesel, name) in _USUAL_AREA.items():
-        mass = values.get("masses", key)
-        if mass is None:
-            continue
-        low, high = {"petrol": petrol, "diesel": diesel}.get(kind, (petrol[0], diesel[1]))
-        found = mass / area
-        if not low <= found <= high:
-            what = f"удельная масса {name} {number_text(round(found))} кг/м² необычна"
-            hint = f"по таблице 4 учебника от {low} до {high} кг/м²"
-            yield Finding(("masses", key), what, hint, warning=True)

@@ -134,15 +134,15 @@ def speed_law(model: InputFile, section: CycleSection) -> Leiderman:
     return from_adaptability(float(section.adaptability), ratio, base)
 
 
-def cycle_findings(model: InputFile) -> list[Finding]:
-    """What the calculation itself says: the error that stops it, or its remarks."""
+def cycle_and_findings(model: InputFile) -> tuple[CycleRun | None, list[Finding]]:
+    """The cycle and what it says itself: the error that stops it, or its remarks."""
     try:
         run = cycle_run(model)
     except CycleError as error:
-        return [_finding(error.remark)]
+        return None, [_finding(error.remark)]
     if run is None:
-        return []
-    return [
+        return None, []
+    return run, [
         replace(_finding(remark), path=("cycle",), warning=True) for remark in run.cycle.warnings
     ]
 

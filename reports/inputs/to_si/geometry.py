@@ -2,7 +2,43 @@
 
 from __future__ import annotations
 
-from reports.inputs.sections.input_file import GeometrySection
+import math
+from dataclasses import dataclass
+
+from reports.inputs.sections.input_file import GeometrySection, InputFile
+
+_SIMILAR_MM = 150.0  # masses over the piston area grow with the bore of larger engines
+
+
+@dataclass(frozen=True, slots=True)
+class Sizes:
+    """Bore, crank radius and rod [mm], given or found by the cycle."""
+
+    bore: float
+    radius: float
+    rod: float
+
+    @property
+    def piston_area(self) -> float:
+        """F_п [m²]."""
+        return math.pi * (self.bore / 1000) ** 2 / 4
+
+    @property
+    def mass_area(self) -> float:
+        """Area that masses are in proportion to [m²]: F_п, larger for large engines."""
+        return self.piston_area * max(1.0, self.bore / _SIMILAR_MM)
+
+
+def sizes_of(model: InputFile, bore_and_stroke: tuple[float, float] | None = None) -> Sizes:
+    """Sizes of an engine whose bore and stroke [m] are given or found."""
+    geometry = model.geometry
+    if isinstance(geometry, GeometrySection):
+        return Sizes(geometry.bore_mm, crank_radius_mm(geometry), rod_length_mm(geometry))
+    if bore_and_stroke is None:
+        msg = "geometry without bore needs a wanted power"
+        raise ValueError(msg)
+    bore, stroke = (1000 * size for size in bore_and_stroke)
+    return Sizes(bore, stroke / 2, stroke / 2 / geometry.lambda_)
 
 
 def crank_radius_mm(geometry: GeometrySection) -> float:

@@ -1,0 +1,180 @@
+"""Usual ranges of an engine's data, wide enough for real engines of every kind.
+
+No range spans a factor of ten: a value in it, ten times larger or smaller, is outside.
+What is known by heart and was not checked against a book says so in its source.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+MEMORY = "по памяти"
+TABLE_4 = "таблица 4 учебника с запасом"
+# One size for all journals, or one for each.
+PIN_DIAMETERS = ("pin_diameter_mm", "pin_diameters_mm")
+PIN_LENGTHS = ("pin_length_mm", "pin_lengths_mm")
+MAIN_DIAMETERS = ("main_diameter_mm", "main_diameters_mm")
+
+
+@dataclass(frozen=True, slots=True)
+class Band:
+    """Usual values of a key over a base, ends included.
+
+    ``key`` is a path of the file with the numbers of lists left out.  ``base`` divides the
+    value: D, r, L [mm], n [min⁻¹], F (piston area in m², larger for large engines) or "".
+    ``kind`` limits the band to an engine's kind (or number of strokes), ``zero`` lets a
+    plain zero pass: there is no such part.
+    """
+
+    key: str
+    base: str
+    words: str
+    low: float
+    high: float
+    source: str = MEMORY
+    unit: str = ""
+    zero: bool = False
+    kind: str = ""
+
+
+def _arm(key: str, words: str, low: float, high: float) -> Band:
+    return Band(f"crankshaft.arms.{key}", "D", f"{words}/D", low, high, zero=True)
+
+
+def _mass(
+    key: str, words: str, low: float, high: float, source: str = MEMORY, **more: str | bool
+) -> Band:
+    return Band(key, "F", f"{words}/F_п", low, high, source, "кг/м²", **more)  # type: ignore[arg-type]
+
+
+def _share(key: str, words: str, low: float, high: float, **more: bool) -> Band:
+    return Band(f"balance.{key}", "", words, low, high, **more)  # type: ignore[arg-type]
+
+
+def _cycle(key: str, words: str, low: float, high: float, unit: str = "", kind: str = "") -> Band:
+    return Band(f"cycle.{key}", "", words, low, high, unit=unit, kind=kind)
+
+
+BANDS: tuple[Band, ...] = (
+    *(Band(f"crankshaft.{key}", "D", "d_шш/D", 0.3, 0.95) for key in PIN_DIAMETERS),
+    *(Band(f"crankshaft.{key}", "D", "d_кш/D", 0.3, 1.15) for key in MAIN_DIAMETERS),
+    _arm("l1_mm", "l_1", 0.065, 0.64),
+    _arm("l2_mm", "l_2", 0.065, 0.64),
+    _arm("l3_mm", "l_3", 0.04, 0.39),
+    _arm("l4_mm", "l_4", 0.04, 0.39),
+    _arm("l5_mm", "l_5", 0.065, 0.64),
+    _arm("l6_mm", "l_6", 0.065, 0.64),
+    _arm("left_web_mm", "h_Л", 0.06, 0.59),
+    _arm("right_web_mm", "h_П", 0.06, 0.59),
+    Band("crankshaft.nose_arm_mm", "D", "l_p1/D", 0.25, 2.45, zero=True),
+    Band("crankshaft.rear_arm_mm", "D", "l_p2/D", 0.25, 2.45, zero=True),
+    _mass("masses.piston_group_kg", "m_п", 64, 500, TABLE_4),
+    _mass("masses.piston_group_kg", "m_п", 64, 280, TABLE_4, kind="petrol"),
+    _mass("masses.piston_group_kg", "m_п", 110, 500, TABLE_4, kind="diesel"),
+    _mass("masses.rod_kg", "m_ш", 64, 500, TABLE_4),
+    _mass("masses.rod_kg", "m_ш", 64, 280, TABLE_4, kind="petrol"),
+    _mass("masses.rod_kg", "m_ш", 130, 500, TABLE_4, kind="diesel"),
+    _mass("masses.reciprocating_kg", "m_j", 80, 650, TABLE_4),
+    _mass("masses.rod_big_end_kg", "m_2", 46, 400, TABLE_4),
+    _mass("crankshaft.pin_mass_kg", "m_шш", 35, 340),
+    _mass("crankshaft.webs.mass_kg", "m_щ", 26, 255, zero=True),
+    _mass("crankshaft.webs.counterweight_kg", "m_пр", 48, 470, zero=True),
+    _mass("crankshaft.nose_mass_kg", "m_вп1", 18, 175, zero=True),
+    _mass("crankshaft.rear_mass_kg", "m_вп2", 18, 175, zero=True),
+    _mass("articulated.reciprocating_kg", "m_jп", 80, 650, TABLE_4),
+    _mass("articulated.big_end_kg", "m_2п", 40, 390, zero=True),
+    Band("articulated.rod_length_mm", "L", "L_п/L", 0.4, 1.3),
+    Band("articulated.radius_mm", "r", "ρ_п/r", 0.4, 2.5, zero=True),
+    Band("masses.small_end_radius_mm", "D", "r_1/D", 0.07, 0.36, zero=True),
+    Band("masses.swing_edges_mm", "L", "l_3/L", 0.7, 1.7),
+    Band("masses.estimate_piston_kg_per_m2", "", "m'_п", 64, 500, TABLE_4, "кг/м²"),
+    Band("masses.estimate_rod_kg_per_m2", "", "m'_ш", 64, 500, TABLE_4, "кг/м²"),
+    Band("masses.estimate_throw_kg_per_m2", "", "m'_к", 90, 800, TABLE_4, "кг/м²"),
+    Band("masses.estimate_pin_share", "", "m_шш/m_к", 0.2, 0.8),
+    Band("geometry.compression_ratio", "", "ε", 5, 26),
+    Band("geometry.compression_ratio", "", "ε", 5, 15.5, kind="petrol"),
+    Band("geometry.compression_ratio", "", "ε", 11.5, 26, kind="diesel"),
+    Band("geometry.crank_offset_mm", "r", "e_в/r", 0.026, 0.25, zero=True),
+    Band("geometry.pin_offset_mm", "D", "e_п/D", 0.003, 0.029, zero=True),
+    Band("regime.fullness", "", "φ_п", 0.85, 1),
+    Band("gas.ambient_pressure_mpa", "", "p_0", 0.05, 0.2, unit="МПа"),
+    Band("gas.intake_pressure_mpa", "", "p_a", 0.05, 0.49, unit="МПа"),
+    Band("gas.compression_exponent", "", "n_1", 1.2, 1.45),
+    Band("gas.expansion_exponent", "", "n_2", 1.1, 1.4),
+    Band("gas.preexpansion_ratio", "", "ρ", 1, 2.5),
+    Band("gas.injection_advance_deg", "", "θ_оп", 4.6, 45, unit="°"),
+    Band("gas.ignition_delay_deg", "", "Δφ_з", 2.5, 24, unit="°", zero=True),
+    Band("gas.exhaust_start_before_bdc_deg", "", "φ_в1", 20, 100, unit="°"),
+    Band("gas.exhaust_end_after_bdc_deg", "", "φ_в2", 9, 85, unit="°"),
+    Band("gas.scavenge_start_before_bdc_deg", "", "φ_пр", 20, 90, unit="°"),
+    Band("gas.intake_settle_deg", "", "φ_a'", 9, 85, unit="°"),
+    Band("gas.tdc_rise", "", "p_c''/p_c", 1.02, 1.5),
+    Band("gas.peak_share", "", "p_zд/p_z", 0.75, 1),
+    Band("gas.peak_after_tdc_deg", "", "φ_zд", 4, 25, unit="°"),
+    Band("gas.expansion_after_tdc_deg", "", "φ_j", 20, 75, unit="°"),
+    _share("counterweight_share", "ε_п", 0.11, 1, zero=True),
+    _share("first_shafts_share", "ψ_1", 0.11, 1, zero=True),
+    _share("second_shafts_share", "ψ_2", 0.11, 1, zero=True),
+    _share("suppression", "ψ", 0.11, 1.05, zero=True),
+    Band("balance.shaft_radius_mm", "r", "e_б/r", 0.15, 1.45),
+    _share("irregularity", "δ", 0.0025, 0.024),
+    _share("rod_small_end_share", "m_1/m_ш", 0.15, 0.4),
+    _share("rod_mass_factor", "k_ш", 0.5, 1.3),
+    _share("web_width_share", "b/D", 0.5, 2),
+    _share("web_thickness_share", "h/D", 0.06, 0.5),
+    Band("reference.lambdas", "", "λ", 0.1, 0.5),
+    _cycle("excess_air", "α", 0.75, 1.5, kind="petrol"),
+    _cycle("excess_air", "α", 1.15, 4, kind="diesel"),
+    _cycle("ambient_temperature_k", "T_0", 250, 325, "К"),
+    _cycle("charge_heating_k", "ΔT", -15, 45, "К"),
+    _cycle("residual_temperature_k", "T_r", 600, 1250, "К"),
+    _cycle("intake_factor", "C_1", 0.7, 1.05),
+    _cycle("exhaust_factor", "C_2", 0.7, 1.4),
+    _cycle("recharge", "φ_доз", 1, 1.15),
+    _cycle("scavenging", "φ_оч", 0.7, 1),
+    _cycle("max_pressure_mpa", "p_z", 4, 25, "МПа"),
+    _cycle("xi_z", "ξ_z", 0.65, 0.97),
+    _cycle("xi_b", "ξ_b", 0.75, 0.97),
+    _cycle("fullness", "φ_д", 0.88, 0.99),
+    _cycle("h2_co_ratio", "K_H2", 0.3, 0.6),
+    _cycle("friction_a_mpa", "A", 0.02, 0.19, "МПа"),
+    _cycle("friction_b_mpa_s_m", "B", 0.004, 0.039, "МПа·с/м"),
+    _cycle("boost_ratio", "π_к", 1.1, 5),
+    _cycle("compressor_efficiency", "η_к", 0.5, 0.9),
+    _cycle("turbine_efficiency", "η_т", 0.5, 0.9),
+    Band("cycle.cooler_loss_mpa", "", "Δp_х", 0.0015, 0.0145, unit="МПа", zero=True),
+    Band("cycle.cooler_drop_k", "", "ΔT_х", 10, 99, unit="К", zero=True),
+    _cycle("turbine_outlet_ratio", "π_вых", 1, 1.2),
+    _cycle("exhaust_heat_kj_kg_k", "c_pг", 1, 1.3, "кДж/(кг·К)"),
+    _cycle("adaptability", "K", 1.02, 1.6),
+    _cycle("stroke_bore", "S/D", 0.6, 1.6),
+    _cycle("size_step_mm", "Δ", 0.5, 4.9, "мм"),
+    Band("cycle.torque_speed_rpm", "n", "n_M/n", 0.3, 0.95),
+    Band("cycle.idle_speed_rpm", "n", "n_х/n", 0.08, 0.5),
+)
+
+# Values that follow from more than one key; `plausibility` says from which.
+SIZES = Band("geometry", "", "S/D", 0.6, 1.55)
+LARGE_SIZES = Band("geometry", "", "S/D", 0.6, 4.5)  # crosshead engines
+LARGE_BORE_MM = 250.0
+SPEED = Band("regime.speed_rpm", "", "средняя скорость поршня Sn/30", 2.8, 26, unit="м/с")
+LOWER_SPEED = Band("regimes.speed_rpm", "", "частота вращения к номинальной", 0.12, 1.19)
+PIN_LENGTH = Band("crankshaft.pin_length_mm", "", "l_шш/d_шш", 0.25, 1.2)
+MAIN_LENGTH = Band("crankshaft.main_lengths_mm", "", "l_кш/d_кш", 0.2, 1.6)
+MAIN_TO_PIN = Band("crankshaft.main_diameter_mm", "", "d_кш/d_шш", 0.97, 1.75)
+REDUCED_WEB = Band("crankshaft.webs.centre_mm", "F", "m_щ·ρ/r/F_п", 26, 255, unit="кг/м²")
+EFFICIENCY = Band("regime.mechanical_efficiency", "", "η_м", 0.5, 0.96)
+RESIDUAL = Band("gas.residual_pressure_mpa", "", "p_r/p_a", 0.5, 4)
+RISE = Band("gas.max_pressure_mpa", "", "p_z/p_c", 0.6, 5.5)
+POWER = Band("regime.indicated_power_kw", "", "N_i к работе диаграммы", 0.4, 2.5)
+MEAN_PRESSURE = Band("gas.max_pressure_mpa", "", "p_i диаграммы", 0.2, 3.5, unit="МПа")
+MEAN_PRESSURE_OF_POWER = Band("regime.indicated_power_kw", "", "p_i по N_i", 0.3, 2.9, unit="МПа")
+POINTS = Band("gas.points", "", "наибольшее давление", 1.2, 25, unit="МПа")
+LEAST_POINT = Band("gas.points", "", "наименьшее давление", 0.02, 0.4, unit="МПа")
+RELATIONS = (
+    SIZES, LARGE_SIZES, SPEED, LOWER_SPEED, PIN_LENGTH, MAIN_LENGTH, MAIN_TO_PIN, REDUCED_WEB,
+    EFFICIENCY, RESIDUAL, RISE, POWER, MEAN_PRESSURE_OF_POWER,
+)  # fmt: skip
+# A point of the diagram stands out from both its neighbours by these factors: from near
+# ones and from those further than so many degrees.
+LONE_POINT, LONE_POINT_FAR, NEAR_DEG = 2.5, 4.0, 30.0

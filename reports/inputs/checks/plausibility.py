@@ -1,0 +1,307 @@
+"""What an engine cannot well be: values far from those of real ones, a warning each.
+
+Works on a checked file, so it never judges what is wrong anyway.  Only slips are meant: of
+a unit, of a decimal point, of a key.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from pydantic import BaseModel
+
+from reports.inputs.checks import bands
+from reports.inputs.checks.bands import BANDS, Band
+from reports.inputs.checks.volume import volume_ratio
+from reports.inputs.findings import Finding, Path
+from reports.inputs.sections.gas import CycleGasSection, GasSection, TableGasSection
+from reports.inputs.sections.input_file import InputFile, Regime
+from reports.inputs.to_si.geometry import Sizes
+from reports.inputs.units import number_text
+
+_MOST_OFF = 0.5  # share of the sizes that disagree with the bore when the bore is wrong
+
+
+def check_plausibility(model: InputFile, sizes: Sizes) -> Iterator[Finding]:
+    """Yield a warning for every value that hardly belongs to an engine."""
+    found = list(_by_band(model, sizes))
+    tested = sum(1 for _, band, _ in _tested(model, sizes) if band.base in ("D", "F"))
+    off = [finding for finding, band in found if band.base in ("D", "F")]
+    ratio = list(_stroke(model, sizes))
+    found_by_power = getattr(model.geometry, "bore_mm", None) is None
+    wrong_bore = bool(ratio or found_by_power) and len(off) > _MOST_OFF * tested
+    if wrong_bore:
+        yield _wrong_bore(model, sizes, len(off), tested)
+        yield from (finding for finding, band in found if band.base not in ("D", "F"))
+    else:
+        yield from ratio
+        yield from (finding for finding, _ in found)
+    yield from _speed(model, sizes)
+    yield from _shaft(model, sizes)
+    yield from _efficiency(model)
+    yield from _gas(model, model.gas, ())
+    if not wrong_bore:
+        yield from _power(model, model.gas, model.regime, sizes, ())
+    for index in range(len(model.regimes)):
+        yield from _lower_regime(model, sizes, index)
+
+
+# --- a key against its band ---
+Tested = tuple[Path, Band, float]
+
+
+def _by_band(model: InputFile, sizes: Sizes) -> Iterator[tuple[Finding, Band]]:
+    for path, band, value in _tested(model, sizes):
+        if not band.low <= value <= band.high:
+            yield _finding(path, band, value), band
+
+
+def _tested(model: InputFile, sizes: Sizes) -> Iterator[Tested]:
+    kind = kind_of(model)
+    bases = {
+        "": 1.0, "D": sizes.bore, "r": sizes.radius, "L": sizes.rod, "F": sizes.mass_area,
+        "n": float(model.regime.speed_rpm),
+    }  # fmt: skip
+    own = {band.key for band in BANDS if band.kind and band.kind == kind}
+    for band in BANDS:
+        if band.kind not in ("", kind) or (not band.kind and band.key in own):
+            continue
+        for path, value in values_at(model, band.key):
+            if not (band.zero and value == 0):
+                over = abs(value) if band.base and band.zero else value
+                yield path, band, over / bases[band.base]
+
+
+def kind_of(model: InputFile) -> str:
+    """Diesel or petrol, as far as the file says it; else empty."""
+    if model.cycle is not None:
+        return model.cycle.kind
+    return getattr(model.gas, "kind", None) or model.masses.estimate_fuel or ""
+
+
+def values_at(model: InputFile, key: str) -> Iterator[tuple[Path, float]]:
+    """The given numbers at a key of the file, one for each entry of its lists."""
+    yield from _values(model, key.split("."), ())
+
+
+def _values(part: Any, keys: list[str], path: Path) -> Iterator[tuple[Path, float]]:  # noqa: ANN401
+    if isinstance(part, tuple):
+        for index, item in enumerate(part):
+            yield from _values(item, keys, (*path, index))
+    elif isinstance(part, BaseModel) and keys:
+        field = {"lambda": "lambda_"}.get(keys[0], keys[0])
+        found = getattr(part, field, None)
+        about = type(part).model_fields.get(field)
+        # What the house has chosen itself is no slip of a person.
+        if found is not None and about is not None and found != about.default:
+            yield from _values(found, keys[1:], (*path, keys[0]))
+    elif isinstance(part, int | float) and not isinstance(part, bool) and not keys:
+        yield path, float(part)
+
+
+def _finding(path: Path, band: Band, value: float) -> Finding:
+    unit = f" {band.unit}" if band.unit and band.unit != "°" else band.unit
+    what = f"{band.words} = {_short(value)}{unit} необычно"
+    hint = f"обычно от {_short(band.low)} до {_short(band.high)}{unit} ({band.source})"
+    return Finding(path, what, f"{hint}; проверьте единицу и запятую", warning=True)
+
+
+def _short(value: float) -> str:
+    return number_text(float(f"{value:.4g}"))
+
+
+def _judged(path: Path, band: Band, value: float) -> Iterator[Finding]:
+    if not band.low <= value <= band.high:
+        yield _finding(path, band, value)
+
+
+# --- sizes and speeds ---
+def _stroke(model: InputFile, sizes: Sizes) -> Iterator[Finding]:
+    band = bands.LARGE_SIZES if sizes.bore >= bands.LARGE_BORE_MM else bands.SIZES
+    yield from _judged(_stroke_path(model), band, 2 * sizes.radius / sizes.bore)
+
+
+def _stroke_path(model: InputFile) -> Path:
+    for key in ("stroke_mm", "crank_radius_mm", "rod_length_mm"):
+        if getattr(model.geometry, key, None) is not None:
+            return ("geometry", key)
+    return ("cycle", "stroke_bore")
+
+
+def _wrong_bore(model: InputFile, sizes: Sizes, off: int, tested: int) -> Finding:
+    what = (
+        f"D = {_short(sizes.bore)} мм не вяжется с другими данными: S/D = "
+        f"{_short(2 * sizes.radius / sizes.bore)}, необычны {off} из {tested} размеров и масс"
+    )
+    if getattr(model.geometry, "bore_mm", None) is None:
+        hint = "диаметр найден по мощности: проверьте её и частоту вращения"
+        return Finding(("cycle", "power_kw"), what, hint, warning=True)
+    return Finding(("geometry", "bore_mm"), what, "проверьте диаметр цилиндра", warning=True)
+
+
+def _speed(model: InputFile, sizes: Sizes) -> Iterator[Finding]:
+    speed = 2 * sizes.radius / 1000 * model.regime.speed_rpm / 30
+    yield from _judged(("regime", "speed_rpm"), bands.SPEED, speed)
+
+
+def _lower_regime(model: InputFile, sizes: Sizes, index: int) -> Iterator[Finding]:
+    regime, path = model.regimes[index], ("regimes", index)
+    ratio = regime.speed_rpm / model.regime.speed_rpm
+    yield from _judged((*path, "speed_rpm"), bands.LOWER_SPEED, ratio)
+    if regime.mechanical_efficiency:
+        band, value = bands.EFFICIENCY, float(regime.mechanical_efficiency)
+        yield from _judged((*path, "mechanical_efficiency"), band, value)
+    for key, band in ((band.key.split(".")[-1], band) for band in BANDS if band.base == ""):
+        given = getattr(regime.gas, key, None) if band.key.startswith("gas.") else None
+        if isinstance(given, int | float) and not (band.zero and given == 0):
+            yield from _judged((*path, "gas", key), band, float(given))
+    yield from _gas(model, regime.gas, path)
+    yield from _power(model, regime.gas, regime, sizes, path)
+
+
+def _efficiency(model: InputFile) -> Iterator[Finding]:
+    law = model.cycle is not None and model.cycle.friction_a_mpa is not None
+    if not law:
+        path = ("regime", "mechanical_efficiency")
+        yield from _judged(path, bands.EFFICIENCY, float(model.regime.mechanical_efficiency))
+
+
+# --- journals and webs ---
+def _shaft(model: InputFile, sizes: Sizes) -> Iterator[Finding]:
+    pins, mains = _entries(model, bands.PIN_DIAMETERS), _entries(model, bands.MAIN_DIAMETERS)
+    for keys, band, diameters in (
+        (bands.PIN_LENGTHS, bands.PIN_LENGTH, pins),
+        (("main_lengths_mm",), bands.MAIN_LENGTH, mains),
+    ):
+        for index, (path, length) in enumerate(_entries(model, keys)):
+            yield from _judged(path, band, length / diameters[min(index, len(diameters) - 1)][1])
+    path, main = max(mains, key=lambda entry: entry[1])
+    yield from _judged(path, bands.MAIN_TO_PIN, main / max(pin for _, pin in pins))
+    for index, web in enumerate(model.crankshaft.webs):
+        if web.actual_mass_kg is None or web.centre_mm is None or web.centre_mm <= 0:
+            continue
+        reduced = web.actual_mass_kg * web.centre_mm / sizes.radius / sizes.mass_area
+        yield from _judged(("crankshaft", "webs", index, "centre_mm"), bands.REDUCED_WEB, reduced)
+
+
+def _entries(model: InputFile, keys: tuple[str, ...]) -> list[tuple[Path, float]]:
+    """Places and sizes of journals [mm], one for all or one for each."""
+    return [entry for key in keys for entry in values_at(model, f"crankshaft.{key}")]
+
+
+# --- pressures and power ---
+def _gas(model: InputFile, gas: GasSection, path: Path) -> Iterator[Finding]:
+    own = (*path, "gas")
+    if isinstance(gas, TableGasSection):
+        yield from _points(gas, own)
+        return
+    yield from _timing(gas, own, model.engine.strokes)
+    if not isinstance(gas, CycleGasSection):
+        yield from _polytropes(gas, _ratio(model), own)
+        if not path:
+            work = mean_pressure(gas, _ratio(model))
+            yield from _judged((*own, "max_pressure_mpa"), bands.MEAN_PRESSURE, work)
+
+
+def _ratio(model: InputFile) -> float:
+    return float(model.geometry.compression_ratio)
+
+
+def _power(
+    model: InputFile, gas: GasSection, regime: Regime, sizes: Sizes, path: Path
+) -> Iterator[Finding]:
+    """The given power against the work of the diagram."""
+    power = regime.indicated_power_kw
+    if power is None or isinstance(gas, CycleGasSection):
+        return
+    if isinstance(gas, TableGasSection):
+        work = _area_of(gas, sizes, _ratio(model))
+    else:
+        work = mean_pressure(gas, _ratio(model))
+    where = (*(path or ("regime",)), "indicated_power_kw")
+    swept = sizes.piston_area * 2 * sizes.radius / 1000  # m³
+    cycles = float(regime.speed_rpm) / 30 / model.engine.strokes * model.engine.cylinders
+    needed = power / 1000 / (swept * cycles)  # MPa
+    if work > 0:
+        yield from _judged(where, bands.POWER, needed / work)
+    elif not path:
+        yield from _judged(where, bands.MEAN_PRESSURE_OF_POWER, needed)
+
+
+def _polytropes(gas: Any, ratio: float, path: Path) -> Iterator[Finding]:  # noqa: ANN401
+    residual = gas.residual_pressure_mpa / gas.intake_pressure_mpa
+    yield from _judged((*path, "residual_pressure_mpa"), bands.RESIDUAL, residual)
+    end = gas.intake_pressure_mpa * ratio**gas.compression_exponent
+    yield from _judged((*path, "max_pressure_mpa"), bands.RISE, gas.max_pressure_mpa / end)
+    if gas.expansion_exponent >= gas.compression_exponent:
+        what = (
+            f"показатель расширения n_2 = {_short(gas.expansion_exponent)} не меньше показателя "
+            f"сжатия n_1 = {_short(gas.compression_exponent)}"
+        )
+        hint = "обычно n_2 меньше n_1: не переставлены ли они"
+        yield Finding((*path, "expansion_exponent"), what, hint, warning=True)
+
+
+def _timing(gas: Any, path: Path, strokes: int) -> Iterator[Finding]:  # noqa: ANN401
+    before, after = gas.exhaust_start_before_bdc_deg, gas.exhaust_end_after_bdc_deg
+    if strokes == 4 and before < after:
+        what = f"выпуск начинается за {_short(before)}° до НМТ, а кончается через {_short(after)}°"
+        hint = "обычно первый угол больше: не переставлены ли они"
+        yield Finding((*path, "exhaust_start_before_bdc_deg"), what, hint, warning=True)
+    advance, delay = gas.injection_advance_deg, gas.ignition_delay_deg
+    if delay > advance:
+        what = f"задержка воспламенения {_short(delay)}° больше опережения {_short(advance)}°"
+        hint = "обычно она меньше: не переставлены ли углы"
+        yield Finding((*path, "ignition_delay_deg"), what, hint, warning=True)
+
+
+def mean_pressure(gas: Any, ratio: float) -> float:  # noqa: ANN401
+    """p_i [MPa] of the diagram's two polytropes, without pumping and rounding."""
+    n_1, n_2, rho = (
+        float(value)
+        for value in (gas.compression_exponent, gas.expansion_exponent, gas.preexpansion_ratio)
+    )
+    end = gas.intake_pressure_mpa * ratio**n_1
+
+    def expanded(exponent: float, shrinking: float) -> float:
+        if abs(exponent - 1) < 1e-9:
+            return -math.log(shrinking)
+        return float(1 - shrinking ** (exponent - 1)) / (exponent - 1)
+
+    top = float(gas.max_pressure_mpa)
+    gained = top * (rho - 1) + top * rho * expanded(n_2, rho / ratio)
+    return float((gained - end * expanded(n_1, 1 / ratio)) / (ratio - 1))
+
+
+def _area_of(gas: TableGasSection, sizes: Sizes, ratio: float) -> float:
+    """p_i [MPa] of a diagram by points."""
+    lam = sizes.radius / sizes.rod
+    volumes = [volume_ratio(angle, lam, ratio) for angle, _ in gas.points]
+    pressures = [pressure for _, pressure in gas.points]
+    work = sum(
+        (pressures[i] + pressures[i - 1]) / 2 * (volumes[i] - volumes[i - 1])
+        for i in range(1, len(volumes))
+    )
+    return float(work / (ratio - 1))
+
+
+def _points(gas: TableGasSection, path: Path) -> Iterator[Finding]:
+    pressures = [float(pressure) for _, pressure in gas.points]
+    here = (*path, "points")
+    highest = _judged((*here, pressures.index(max(pressures))), bands.POINTS, max(pressures))
+    lowest = _judged((*here, pressures.index(min(pressures))), bands.LEAST_POINT, min(pressures))
+    found = [*highest, *lowest]
+    yield from found
+    named = {finding.path for finding in found}
+    for index in range(1, len(pressures) - 1):
+        near = (pressures[index - 1], pressures[index + 1])
+        factor = bands.LONE_POINT
+        if gas.points[index + 1][0] - gas.points[index - 1][0] > 2 * bands.NEAR_DEG:
+            factor = bands.LONE_POINT_FAR
+        lone = not min(near) / factor <= pressures[index] <= max(near) * factor
+        if lone and (*here, index) not in named:
+            what = f"давление {_short(pressures[index])} МПа выпадает из соседних точек"
+            hint = f"рядом {_short(near[0])} и {_short(near[1])} МПа; проверьте запятую"
+            yield Finding((*here, index), what, hint, warning=True)

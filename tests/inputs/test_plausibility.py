@@ -1,0 +1,146 @@
+"""Slips of unit, decimal and key are named, and real engines are not odd."""
+
+import tomllib
+
+import pytest
+
+from reports.inputs.checks.bands import BANDS, RELATIONS
+from reports.inputs.load import load_mapping, load_toml
+from reports.inputs.template import list_samples
+from reports.shared.resources import samples_dir
+from tests.inputs.slips import (
+    FACTORS,
+    SWAPPED,
+    at,
+    changed,
+    numbers,
+    path_of,
+    plain,
+    random_engine,
+    told,
+)
+
+# What a factor of ten leaves possible, and why.
+TOLERABLE = {
+    "calculation.step_deg": "any step of the list is a step",
+    "crankshaft.nose_angle_deg": "a counterweight may stand at any angle",
+    "crankshaft.rear_angle_deg": "a counterweight may stand at any angle",
+    "cycle.charge_heating_k": "between none and little heating nothing changes",
+    "reference.angle_deg": "a scheme may show any angle",
+}
+# Told at what follows from them: the sizes found for a power, the lists of a shaft.
+ELSEWHERE = ("cycle.power_kw", "regime.speed_rpm", "engine.cylinders")
+
+
+def sample(name):
+    raw = tomllib.loads((samples_dir() / f"{name}.toml").read_text(encoding="utf-8"))
+    raw.pop("report", None)
+    raw.pop("checks", None)
+    return raw
+
+
+def cases():
+    yield from list_samples()
+    yield from range(10)
+
+
+@pytest.fixture(params=cases(), ids=str)
+def engine(request):
+    name = request.param
+    return sample(name) if isinstance(name, str) else random_engine(name)
+
+
+def test_every_factor_of_ten_is_named(engine):
+    before = set(told(engine))
+    for path, value in numbers(engine):
+        for factor in FACTORS:
+            if plain(path) in TOLERABLE:
+                continue
+            found = set(told(changed(engine, (path, value * factor)))) - before
+            assert found, f"{plain(path)} × {factor} is not named"
+            assert any(f"f: {path[0]}" in line for line in found) or plain(path) in ELSEWHERE, found
+
+
+def test_heating_by_hundreds_of_kelvin_is_named():
+    raw = sample("cycle-petrol")
+    path = ("cycle", "charge_heating_k")
+    assert told(changed(raw, (path, 10 * at(raw, path))))
+
+
+def test_swapped_keys_are_named(engine):
+    before = set(told(engine))
+    for one, other in SWAPPED:
+        first, second = at(engine, path_of(one)), at(engine, path_of(other))
+        if first is None or second is None or abs(first - second) < 0.05 * max(first, second):
+            continue
+        swapped = changed(engine, (path_of(one), second), (path_of(other), first))
+        assert set(told(swapped)) - before, (one, other)
+
+
+@pytest.mark.parametrize("name", ["gots-diesel", "ecoboost-10", "two-stroke", "yamz-236"])
+def test_a_stroke_for_a_radius_is_named(name):
+    raw = sample(name)
+    geometry = raw["geometry"]
+    if "stroke_mm" in geometry:
+        geometry["crank_radius_mm"] = geometry.pop("stroke_mm")
+    else:
+        geometry["crank_radius_mm"] *= 2
+    assert any("geometry" in where for where in told(raw))
+
+
+NAMED = {
+    "bore in tenths": (("geometry.bore_mm", 880.0), "geometry.bore_mm"),
+    "watts": (("regime.indicated_power_kw", 89300.0), "regime.indicated_power_kw"),
+    "grams": (("masses.reciprocating_kg", 2000.0), "masses.reciprocating_kg"),
+    "full efficiency": (("regime.mechanical_efficiency", 1.0), "regime.mechanical_efficiency"),
+    "intake in bar": (("gas.intake_pressure_mpa", 1.65), "gas"),
+    "top in bar": (("gas.max_pressure_mpa", 105.0), "gas.max_pressure_mpa"),
+    "speed in rad/s": (("regime.speed_rpm", 460.8), "regime.speed_rpm"),
+}
+
+
+@pytest.mark.parametrize("case", NAMED)
+def test_the_key_itself_is_named(case, raw):
+    (key, value), where = NAMED[case]
+    found = told(changed(raw, (path_of(key), value)))
+    assert any(where in place for place in found), found
+
+
+def test_a_wrong_bore_is_one_line(raw):
+    raw["geometry"]["bore_mm"] = 880.0
+    (warning,) = load_mapping(raw, source="f").warnings
+    assert "D = 880 мм не вяжется с другими данными: S/D = 0.1068" in warning.line()
+
+
+def test_poor_use_of_heat_is_named():
+    raw = sample("cycle-turbo-diesel")
+    raw["cycle"]["xi_b"] = 0.5
+    assert any("xi_b" in where or "cycle" in where for where in told(raw))
+
+
+@pytest.mark.parametrize("factor", [10, 100, 0.1])
+def test_a_lone_point_of_a_diagram_is_named(raw, factor):
+    near = {240: 0.17, 270: 0.3, 300: 0.8, 330: 2.7, 360: 8.6, 390: 5.5, 420: 2.4, 450: 1.1,
+            480: 0.7, 510: 0.45, 540: 0.28}  # fmt: skip
+    points = [[float(angle), near.get(angle, 0.11)] for angle in range(0, 721, 30)]
+    raw["gas"] = {"source": "table", "points": points}
+    assert not any("points" in where for where in told(raw))
+    for index in range(1, len(points) - 1):
+        slipped = changed(raw, (("gas", "points", index, 1), points[index][1] * factor))
+        assert any("points" in where for where in told(slipped)), index
+
+
+@pytest.mark.parametrize("name", list_samples())
+def test_samples_are_not_odd(name):
+    assert load_toml(samples_dir() / f"{name}.toml").warnings == ()
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_random_engines_are_not_odd(seed):
+    assert told(random_engine(seed)) == []
+
+
+@pytest.mark.parametrize("band", [*BANDS, *RELATIONS], ids=lambda band: band.words)
+def test_no_band_holds_a_factor_of_ten(band):
+    assert band.high < 10 * band.low or band.key == "cycle.charge_heating_k"
+    assert band.source

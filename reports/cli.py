@@ -11,7 +11,7 @@ import click
 from reports.commands.common import BAD, DONE, HELP, RussianCommand, in_russian
 from reports.commands.engine import build, check, doctor, new, solve
 from reports.commands.group import grade, issue
-from reports.commands.studies import sweep, validate
+from reports.commands.studies import compare, sweep, validate
 from reports.shared.errors import KshmError
 
 
@@ -122,7 +122,7 @@ def main() -> None:
     """Кинематика и динамика КШМ: книга Excel с формулами и отчёт PDF по одному файлу."""
 
 
-for _command in (new, check, solve, build, issue, grade, validate, sweep, doctor):
+for _command in (new, check, solve, build, issue, grade, validate, sweep, compare, doctor):
     main.add_command(_command)
 
 

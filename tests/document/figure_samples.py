@@ -5,10 +5,9 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from reports.document.figures.curves import Curve, Level, Mark, Panel, curves_figure
-from reports.document.figures.mechanism import mechanism_sketch
+from reports.document.figures.mechanism import mechanism_sketch, velocity_sketch
 from reports.document.figures.polar import Pole, polar_path
 from reports.document.figures.shaft import crank_scheme, engine_scheme
-from reports.document.figures.velocity import velocity_sketch
 from reports.document.figures.wear import wear_diagram
 
 PHI = np.arange(0, 721, 10.0)

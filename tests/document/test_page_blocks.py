@@ -12,7 +12,6 @@ from reports.document.page.numbering import Label
 from reports.document.page.render import environment, render
 
 LONG = "Очень длинное название таблицы, которое занимает несколько строк над её головкой, " * 3
-GROUPED = [Column("i"), Column("K", group="Шейка"), Column("T", group="Шейка"), Column("R")]
 SIMPLE = [Column("i"), Column("K"), Column("T"), Column("R")]
 SOURCE = """{% extends "report/base.html.j2" %}
 {% import "report/macros.html.j2" as m with context %}
@@ -34,7 +33,6 @@ class Case:
     caption: str = "Силы"
     size: str = ""
     numbers: bool = True
-    grouped: bool = False
     after: bool = True
     slow: bool = False
 
@@ -48,7 +46,7 @@ class Case:
     @property
     def block(self) -> TableBlock:
         rows = [[self.mark(i), "1,5", "−2,5", "0,25"] for i in range(self.rows)]
-        columns = GROUPED if self.grouped else SIMPLE
+        columns = SIMPLE
         if self.slow:  # unequal columns: cells, not lines
             columns = [dataclasses.replace(columns[0], width=2.0), *columns[1:]]
         return table_block(columns, rows)
@@ -63,8 +61,8 @@ SHAPES += [{"rows": 12, "above": above} for above in range(150, 215, 6)]
 SHAPES += [
     {"rows": 60, "above": 40, "caption": LONG},
     {"rows": 60, "above": 190, "caption": LONG},
-    {"rows": 60, "above": 40, "caption": "", "grouped": True},
-    {"rows": 90, "above": 10, "size": "dense", "grouped": True},
+    {"rows": 60, "above": 40, "caption": ""},
+    {"rows": 90, "above": 10, "size": "dense"},
     {"rows": 130, "above": 10, "size": "tiny"},
     {"rows": 90, "above": 10, "numbers": False},
     {"rows": 90, "above": 100, "after": False},
@@ -159,17 +157,6 @@ def test_cells_are_escaped_and_lined_up():
     source = '{% import "report/macros.html.j2" as m with context %}{{ m.table(b, l, "a<b") }}'
     html = environment().from_string(source).render(b=block, l=label)
     assert "&lt;b&gt;" in html and "a&lt;b" in html and "<b>" not in html
-
-
-def test_group_headings_span():
-    block = table_block(GROUPED, [["1", "2", "3", "4"]])
-    upper, lower = block.head_rows
-    assert [(c.head, c.colspan, c.rowspan) for c in upper] == [
-        ("i", 1, 2),
-        ("Шейка", 2, 1),
-        ("R", 1, 2),
-    ]
-    assert [c.head for c in lower] == ["K", "T"]
 
 
 @pytest.mark.parametrize("size", ["", "dense", "tiny"])

@@ -36,6 +36,7 @@ def hostile():
     return terms_of(text)
 
 
+@pytest.mark.usefixtures("few_chapters")
 def test_foreign_text_is_set_as_plain_text(hostile, tmp_path):
     page = report_page(hostile.model, hostile.values, media="print")
     assert "<script" not in page and "<img" not in page

@@ -80,6 +80,12 @@ def _named(fields: Sequence[Field], pattern: str, count: int) -> Iterator[str]:
         yield plain_number(float(values[pattern.format(number)]))
 
 
+def _numbered(fields: Sequence[Field], patterns: Sequence[str], count: int) -> list[list[str]]:
+    """Rows of the numbers 1 … count with the values of the fields after them."""
+    columns = [map(str, range(1, count + 1)), *(_named(fields, p, count) for p in patterns)]
+    return [list(row) for row in zip(*columns, strict=True)]
+
+
 def _phases(fields: Sequence[Field], model: InputFile) -> TableBlock:
     shape = Shape.of(model)
     count, numbers = shape.cylinders, range(1, shape.cylinders + 1)
@@ -122,20 +128,14 @@ def _webs(fields: Sequence[Field]) -> TableBlock:
         columns.insert(2, Column(symbol_head(r"\rho", "мм")))
     elif "web_1_mass_kg" not in names:  # estimated: see the section on masses
         keys, columns = keys[1:], [columns[0], *columns[2:]]
-    cells = [list(_named(fields, f"web_{{}}_{key}", count)) for key in keys]
-    return table_block(
-        columns, [[str(i), *row] for i, row in enumerate(zip(*cells, strict=True), 1)]
-    )
+    return table_block(columns, _numbered(fields, [f"web_{{}}_{key}" for key in keys], count))
 
 
 def _arms(fields: Sequence[Field]) -> TableBlock:
     count = sum(field.name.endswith("_l1_mm") for field in fields)
     heads = [rf"l_{i}" for i in range(1, 7)] + [r"h_{\mathrm{Л}}", r"h_{\mathrm{П}}"]
     columns = [Column("Колено", 1.3), *(Column(inline_html(tex)) for tex in heads)]
-    cells = [list(_named(fields, f"throw_{{}}_{key}_mm", count)) for key in _ARMS]
-    return table_block(
-        columns, [[str(i), *row] for i, row in enumerate(zip(*cells, strict=True), 1)]
-    )
+    return table_block(columns, _numbered(fields, [f"throw_{{}}_{key}_mm" for key in _ARMS], count))
 
 
 def _points(model: InputFile) -> TableBlock:

@@ -7,8 +7,7 @@ from functools import partial
 from markupsafe import Markup
 
 from reports.document.chapters.chapter import Chapter
-from reports.document.figures.mechanism import mechanism_sketch
-from reports.document.figures.velocity import velocity_sketch
+from reports.document.figures.mechanism import mechanism_sketch, velocity_sketch
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.page.writer import Figure, TablePlan
 from reports.document.text.terms import Terms

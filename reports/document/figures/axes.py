@@ -11,8 +11,6 @@ from reports.document.figures.ticks import Ticks
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-Box = tuple[float, float, float, float]
-
 
 def dress(
     axes: Axes,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import gc
-import logging
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -15,6 +14,7 @@ from typing import TYPE_CHECKING, Literal
 from markupsafe import Markup
 
 from reports.document.text import fonts, texts
+from reports.document.text.complaints import complaints
 from reports.document.text.mathsvg import formula_lines
 from reports.document.text.symbols import inline_html
 from reports.shared.russian import NBSP
@@ -89,7 +89,7 @@ def render(
     import weasyprint
     from weasyprint.text.fonts import FontConfiguration
 
-    with _quiet_gc(), _warnings() as warnings:
+    with _quiet_gc(), complaints("weasyprint") as warnings:
         page = weasyprint.HTML(string=html, base_url=None, url_fetcher=_fetcher())
         # The same configuration for parsing and layout, or @font-face is dropped silently.
         document = page.render(font_config=FontConfiguration(), pdf_variant=variant, pdf_tags=True)
@@ -204,34 +204,3 @@ def _quiet_gc() -> Iterator[None]:
         yield
     finally:
         gc.set_threshold(*before)
-
-
-class _Collector(logging.Handler):
-    def __init__(self, lines: list[str]) -> None:
-        super().__init__(logging.WARNING)
-        self.lines = lines
-
-    def emit(self, record: logging.LogRecord) -> None:
-        line = record.getMessage()
-        if line not in self.lines:
-            self.lines.append(line)
-
-
-@contextmanager
-def _warnings() -> Iterator[list[str]]:
-    """Collect WeasyPrint's warnings instead of letting them reach the screen."""
-    lines: list[str] = []
-    logger = logging.getLogger("weasyprint")
-    handler, propagate = _Collector(lines), logger.propagate
-    others = logger.handlers[:]
-    for other in others:
-        logger.removeHandler(other)
-    logger.addHandler(handler)
-    logger.propagate = False
-    try:
-        yield lines
-    finally:
-        logger.removeHandler(handler)
-        for other in others:
-            logger.addHandler(other)
-        logger.propagate = propagate

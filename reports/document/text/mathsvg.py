@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import functools
 import json
-import logging
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -21,6 +20,7 @@ from html import escape as escape_html
 from typing import Any
 
 from reports.document import store
+from reports.document.text.complaints import complaints
 from reports.document.text.symbols import SIGNS
 from reports.document.text.tex import FRACTIONS, GREEK, Node, TexError, break_points, tree
 from reports.document.text.texwords import for_mathtext
@@ -170,38 +170,17 @@ def _parse(tex: str) -> tuple[float, float, float, Iterable[Any], Iterable[Any]]
         msg = f"Формула пуста, содержит $, десятичную точку или непарные скобки: {tex!r}"
         raise FormulaError(msg)
     font = FontProperties(family="STIXGeneral", size=_UNITS, math_fontfamily="stix")
-    with _Complaints() as complaints:
+    with complaints("matplotlib.mathtext") as lines:  # a sign without a glyph is no formula
         try:
             parsed = MathTextParser("path").parse(f"${source}$", dpi=72, prop=font)
         except (ValueError, RuntimeError) as error:
             reason = str(error).strip().splitlines()[-1]
             msg = f"Формула не набирается: {tex!r}: {reason}"
             raise FormulaError(msg) from error
-    if complaints.lines:
-        msg = f"Формула не набирается: {tex!r}: {complaints.lines[0]}"
+    if lines:
+        msg = f"Формула не набирается: {tex!r}: {lines[0]}"
         raise FormulaError(msg)
     return parsed.width, parsed.height, parsed.depth, parsed.glyphs, parsed.rects
-
-
-class _Complaints(logging.Handler):
-    """Collects what mathtext logs: a sign without a glyph is no formula for us."""
-
-    def __init__(self) -> None:
-        super().__init__(logging.WARNING)
-        self.lines: list[str] = []
-        self._logger = logging.getLogger("matplotlib.mathtext")
-
-    def emit(self, record: logging.LogRecord) -> None:
-        self.lines.append(record.getMessage())
-
-    def __enter__(self) -> _Complaints:
-        self._logger.addHandler(self)
-        self._propagate, self._logger.propagate = self._logger.propagate, False
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._logger.removeHandler(self)
-        self._logger.propagate = self._propagate
 
 
 def _texts(glyphs: Iterable[Any], baseline: float) -> list[str]:

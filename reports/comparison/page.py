@@ -127,14 +127,13 @@ def _figure(labels: Sequence[str], chart: Chart) -> str:
     """Curves of all engines; a shorter cycle is repeated to the length of the longest."""
     import numpy as np
 
-    from reports.document.figures.charts import Series, line_chart
+    from reports.document.figures.curves import Curve, Panel, curves_figure
 
     grid = np.array(max((x for _, x, _ in chart.curves), key=lambda x: (x[-1], len(x))))
-    series = [
-        Series(labels[engine], np.interp(grid, x, y, period=x[-1]), number)
-        for number, (engine, x, y) in enumerate(chart.curves)
+    curves = [
+        Curve(labels[engine], np.interp(grid, x, y, period=x[-1])) for engine, x, y in chart.curves
     ]
-    return line_chart(grid, series, X_TITLE, _with_symbol(chart), direct=False)
+    return curves_figure(grid, [Panel(curves, _with_symbol(chart))], X_TITLE)
 
 
 def _with_symbol(chart: Chart) -> str:

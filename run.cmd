@@ -1,8 +1,9 @@
 @echo off
-rem run test [ARGS]: lint, types and tests; run ARGS: kshm ARGS
+rem run test [ARGS]: lint, types, rooms and tests; run bench, docs, fuzz: as in run; run ARGS: kshm ARGS
 setlocal
 chcp 65001 >nul
 set "ROOT=%~dp0"
+if "%~1"=="" goto usage
 set "VENV=%ROOT%.venv"
 set "PY="
 where py >nul 2>nul && set "PY=py -3"
@@ -33,8 +34,37 @@ copy /y "%ROOT%constraints.txt" "%VENV%\kshm-constraints" >nul
 :ready
 rem System parts (pango for PDF, LibreOffice for tests) are a person's task here: kshm doctor names them.
 if /i "%~1"=="test" goto test
+set "MODULE="
+if /i "%~1"=="bench" set "MODULE=tests.bench"
+if /i "%~1"=="fuzz" set "MODULE=tests.fuzz"
+if /i "%~1"=="docs" set "MODULE=tools.manual "%ROOT%docs""
+if defined MODULE goto module
 "%VENV%\Scripts\kshm.exe" %*
 exit /b %errorlevel%
+
+:module
+set "ARGS="
+:more
+shift
+if "%~1"=="" goto start
+set ARGS=%ARGS% %1
+goto more
+:start
+pushd "%ROOT%"
+"%VENV%\Scripts\python.exe" -m %MODULE% %ARGS%
+set "FAILED=%errorlevel%"
+popd
+exit /b %FAILED%
+
+:usage
+echo Использование:
+echo   run КОМАНДА [АРГУМЕНТЫ]    команда kshm, например: run build samples\gots-diesel.toml -o out
+echo   run --help                 все команды kshm; run КОМАНДА --help — её ключи
+echo   run test [ПУТЬ ...]        проверки и тесты
+echo   run bench [ИМЯ]            время и память
+echo   run docs [--site ПАПКА]    страницы руководства
+echo   run fuzz ДВЕРЬ [СЕКУНДЫ]   случайные файлы на входе
+exit /b 0
 
 :test
 set "FAILED=0"
@@ -49,6 +79,7 @@ pushd "%ROOT%"
 "%VENV%\Scripts\ruff.exe" check . || set "FAILED=1"
 "%VENV%\Scripts\ruff.exe" format --check . || set "FAILED=1"
 "%VENV%\Scripts\mypy.exe" || set "FAILED=1"
-"%VENV%\Scripts\python.exe" -m pytest -n auto %ARGS% || set "FAILED=1"
+"%VENV%\Scripts\lint-imports.exe" --no-logo --no-cache || set "FAILED=1"
+"%VENV%\Scripts\python.exe" -m pytest -n auto --dist loadgroup %ARGS% || set "FAILED=1"
 popd
 exit /b %FAILED%

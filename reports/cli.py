@@ -8,21 +8,16 @@ from typing import Any
 
 import click
 
-from reports.commands.common import BAD, DONE, HELP, RussianCommand, in_russian
+from reports.commands.common import BAD, DONE, HELP
 from reports.commands.engine import build, check, doctor, new, solve
 from reports.commands.group import grade, issue
 from reports.commands.studies import compare, sweep, validate
+from reports.commands.words import RussianGroup, error_text
 from reports.shared.errors import KshmError
 
 
-class _Russian(click.Group):
+class _Russian(RussianGroup):
     """A group whose unexpected errors are one line, with a traceback only after -v."""
-
-    command_class = RussianCommand
-
-    def get_help(self, ctx: click.Context) -> str:
-        """Help with Russian headings."""
-        return in_russian(super().get_help(ctx))
 
     def invoke(self, ctx: click.Context) -> Any:  # noqa: ANN401
         """Run a command; an interruption is told in one line, without the empty one of click."""
@@ -39,6 +34,7 @@ class _Russian(click.Group):
         from reports.shared.interrupt import stoppable
 
         kwargs["standalone_mode"] = False
+        kwargs.setdefault("prog_name", "kshm")
         arguments = kwargs.get("args") or (args[0] if args else None) or sys.argv[1:]
         verbose = "-v" in arguments or "--verbose" in arguments
         with stoppable():
@@ -76,7 +72,7 @@ def _failed(error: Exception, verbose: bool) -> int:
     elif isinstance(error, click.Abort):
         lines, code = ["прервано"], BAD
     elif isinstance(error, click.ClickException):
-        lines, code = [f"kshm: {_translated(error)}; справка: kshm --help"], BAD
+        lines, code = [f"kshm: {error_text(error)}; справка: kshm --help"], BAD
     elif verbose:
         raise error
     else:
@@ -101,25 +97,13 @@ def _unexpected(error: Exception) -> str:
     return one_line(f"kshm: внутренняя ошибка {kind}: {error}; подробности: ключ -v", 600)
 
 
-def _translated(error: click.ClickException) -> str:
-    if isinstance(error, click.NoSuchOption):
-        return f"нет ключа {error.option_name}"
-    if isinstance(error, click.MissingParameter):
-        name = error.param.human_readable_name if error.param else ""
-        return f"не указан аргумент {name}"
-    if isinstance(error, click.BadParameter):
-        name = error.param.human_readable_name if error.param else ""
-        return f"неверное значение {name}: {error.message}"
-    message = error.format_message()
-    return message.replace("No such command", "нет команды").replace(
-        "Got unexpected extra argument", "лишний аргумент"
-    )
-
-
-@click.group(cls=_Russian, context_settings=HELP)
+@click.group(cls=_Russian, context_settings=HELP, invoke_without_command=True)
 @click.version_option(package_name="kshm", message="kshm %(version)s", help="Показать версию.")
-def main() -> None:
+@click.pass_context
+def main(context: click.Context) -> None:
     """Кинематика и динамика КШМ: книга Excel с формулами и отчёт PDF по одному файлу."""
+    if context.invoked_subcommand is None:
+        click.echo(context.get_help())
 
 
 for _command in (new, check, solve, build, issue, grade, validate, sweep, compare, doctor):

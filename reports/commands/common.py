@@ -14,34 +14,6 @@ if TYPE_CHECKING:
 DONE, LOOK, BAD, MISSING = 0, 1, 2, 3
 HELP = {"help_option_names": ["-h", "--help"]}
 
-
-_WORDS = {
-    "Usage:": "Использование:",
-    "[OPTIONS]": "[КЛЮЧИ]",
-    "COMMAND [ARGS]...": "КОМАНДА [АРГУМЕНТЫ]...",
-    "Options:": "Ключи:",
-    "Commands:": "Команды:",
-    "Show this message and exit.": "Показать эту справку.",
-    "[required]": "[обязательно]",
-    "[default: ": "[по умолчанию: ",
-}
-
-
-def in_russian(text: str) -> str:
-    """Help with its English words replaced."""
-    for english, russian in _WORDS.items():
-        text = text.replace(english, russian)
-    return text
-
-
-class RussianCommand(click.Command):
-    """A command whose help is Russian throughout."""
-
-    def get_help(self, ctx: click.Context) -> str:
-        """Help with Russian headings."""
-        return in_russian(super().get_help(ctx))
-
-
 Command = Callable[..., int]
 
 

@@ -13,7 +13,6 @@ from reports.commands.common import (
     HELP,
     LOOK,
     MISSING,
-    RussianCommand,
     dask_option,
     file_argument,
     load,
@@ -21,6 +20,7 @@ from reports.commands.common import (
     tell,
     verbose_option,
 )
+from reports.commands.words import RussianCommand
 from reports.shared.errors import KshmError
 
 
@@ -83,11 +83,12 @@ def check(source: Path, as_json: bool, verbose: bool) -> int:
     """Проверить исходные данные, ничего не считая."""
     import json
 
-    from reports.exports.build import load_input
+    from reports.exports.build import find_templates, load_input
     from reports.shared.errors import InputError
 
     try:
         loaded = load_input(source)
+        find_templates(source, loaded)
         problems: tuple[Any, ...] = ()
         warnings, accepted = loaded.warnings, loaded.accepted
     except InputError as error:
@@ -125,14 +126,19 @@ def solve(source: Path, folder: Path | None, target: str | None, verbose: bool) 
     from kshm import solve as solve_engine
     from reports.exports.numbers import csv_text, export_tables, json_text
     from reports.inputs.to_si.engine import engine_and_cycle
-    from reports.shared.files import atomic_path, make_dir, write_text
+    from reports.shared.files import atomic_path, make_dir, refuse_own, write_text
 
     loaded = load(source)
+    own = (source, *loaded.beside)
+    if target is not None and target != "-":
+        refuse_own([Path(target)], own)
     solution = solve_engine(*engine_and_cycle(loaded.model))
     if folder is not None:
+        tables = {folder / f"{name}.csv": data for name, data in export_tables(solution).items()}
+        refuse_own(tables, own)
         make_dir(folder)
-        for name, columns in export_tables(solution).items():
-            write_text(folder / f"{name}.csv", csv_text(columns))
+        for path, columns in tables.items():
+            write_text(path, csv_text(columns))
     if target == "-":
         click.echo(json_text(loaded.model, solution), nl=False)
     elif target is not None:
@@ -176,9 +182,12 @@ def build(
     sources: tuple[Path, ...], folder: Path, only: str | None, dask: str | None, verbose: bool
 ) -> int:  # fmt: skip
     """Сделать книгу Excel и отчёт PDF по файлу .toml или по изменённой книге."""
+    from reports.exports.build import find_templates
     from reports.exports.builds import build_each
 
     inputs = [(source, load(source)) for source in sources]
+    for source, loaded in inputs:
+        find_templates(source, loaded)
     code = LOOK if any(loaded.warnings for _, loaded in inputs) else DONE
     kinds = (only,) if only else ("xlsx", "pdf")
     for built in build_each(inputs, folder, kinds, dask):  # type: ignore[arg-type]

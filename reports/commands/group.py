@@ -10,12 +10,12 @@ from reports.commands.common import (
     DONE,
     HELP,
     LOOK,
-    RussianCommand,
     dask_option,
     file_argument,
     path_option,
     verbose_option,
 )
+from reports.commands.words import RussianCommand
 from reports.shared.errors import KshmError
 
 

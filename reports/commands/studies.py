@@ -11,13 +11,13 @@ from reports.commands.common import (
     HELP,
     LOOK,
     MISSING,
-    RussianCommand,
     dask_option,
     file_argument,
     load,
     path_option,
     verbose_option,
 )
+from reports.commands.words import RussianCommand
 from reports.shared.errors import KshmError
 
 

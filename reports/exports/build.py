@@ -12,6 +12,7 @@ from reports.shared.files import make_dir, write_bytes, write_text
 from reports.shared.progress import Progress
 
 Kind = Literal["xlsx", "pdf", "html"]
+KINDS: tuple[Kind, ...] = ("xlsx", "pdf", "html")
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +36,18 @@ def load_input(path: Path) -> Loaded:
 
         return load_workbook_input(path)
     return load_toml(path)
+
+
+def find_templates(path: Path, loaded: Loaded) -> None:
+    """Look for the folder of own templates that an input names.
+
+    Raises:
+        InputError: there is none, or nothing in it replaces a template.
+    """
+    if loaded.model.report.templates:
+        from reports.document.page import overrides
+
+        overrides.find(loaded.model.report.templates, path.parent)
 
 
 def build(path: Path, loaded: Loaded, folder: Path, kinds: tuple[Kind, ...]) -> Built:

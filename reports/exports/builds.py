@@ -8,10 +8,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from reports.exports.build import Built, Kind, build
+from reports.exports.build import KINDS, Built, Kind, build
 from reports.inputs.load import Loaded
 from reports.shared.errors import KshmError, SystemPartMissing
-from reports.shared.files import make_dir, write_bytes
+from reports.shared.files import make_dir, refuse_own, write_bytes
 from reports.shared.ordered import in_order
 
 Input = tuple[Path, Loaded]
@@ -45,7 +45,9 @@ def build_each(
     Raises:
         KshmError: results would fall on each other or on an input, or the cluster fails.
     """
-    _refuse_overlap([path for path, _ in inputs], folder)
+    _refuse_overlap([path for path, _ in inputs])
+    results = [folder / f"{path.stem}.{kind}" for path, _ in inputs for kind in KINDS]
+    refuse_own(results, [file for path, loaded in inputs for file in (path, *loaded.beside)])
     if dask is None:
         for path, loaded in inputs:
             yield build(path, loaded, folder, kinds)
@@ -82,13 +84,8 @@ def _order(path: Path, loaded: Loaded, kinds: tuple[Kind, ...]) -> Order:
     return Order(path.name, path.read_bytes(), loaded, kinds)
 
 
-def _refuse_overlap(paths: Sequence[Path], folder: Path) -> None:
+def _refuse_overlap(paths: Sequence[Path]) -> None:
     stem, count = Counter(path.stem for path in paths).most_common(1)[0]
     if count > 1:
         msg = f"{stem}: два файла с этим именем дали бы один результат; стройте их в разные папки"
         raise KshmError(msg)
-    for path in paths:
-        result = folder / f"{path.stem}.xlsx"
-        if path.suffix.lower() == ".xlsx" and result.resolve() == path.resolve():
-            msg = f"{path}: результат лёг бы поверх вашей книги; укажите другую папку ключом -o"
-            raise KshmError(msg)

@@ -67,6 +67,14 @@ def with_points(raw: dict[str, Any], folder: Path, source: str) -> dict[str, Any
     return result
 
 
+def files_of(raw: dict[str, Any]) -> list[str]:
+    """Names of the files that `with_points` reads."""
+    regimes = raw.get("regimes")
+    owners = [raw, *(regimes if isinstance(regimes, list) else [])]
+    parts = [owner.get("gas") for owner in owners if isinstance(owner, dict)]
+    return [gas["file"] for gas in parts if isinstance(gas, dict) and gas.get("source") == "file"]
+
+
 def _strokes(raw: dict[str, Any]) -> object:
     engine = raw.get("engine")
     return engine.get("strokes") if isinstance(engine, dict) else None

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
 from typing import Any, cast
 
@@ -18,7 +18,7 @@ from pydantic import ValidationError
 from reports.inputs import cells, load_regimes, messages
 from reports.inputs.checks import cross_checks
 from reports.inputs.checks.plausibility import check_plausibility
-from reports.inputs.diagram_file import with_points
+from reports.inputs.diagram_file import files_of, with_points
 from reports.inputs.fields import Path, key_text
 from reports.inputs.findings import Finding, Values
 from reports.inputs.firing import FOLLOWING, expand
@@ -51,6 +51,7 @@ class Loaded:
     model: InputFile
     warnings: tuple[Problem, ...]
     accepted: tuple[Accepted, ...] = ()
+    beside: tuple[FilePath, ...] = ()  # further files that were read
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +97,9 @@ def load_text(text: str, *, source: str, folder: FilePath | None = None) -> Load
         problems = read_ranges(section, raw, source)[1]
         if problems:
             raise InputError(problems)
-    return load_mapping(with_points(raw, folder or FilePath(), source), source=source)
+    home = folder or FilePath()
+    loaded = load_mapping(with_points(raw, home, source), source=source)
+    return replace(loaded, beside=tuple(home / name for name in files_of(raw)))
 
 
 def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None = None) -> Loaded:

@@ -21,8 +21,8 @@ def read_text(file: Path) -> str:
         InputError: It is missing, unreadable, too large or no UTF-8 text.
     """
     try:
-        if not file.is_file():
-            what = "это папка, а нужен файл" if file.is_dir() else "файл не найден"
+        what = files.no_file(file)
+        if what:
             raise refused(str(file), what, "проверьте имя и путь")
         with file.open("rb") as stream:
             data = stream.read(MAX_BYTES + 1)

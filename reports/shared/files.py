@@ -9,7 +9,8 @@ import os
 import secrets
 import shutil
 import signal
-from collections.abc import Iterator
+import stat
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -97,6 +98,51 @@ def atomic_dir(path: Path) -> Iterator[Path]:
         _remove(temporary)
         if old.exists():
             _remove(old)
+
+
+def refuse_own(outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
+    """Refuse to write over what is being read, by whatever name or link it is called.
+
+    Raises:
+        OutputError: an output is one of the inputs.
+    """
+    read = {place for path in inputs for place in _places(path)}
+    for path in outputs:
+        if read & _places(path):
+            what = "результат лёг бы поверх ваших исходных данных"
+            raise OutputError(Problem(str(path), what, _ADVICE))
+
+
+def _places(path: Path) -> set[object]:
+    """What tells a file from another: its path without links, its place on the disk."""
+    places: set[object] = {path.resolve()}
+    with contextlib.suppress(OSError):
+        found = path.stat()
+        places.add((found.st_dev, found.st_ino))
+    return places
+
+
+def no_file(path: Path) -> str:
+    """What a path is, in Russian, when it is no file that can be read to its end; else empty.
+
+    Raises:
+        OSError: the system does not let it be looked at.
+        ValueError: it is no name at all.
+    """
+    try:
+        mode = path.stat().st_mode
+    except (FileNotFoundError, NotADirectoryError):
+        return "файл не найден"
+    for test, name in (
+        (stat.S_ISDIR, "папка"),
+        (stat.S_ISCHR, "устройство"),
+        (stat.S_ISBLK, "устройство"),
+        (stat.S_ISFIFO, "канал"),
+        (stat.S_ISSOCK, "сокет"),
+    ):
+        if test(mode):
+            return f"это {name}, а нужен файл"
+    return ""
 
 
 def make_dir(path: Path) -> None:

@@ -11,7 +11,7 @@ from kshm.chain.solve import chunk_size, solve_batch
 from reports.exports.build import load_input
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.errors import KshmError, OutputError
-from reports.shared.files import atomic_path
+from reports.shared.files import atomic_path, reason, refuse_own
 from reports.shared.ordered import in_order
 from reports.shared.progress import Progress
 from reports.studies.files import SUFFIXES, sink
@@ -61,7 +61,9 @@ def sweep(
     if suffix not in SUFFIXES:
         msg = f"{target}: нужно окончание {', '.join(SUFFIXES)}; укажите его в ключе -o"
         raise KshmError(msg)
-    model = load_input(source).model
+    loaded = load_input(source)
+    refuse_own([target], [source, *loaded.beside])
+    model = loaded.model
     plan = make_plan(model, source.name, vary, pairwise=pairwise)
     engine, cycle = engine_and_cycle(model)
     wanted = choose(solve_batch([engine]), quantities, cycle)
@@ -83,6 +85,6 @@ def sweep(
                     first_error = first_error or next(iter(errors), "")
                     progress.step(f"Исследование: {done} из {plan.count}")
         except OSError as error:
-            msg = f"{target}: не записать: {error.strerror or error}"
+            msg = f"{target}: не записать: {reason(error)}"
             raise OutputError(msg) from None
     return Studied(done, failed, first_error)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from reports.shared.errors import InputError, Problem
+from reports.shared.files import no_file, reason
 from reports.workbook.package import Package
 
 MAX_FILE = 30 * 2**20
@@ -38,11 +39,15 @@ def check_package(path: Path) -> bytes:
             links, a DOCTYPE, or a package that unpacks out of proportion.
     """
     try:
+        what = no_file(path)
+        if what:
+            _refuse(str(path), what, "проверьте имя и путь")
         if path.stat().st_size > MAX_FILE:
             _refuse(path.name, f"файл больше {MAX_FILE // 2**20} МБ", "это не книга kshm")
         data = path.read_bytes()
-    except OSError as error:
-        _refuse(path.name, f"файл не читается ({error.strerror})", "проверьте имя и права")
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        why = reason(error) if isinstance(error, OSError) else "недопустимое имя"
+        _refuse(str(path), f"файл не читается: {why}", "проверьте имя и права")
     check_data(data, path.name)
     return data
 

@@ -109,7 +109,7 @@ def test_grading_survives_a_killed_worker_byte_for_byte(
 
 
 def test_reports_are_built_on_the_cluster_byte_for_byte(cluster: Any, tmp_path: Path) -> None:
-    text = BASE.read_text(encoding="utf-8").replace("step_deg = 10", "step_deg = 30")
+    text = BASE.read_text(encoding="utf-8").replace("step_deg = 10", "step_deg = 15")
     sources = [tmp_path / f"{name}.toml" for name in "ab"]
     for source in sources:
         source.write_text(text, encoding="utf-8")

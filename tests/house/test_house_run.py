@@ -111,6 +111,89 @@ def test_the_exit_code_of_kshm_is_kept(house):
     assert house.run("check", "x").returncode == 2
 
 
+@pytest.mark.parametrize(
+    ("arguments", "wanted"),
+    [
+        ("build x", True),
+        ("build x --only pdf", True),
+        ("build x --only xlsx", False),
+        ("build x --only=html", False),
+        ("build --help", False),
+        ("validate", True),
+        ("validate --only csv", False),
+        ("grade a b -o c", False),
+        ("grade a b -o c --pdf", True),
+        ("check x", False),
+        ("new -o pdf", False),
+        ("solve x --json -", False),
+        ("issue x --roster y -o z", False),
+        ("sweep x", False),
+    ],
+)
+def test_pango_is_for_pages_alone(house, arguments, wanted):
+    house.libraries("nothing")
+    done = house.run(*arguments.split(), KSHM_NO_SYSTEM="1")
+    assert (PANGO_COMMAND in done.stderr) == wanted
+    assert house.calls() == [f"kshm {arguments}"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "wanted"),
+    [
+        ("", "libpango libreoffice chromium"),
+        ("-k x", "libpango libreoffice chromium"),
+        ("tests", "libpango libreoffice chromium"),
+        ("tests/inputs", ""),
+        ("tests/inputs/ tests/kshm -k x", ""),
+        ("./tests/inputs/test_inputs_files.py::test_one", ""),
+        ("tests/referee", "libreoffice"),
+        ("tests/inputs tests/document", "libpango libreoffice chromium"),
+        ("--quick tests/manual", "libpango chromium"),
+    ],
+)
+def test_only_what_the_tests_need_is_asked_for(house, arguments, wanted):
+    house.libraries("nothing")
+    for tool in ("soffice", "libreoffice", "chromium", "chromium-browser"):
+        script(house.bin / tool, "exit 1")
+        (house.bin / tool).chmod(0o644)  # not there, whatever the machine has
+    more = {"PATH": f"{house.bin}:/usr/bin:/bin", "KSHM_NO_SYSTEM": "1"}
+    said = house.run("test", *arguments.split(), **more).stderr
+    machine = {
+        "libpango": True,
+        "libreoffice": shutil.which("soffice", path="/usr/bin:/bin") is None,
+        "chromium": not any(
+            shutil.which(name, path="/usr/bin:/bin") for name in ("chromium", "chromium-browser")
+        ),
+    }
+    found = {name for name in machine if f"apt-get install -y {name}" in said}
+    assert found == {name for name in wanted.split() if machine[name]}
+
+
+def test_the_noise_of_apt_is_hidden_unless_it_fails_or_is_wanted(house):
+    house.libraries("nothing")
+    noise = "debconf: delaying package configuration"
+    house.tool(house.bin / "apt-get", f"echo '{noise}' >&2")
+    assert noise not in house.run("build", "x").stderr
+    assert noise in house.run("build", "x", "-v").stderr
+    house.tool(house.bin / "apt-get", f"echo '{noise}' >&2", status=100)
+    assert noise in house.run("build", "x").stderr
+
+
+def test_without_arguments_it_tells_its_use(house):
+    shutil.rmtree(house.root / ".venv")
+    done = house.run()
+    assert (done.returncode, done.stderr, house.calls()) == (0, "", [])
+    assert "Использование:" in done.stdout
+    assert "./run build samples/gots-diesel.toml -o out" in done.stdout
+
+
+@pytest.mark.parametrize("command", ["test", "bench", "docs", "fuzz", "build"])
+def test_both_scripts_know_the_same_commands(command):
+    for name in ("run", "run.cmd"):
+        text = (ROOT / name).read_bytes().decode("utf-8")
+        assert f"run {command} " in text, name
+
+
 def test_root_installs_pango_after_an_update(house):
     house.libraries("libpango-1.0.so.0")
     done = house.run("build", "x")

@@ -67,6 +67,8 @@ def issue(
     source = rubric_file.name if rubric_file is not None else "рубрика по умолчанию"
     assignment_of(build_model(base.loaded.model), rubric, source)
     _refuse_foreign(folder)
+    for read in (base_file, *base.loaded.beside, roster_file, rubric_file, ranges_file):
+        _refuse_own(read, folder)
     variants = draw_variants(base, [student.id for student in students], seed)
     place = secret_path(secret_file)
     _refuse_inside(place, folder)
@@ -155,6 +157,13 @@ def _refuse_foreign(folder: Path) -> None:
     if folder.is_dir() and any(folder.iterdir()) and not (folder / FILE).exists():
         what = "в папке есть чужие файлы"
         raise InputError(Problem(str(folder), what, "укажите пустую папку ключом -o"))
+
+
+def _refuse_own(read: Path | None, folder: Path) -> None:
+    """A new issue takes the folder's place: what it is made from must not lie there."""
+    if read is not None and folder.resolve() in read.resolve().parents and folder.is_dir():
+        what = "файл лежит в папке выдачи и пропал бы вместе с прежней выдачей"
+        raise InputError(Problem(str(read), what, "укажите другую папку ключом -o"))
 
 
 def _refuse_inside(secret: Path, folder: Path) -> None:

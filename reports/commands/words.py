@@ -1,0 +1,119 @@
+"""Russian for what click says: headings of the help, its notes, its errors."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+import click
+
+_USAGE = "Использование: "
+_WORDS = {
+    "[OPTIONS]": "[КЛЮЧИ]",
+    "[COMMAND] [ARGS]...": "КОМАНДА [АРГУМЕНТЫ]...",
+    "Show this message and exit.": "Показать эту справку.",
+    "[required]": "[обязательно]",
+    "[default: ": "[по умолчанию: ",
+    " INTEGER": " ЧИСЛО",
+    " FLOAT": " ЧИСЛО",
+    " PATH": " ПУТЬ",
+    " FILE": " ФАЙЛ",
+    " NAME": " ИМЯ",
+    " ADDRESS": " АДРЕС",
+    "SHEET!COLUMN": "ЛИСТ!СТОЛБЕЦ",
+    "KEY=": "КЛЮЧ=",
+    "INPUT": "ФАЙЛ",
+    "BASE": "БАЗА",
+    "[ISSUED] [SUBMITTED]": "[ВЫДАЧА] [СДАНО]",
+    "ISSUED": "ВЫДАЧА",
+    "SUBMITTED": "СДАНО",
+}
+_HEADINGS = {
+    "Options": "Ключи",
+    "Commands": "Команды",
+    "Positional arguments": "Аргументы",
+    "Arguments": "Аргументы",
+}
+_ERRORS = (
+    (r"No such command '(.*?)'", "нет команды {}"),
+    (r"Missing command", "не указана команда"),
+    (r"Got unexpected extra arguments? \((.*)\)", "лишний аргумент {}"),
+    (r"Option '(.*?)' requires an argument", "ключу {} нужно значение"),
+    (r"Option '(.*?)' requires (\d+) arguments", "ключу {} нужно значений: {}"),
+    (r"Option '(.*?)' does not take a value", "ключ {} пишется без значения"),
+    (r"Argument '(.*?)' takes (\d+) values", "аргументу {} нужно значений: {}"),
+    (r"'(.*)' is not a valid (?:integer|float|boolean)", "нужно число, а задано «{}»"),
+    (r"(.*) is not in the range (.*)\.", "{} вне пределов {}"),
+    (r"'(.*?)' is not one of (.*?)\.?$", "«{}»; допустимо: {}"),
+)
+
+
+class _Formatter(click.HelpFormatter):
+    """Help in Russian before its lines are broken: also on a narrow terminal."""
+
+    def write_usage(self, prog: str, args: str = "", prefix: str | None = None) -> None:
+        super().write_usage(prog, in_russian(args), _USAGE if prefix is None else prefix)
+
+    def write_heading(self, heading: str) -> None:
+        super().write_heading(_HEADINGS.get(heading, heading))
+
+    def write_text(self, text: str) -> None:
+        super().write_text(in_russian(text))
+
+    def write_dl(
+        self, rows: Iterable[tuple[str, str]], col_max: int = 30, col_spacing: int = 2
+    ) -> None:
+        translated = [(in_russian(first), in_russian(second)) for first, second in rows]
+        super().write_dl(translated, col_max, col_spacing)
+
+
+class _Context(click.Context):
+    formatter_class = _Formatter
+
+
+class RussianCommand(click.Command):
+    """A command whose help is Russian throughout."""
+
+    context_class = _Context
+
+
+class RussianGroup(click.Group):
+    """A group of such commands."""
+
+    context_class = _Context
+    command_class = RussianCommand
+
+
+def in_russian(text: str) -> str:
+    """A piece of help with its English words replaced."""
+    for english, russian in _WORDS.items():
+        text = text.replace(english, russian)
+    return text
+
+
+def error_text(error: click.ClickException) -> str:
+    """What is wrong with a command line, without a word of English."""
+    if isinstance(error, click.NoSuchOption):
+        return f"нет ключа {error.option_name}"
+    if isinstance(error, click.MissingParameter):
+        return f"не указан аргумент {_name(error)}"
+    if isinstance(error, click.BadParameter):
+        return f"неверное значение {_name(error)}: {_sentence(error.message)}"
+    return _sentence(error.format_message())
+
+
+def _name(error: click.BadParameter) -> str:
+    if error.param is None:
+        return ""
+    option = isinstance(error.param, click.Option)
+    return error.param.opts[-1] if option else in_russian(error.param.human_readable_name)
+
+
+def _sentence(message: str) -> str:
+    for english, russian in _ERRORS:
+        found = re.search(english, message)
+        if found is not None:
+            return russian.format(
+                *(group.strip("'").replace("', '", ", ") for group in found.groups())
+            )
+    return "команда записана неверно"

@@ -68,7 +68,7 @@ def book_bytes(engines: Sequence[Compared]) -> bytes:
 
 def _data(made: _Book) -> None:
     labels = [engine.label for engine in made.engines]
-    sheet = made.sheet(DATA, (52, 12, 10, *[24] * len(labels)), "Чем отличаются исходные данные")
+    sheet = made.sheet(DATA, (52, 14, 10, *[24] * len(labels)), "Чем отличаются исходные данные")
     made.head(sheet, ("Величина", "Обозначение", "Единица", *labels))
     sheet.append(["Двигатель", "", "", *[engine.model.engine.name for engine in made.engines]])
     sheet.append(["Файл", "", "", *[engine.source.name for engine in made.engines]])
@@ -77,6 +77,9 @@ def _data(made: _Book) -> None:
     for cells in sheet.iter_rows(min_row=_HEAD + 1):
         for cell in cells:
             cell.alignment = Alignment(wrap_text=True, vertical="top")
+            lines = -(-len(str(cell.value or "")) // (48 if cell.column == 1 else 22))
+            height = sheet.row_dimensions[cell.row].height or 15
+            sheet.row_dimensions[cell.row].height = max(height, 15 * lines)
             if isinstance(cell.value, str):  # names of people are no formulas
                 cell.data_type = "s"
     sheet.freeze_panes = Cell(DATA, _HEAD + 1, 4).coordinate
@@ -85,7 +88,7 @@ def _data(made: _Book) -> None:
 def _results(made: _Book) -> None:
     count = len(made.engines)
     labels = [engine.label for engine in made.engines]
-    widths = (58, 12, 10, *[16] * count, *[16] * (count - 1))
+    widths = (72, 14, 10, *[16] * count, *[16] * (count - 1))
     sheet = made.sheet(RESULTS, widths, "Результаты; значения — из расчёта файлов листа «Данные»")
     others = [f"{label} к {labels[0]}, %" for label in labels[1:]]
     made.head(sheet, ("Величина", "Обозначение", "Единица", *labels, *others))

@@ -21,7 +21,7 @@ from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE
 from reports.inputs.units import number_text
 from reports.shared.errors import InputError, Problem
 
-BORES_MM = (30.0, 1000.0)
+BORES_MM = (20.0, 1000.0)
 # Two rods share a pin: its mass over table 4, as of the sample yamz-238.
 _SHARED_PIN = 1.4
 Notes = dict[str, str]

@@ -35,8 +35,8 @@ from reports.shared.errors import KshmError
               help="Рядный, V-образный или оппозитный.")  # fmt: skip
 @click.option("--strokes", type=click.Choice(["4", "2"]), help="Тактность.")
 @click.option("--kind", type=click.Choice(["diesel", "petrol"]), help="Дизель или бензиновый.")
-@click.option("--power", "power_kw", type=float, metavar="KW", help="Эффективная мощность, кВт.")
-@click.option("--speed", "speed_rpm", type=float, metavar="RPM", help="Частота вращения, мин⁻¹.")
+@click.option("--power", "power_kw", type=float, metavar="кВт", help="Эффективная мощность, кВт.")
+@click.option("--speed", "speed_rpm", type=float, metavar="МИН⁻¹", help="Частота вращения, мин⁻¹.")
 @verbose_option
 def new(
     output: Path | None, sample: str | None, base: Path | None, cylinders: int | None,

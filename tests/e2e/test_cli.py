@@ -8,7 +8,7 @@ import json
 import os
 import subprocess
 import sys
-from contextlib import redirect_stderr, redirect_stdout
+from contextlib import chdir, redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import pytest
@@ -19,11 +19,12 @@ ROOT = Path(__file__).parents[2]
 SAMPLES = ROOT / "samples"
 
 
-def kshm(*args: object) -> subprocess.CompletedProcess[str]:
+def kshm(*args: object, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:
     """The command line in this process: its words and its exit code."""
     out, err = io.StringIO(), io.StringIO()
     command = [*map(str, args)]
-    with redirect_stdout(out), redirect_stderr(err), pytest.raises(SystemExit) as left:
+    streams = redirect_stdout(out), redirect_stderr(err)
+    with chdir(cwd), streams[0], streams[1], pytest.raises(SystemExit) as left:
         main(command)
     code = left.value.code if isinstance(left.value.code, int) else 0
     return subprocess.CompletedProcess(command, code, out.getvalue(), err.getvalue())

@@ -16,6 +16,7 @@ from typing import Any, cast
 from pydantic import ValidationError
 
 from reports.inputs import cells, load_regimes, messages
+from reports.inputs.cell_words import in_cells
 from reports.inputs.checks import cross_checks
 from reports.inputs.checks.plausibility import check_plausibility
 from reports.inputs.diagram_file import files_of, with_points
@@ -25,10 +26,7 @@ from reports.inputs.firing import FOLLOWING, expand
 from reports.inputs.meta import Strictly, hints, submodel
 from reports.inputs.ranges import read_ranges, split_ranges
 from reports.inputs.registry import GAS_MODELS, SECTIONS
-from reports.inputs.sections.gas import (
-    SOURCES,
-    PolytropicGasSection,
-)
+from reports.inputs.sections.gas import SOURCES, PolytropicGasSection
 from reports.inputs.sections.input_file import (
     DesignGeometrySection,
     InputFile,
@@ -37,6 +35,7 @@ from reports.inputs.sections.input_file import (
 )
 from reports.inputs.source import read_text, refuse_bomb, refused
 from reports.inputs.to_si.geometry import sizes_of
+from reports.inputs.understood import understood
 from reports.shared.errors import InputError, Problem, one_line
 
 MAX_PROBLEMS = 200
@@ -97,6 +96,7 @@ def load_text(text: str, *, source: str, folder: FilePath | None = None) -> Load
         problems = read_ranges(section, raw, source)[1]
         if problems:
             raise InputError(problems)
+    raw = understood(raw)
     home = folder or FilePath()
     loaded = load_mapping(with_points(raw, home, source), source=source)
     return replace(loaded, beside=tuple(home / name for name in files_of(raw)))
@@ -116,7 +116,7 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
         InputError: With everything that is wrong.
     """
     reader = _Reader(source, locate)
-    data = dict(raw)
+    data = understood(raw)
     regimes = data.pop("regimes", ())
     if locate is not None:
         data = reader.from_cells(data)
@@ -170,6 +170,8 @@ class _Reader:
         key = self.key(path)
         if self.regime is not None:
             path = load_regimes.inside(self.regime, path)
+        if self.locate is not None:
+            what, hint = in_cells(what), in_cells(hint)
         cell = self.locate(path) if self.locate is not None and path else ""
         place = f"{cell} ({key})" if cell else key
         return Problem(": ".join(part for part in (self.source, place) if part), what, hint)
@@ -197,7 +199,6 @@ class _Reader:
 
     def from_cells(self, data: dict[str, Any]) -> dict[str, Any]:
         source = str(data["gas"].get("source")) if isinstance(data.get("gas"), dict) else ""
-        source = next((key for key, label in SOURCES.items() if source == label), source)
         known = {name: section.model for name, section in SECTIONS.items()}
         known["gas"] = GAS_MODELS.get(source, PolytropicGasSection)
         if self.regime is not None:
@@ -280,7 +281,8 @@ class _Reader:
         what = "обязательный ключ не задан"
         if "source" in raw:
             what = f"недопустимое значение {messages.shown(source)}"
-        hint = "допустимо: " + ", ".join((*GAS_MODELS, "file"))
+        allowed = (*GAS_MODELS, "file") if self.locate is None else SOURCES.values()
+        hint = "допустимо: " + ", ".join(allowed)
         if ("gas", "source") not in self.empty:
             self.problems.append(self.problem(("gas", "source"), what, hint))
         return None
@@ -322,7 +324,8 @@ class _Reader:
             # A misspelt key is one mistake, not also a missing key.
             if item["type"] == "extra_forbidden" or (loc[:-1], loc[-1]) in guesses:
                 continue
-            what, hint = messages.explain(item, messages.meta_at(model, loc))
+            in_book = self.locate is not None
+            what, hint = messages.explain(item, messages.meta_at(model, loc), in_book=in_book)
             if (name, *loc) not in self.empty:
                 self.problems.append(self.problem((name, *loc), what, hint))
 

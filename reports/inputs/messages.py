@@ -12,6 +12,7 @@ from pydantic_core import ErrorDetails
 from reports.inputs import units
 from reports.inputs.meta import MAX_TEXT, Meta, Strictly, find_meta, hints, submodel
 from reports.inputs.registry import homes
+from reports.inputs.understood import is_ambiguous
 from reports.shared.errors import one_line
 
 
@@ -42,11 +43,11 @@ def kind(value: object) -> str:
     return "строка" if isinstance(value, str) else "число"
 
 
-def explain(error: ErrorDetails, meta: Meta | None) -> tuple[str, str]:
+def explain(error: ErrorDetails, meta: Meta | None, *, in_book: bool = False) -> tuple[str, str]:
     """Return (what, hint) for one pydantic error of a field with this metadata."""
     found = error["type"]
     value = error["input"]
-    hint = meta.range_text() if meta is not None else ""
+    hint = meta.range_text(labels=in_book) if meta is not None else ""
     if found == "missing":
         title = f" ({meta.title})" if meta is not None and "{" not in meta.title else ""
         return f"обязательный ключ не задан{title}", hint
@@ -58,7 +59,9 @@ def explain(error: ErrorDetails, meta: Meta | None) -> tuple[str, str]:
         return f"недопустимое значение {shown(value)}", hint
     if found in ("float_type", "int_type", "int_from_float", "int_parsing_size"):
         number = "целое число" if found.startswith("int") else "число"
-        return f"нужно {number}, а задано: {_given(value)}", _number_hint(value) or hint
+        return f"нужно {number}, а задано: {_given(value)}", _number_hint(
+            value, in_book=in_book
+        ) or hint
     if found == "string_type":
         return f"нужна строка в кавычках, а задано: {_given(value)}", ""
     if found == "string_too_long":
@@ -86,10 +89,21 @@ def _given(value: object) -> str:
     return f"{kind(value)} {shown(value)}"
 
 
-def _number_hint(value: object) -> str:
-    if isinstance(value, str) and re.fullmatch(r"\s*[-+]?\d+([.,]\d+)?\s*", value):
-        return f"пишите без кавычек и с точкой: {value.strip().replace(',', '.')}"
-    return ""
+def _number_hint(value: object, *, in_book: bool) -> str:
+    if isinstance(value, dt.date | dt.time):
+        return "сделайте ячейку числом" if in_book else ""
+    if not isinstance(value, str):
+        return ""
+    if is_ambiguous(value):
+        whole, part = re.split("[.,]", value.strip())
+        readings = f"{whole}.{part} или {whole}{part}"
+        return f"неясно, {readings}; " + (
+            "сделайте ячейку числом" if in_book else "пишите без кавычек"
+        )
+    number = re.match(r"\s*([-+]?\d+([.,]\d+)?)", value)
+    if in_book or number is None:
+        return "сделайте ячейку числом" if in_book else ""
+    return f"пишите без кавычек и с точкой: {number[1].replace(',', '.')}"
 
 
 def likely_key(key: str, model: type[Strictly]) -> str | None:

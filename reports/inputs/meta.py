@@ -75,12 +75,12 @@ class Meta:
             )
         return typing.cast(CoreSchema, schema)
 
-    def range_text(self) -> str:
+    def range_text(self, *, labels: bool = False) -> str:
         """Return the allowed values in words: ``допустимо от 10 до 1200 мм``."""
         if self.choices is not None and len(self.choices) == 1:
             return "пока поддерживается только " + next(iter(self.choices))
         if self.choices is not None:
-            names = list(self.choices)
+            names = list(self.choices.values() if labels else self.choices)
             if names == [str(n) for n in range(1, len(names) + 1)] and len(names) > _MOST_LISTED:
                 return f"допустимо от 1 до {names[-1]}"
             return "допустимо: " + ", ".join(names)
@@ -156,3 +156,17 @@ def submodel(annotation: object) -> type[BaseModel] | None:
         if found is not None:
             return found
     return None
+
+
+def leaf_types(annotation: object) -> set[type]:
+    """Return the types of the single values inside an annotation, None left out."""
+    if isinstance(annotation, type):
+        return set() if annotation is type(None) else {annotation}
+    if typing.get_origin(annotation) is typing.Literal:
+        return {type(item) for item in typing.get_args(annotation)}
+    if hasattr(annotation, "__metadata__"):
+        return leaf_types(typing.get_args(annotation)[0])
+    found: set[type] = set()
+    for part in typing.get_args(annotation):
+        found |= leaf_types(part)
+    return found

@@ -74,7 +74,7 @@ def with_key(tmp_path: Path, key: str, value: str) -> Path:
     [
         ("bore_mm", "-88.0", ["geometry.bore_mm", "допустимо"]),
         ("bore_mm", "0", ["geometry.bore_mm", "допустимо"]),
-        ("bore_mm", '"88"', ["geometry.bore_mm"]),
+        ("bore_mm", '"88 мм"', ["geometry.bore_mm"]),
         ("bore_mm", "nan", ["geometry.bore_mm"]),
         ("bore_mm", "inf", ["geometry.bore_mm"]),
         ("rod_length_mm", "40.0", ["geometry"]),

@@ -83,8 +83,3 @@ def test_text_in_a_number_cell_is_refused(raw, value, shown):
 def test_half_a_cylinder_is_refused(raw):
     raw["engine"]["cylinders"] = 3.5
     assert "нужно целое число" in lines(raw)[0]
-
-
-def test_a_file_is_not_forgiven_like_a_cell(raw, refused):
-    raw["engine"]["cylinders"] = 3.0
-    assert refused(raw)[0].startswith("f.toml: engine.cylinders: нужно целое число")

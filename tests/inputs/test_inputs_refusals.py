@@ -25,8 +25,8 @@ def put(data, path, value):
 
 CASES = {
     "text for number": (
-        {"geometry.bore_mm": "88,0"},
-        "geometry.bore_mm: нужно число, а задано: строка «88,0»; "
+        {"geometry.bore_mm": "88,0 мм"},
+        "geometry.bore_mm: нужно число, а задано: строка «88,0 мм»; "
         "пишите без кавычек и с точкой: 88.0",
     ),
     "bool for number": (
@@ -240,8 +240,8 @@ CASES = {
         "длина шатуна 148 мм",
     ),
     "other layout": (
-        {"engine.layout": "V"},
-        "engine.layout: недопустимое значение «V»; допустимо: inline, v, opposed",
+        {"engine.layout": "W"},
+        "engine.layout: недопустимое значение «W»; допустимо: inline, v, opposed",
     ),
     "three strokes": (
         {"engine.strokes": 3},

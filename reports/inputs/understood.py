@@ -1,0 +1,127 @@
+"""What a person wrote, brought to what the file means by it where that is one thing only.
+
+Choices by their Russian words, whole numbers with a point, numbers in quotes: "88,0".
+What could mean two things is left as it is: the check of its section refuses it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from reports.inputs.meta import Meta, Strictly, find_meta, hints, leaf_types, submodel
+from reports.inputs.registry import SECTIONS
+from reports.inputs.sections.gas import SOURCES
+from reports.inputs.sections.input_file import RegimeValues
+
+_SOURCE = Meta("", choices={**SOURCES, "file": "из файла"})
+_NUMBER = re.compile(r"[-+−]?(\d+|\d{1,3}([ \u00a0\u202f]\d{3})+)([.,]\d+)?([eE][-+]?\d+)?")
+# "1,234" is one and a bit to one reader and more than a thousand to another.
+_AMBIGUOUS = re.compile(r"[-+−]?[1-9]\d{0,2}[.,]\d{3}")
+_ONE_WORD = {  # besides the labels of the choices
+    "да": "yes",
+    "нет": "no",
+    "дизельный": "diesel",
+    "бензин": "petrol",
+    "солярка": "diesel",
+    "четырехтактный": "4",
+    "двухтактный": "2",
+    "v": "v",
+    "v-образный": "v",
+    "в-образный": "v",
+    "точное": "exact",
+    "точный": "exact",
+    "по учебнику": "textbook",
+}
+
+
+def understood(data: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the mapping of a file with its values in the types of their keys."""
+    result = {name: _section(name, part) for name, part in data.items()}
+    regimes = result.get("regimes")
+    if isinstance(regimes, list | tuple):
+        result["regimes"] = [_regime(entry) for entry in regimes]
+    return result
+
+
+def _section(name: str, part: object) -> Any:  # noqa: ANN401
+    if name not in SECTIONS or not isinstance(part, dict):
+        return part
+    if name != "gas":
+        return _table(part, SECTIONS[name].model)
+    if "source" in part:
+        part = {**part, "source": _value(part["source"], str, _SOURCE)}
+    source = part.get("source")
+    known = SECTIONS["gas"].sources
+    return _table(part, known.get(source, SECTIONS["gas"].model))  # type: ignore[arg-type]
+
+
+def _regime(entry: object) -> object:
+    if not isinstance(entry, dict):
+        return entry
+    done = _table(entry, RegimeValues)
+    return {**done, "gas": _section("gas", entry["gas"])} if "gas" in entry else done
+
+
+def _table(part: dict[str, Any], model: type[Strictly]) -> dict[str, Any]:
+    known = hints(model)
+    return {
+        key: _entry(value, known[key]) if key in known else value for key, value in part.items()
+    }
+
+
+def _entry(value: object, annotation: object) -> Any:  # noqa: ANN401
+    inner = submodel(annotation)
+    if isinstance(value, list | tuple):
+        return [_entry(item, annotation) for item in value]
+    if isinstance(value, dict):
+        strict = inner is not None and issubclass(inner, Strictly)
+        return _table(value, inner) if strict else value  # type: ignore[arg-type]
+    metas = find_meta(annotation)
+    types = leaf_types(annotation)
+    if len(types) != 1 or not metas:
+        return value
+    return _value(value, next(iter(types)), metas[0])
+
+
+def _value(value: object, kind: type, meta: Meta) -> object:
+    if isinstance(value, str) and meta.choices is not None:
+        value = choice_of(value, meta.choices)
+    if kind is float and isinstance(value, str):
+        return number_of(value)
+    if kind is int:
+        if isinstance(value, str):
+            value = number_of(value.strip().removesuffix("°"))
+        return int(value) if isinstance(value, float) and value.is_integer() else value
+    return value
+
+
+def choice_of(text: str, choices: Mapping[str, str]) -> str:
+    """The choice that a text names, by key or label; the text itself where it names none."""
+    wanted = _folded(text)
+    names = {_folded(name): key for key, label in choices.items() for name in (label, key)}
+    if wanted in names:
+        return names[wanted]
+    meant = _ONE_WORD.get(wanted)
+    return meant if meant is not None and meant in choices else text
+
+
+def _folded(text: str) -> str:
+    """Without what people write in more than one way: spaces, case, ё, kinds of dashes."""
+    folded = " ".join(text.casefold().split()).replace("ё", "е")
+    return re.sub(r"\s*[-‐‑–—]\s*", "-", folded)
+
+
+def number_of(text: str) -> object:
+    """The number that a text can only mean; else the text itself."""
+    plain = text.strip()
+    if not _NUMBER.fullmatch(plain) or _AMBIGUOUS.fullmatch(plain):
+        return text
+    plain = re.sub(r"[ \u00a0\u202f]", "", plain).replace(",", ".").replace("−", "-")
+    return int(plain) if re.fullmatch(r"[-+]?\d{1,15}", plain) else float(plain)
+
+
+def is_ambiguous(text: str) -> bool:
+    """Whether a text is a number to every reader, but not the same one."""
+    return _AMBIGUOUS.fullmatch(text.strip()) is not None

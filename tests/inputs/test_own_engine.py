@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from kshm import solve
 from reports.cli import main
-from reports.inputs.load import load_text, load_toml
+from reports.inputs.fields import to_mapping
+from reports.inputs.load import load_mapping, load_text, load_toml
 from reports.inputs.own_engine import USUAL, own_engine
 from reports.inputs.own_file import LINE, file_text
 from reports.inputs.own_similar import alternative
@@ -194,7 +195,11 @@ def test_an_alternative_of_another_power_says_so(tmp_path):
 def test_every_sample_has_an_alternative_that_passes(path):
     old = load_toml(path)
     found = load_text(file_text(alternative(old.model, 6)), source="alt.toml")
-    assert {problem.what for problem in found.warnings} <= {p.what for p in old.warnings}
+    # What the sample accepts with a reason of its own is told of the alternative.
+    raw = to_mapping(old.model)
+    raw.pop("checks", None)
+    bare = load_mapping(raw, source="bare.toml").warnings
+    assert {problem.what for problem in found.warnings} <= {problem.what for problem in bare}
     masses = file_text(alternative(old.model, 6))
     assert "таблица 4: от " in masses
 

@@ -2,8 +2,14 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
+import numpy as np
 import pytest
 
+from kshm.nomenclature.quantity import quantity
+from reports.grading.issuing.rubric import Tolerance
+from reports.grading.judging.verdicts import tolerance
 from reports.workbook.layout import Layout
 from tests.grading import classroom
 from tests.grading.fill import filled_book, solved_formulas
@@ -84,3 +90,16 @@ def test_typed_numbers_are_told_from_formulas():
     # A formula of numbers is a number.
     result = graded({"P3_1.v1_m_s": [f"={float(v)!r}+0" for v in right]})
     assert classroom.verdicts(result) == {"P3_1.v1_m_s": "typed"}
+
+
+@pytest.mark.parametrize(
+    ("key", "largest", "allowed"),
+    [("s_mm", 94.0, 0.0005), ("j_m_s2", 13000.0, 0.5), ("Pg_MPa", 0.01, 0.0001)],
+)
+def test_the_tolerance_is_half_a_unit_of_the_last_printed_digit(key, largest, allowed):
+    """Of quantities smaller than their printed digits it is a share of the column."""
+    rubric = SimpleNamespace(tolerance=Tolerance())
+    student = SimpleNamespace(assignment=SimpleNamespace(rubric=rubric))
+    item = SimpleNamespace(id=f"t.{key}", quantity=quantity(key))
+    found = tolerance(item, np.array([0.0, largest]), student)
+    assert found == pytest.approx(allowed, rel=1e-6)

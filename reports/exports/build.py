@@ -106,7 +106,11 @@ def build(path: Path, loaded: Loaded, folder: Path, kinds: tuple[Kind, ...]) -> 
 
 def remarks_of(loaded: Loaded) -> tuple[str, ...]:
     """Lines about an input that stand beside the checks of its calculation."""
+    from reports.inputs.checks.grid import grid_remark
+
+    grid = grid_remark(loaded.model)
     return (
         *(f"Внимание: {problem.line()}" for problem in loaded.warnings),
         *(f"Принято: {accepted.line()}" for accepted in loaded.accepted),
+        *((grid,) if grid else ()),
     )

@@ -135,6 +135,13 @@ def _is_long(node: ast.expr, text: str) -> bool:
     )
 
 
+def _level(symbol: str) -> int:
+    """A symbol that is itself a ratio, such as ``m_1/m_ш``, needs brackets in a product."""
+    if symbol.startswith(r"\dfrac"):
+        return _PRODUCT
+    return _SUM if "/" in symbol else _ATOM
+
+
 class _Printer:
     def __init__(self, symbols: Symbols, numbers: Numbers | None) -> None:
         self.symbols = symbols
@@ -174,7 +181,8 @@ class _Printer:
 
     def _name(self, name: str) -> tuple[str, int]:
         if self.numbers is None:
-            return self.symbols(name), _ATOM
+            symbol = self.symbols(name)
+            return symbol, _level(symbol)
         value = self.numbers(name)
         if isinstance(value, Raw):
             return value, _POWER if value.startswith("-") else _ATOM

@@ -7,6 +7,7 @@ digits on, powers of ten written out.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from kshm.nomenclature.digits import Digits
 
@@ -81,3 +82,9 @@ def written(value: float, digits: Digits, *, more: int = 0) -> str:
 def capital(text: str) -> str:
     """The text with its first letter large."""
     return text[:1].upper() + text[1:]
+
+
+def joined(items: Sequence[object]) -> str:
+    """Things as a sentence counts them up: «1, 2 и 4»."""
+    *most, last = map(str, items)
+    return f"{', '.join(most)} и {last}" if most else last

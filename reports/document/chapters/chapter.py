@@ -12,7 +12,9 @@ from markupsafe import Markup
 from reports.document.page.charts import HEIGHT, chart_figure, panels_figure
 from reports.document.page.spec_tables import angle_table, scalar_table
 from reports.document.page.writer import TablePlan, Writer
-from reports.document.text.terms import Terms
+from reports.document.text.numbers import of_digits
+from reports.document.text.terms import Terms, with_unit
+from reports.inputs.checks.grid import GridError, grid_errors
 from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Grid, Model
 from reports.spec.shape import Shape
@@ -76,7 +78,7 @@ class Chapter:
             "at": self.example,
         }
         own = ("input", "shape", "example", "exact", "order", "eq", "full", "sub", "ref", "book",
-               "chart", "panels")  # fmt: skip
+               "chart", "panels", "told")  # fmt: skip
         names |= {name: getattr(self, name) for name in own}
         text = self.environment.get_template(f"report/{template}.html.j2")
         return Markup(text.render(**names | context))
@@ -103,6 +105,20 @@ class Chapter:
         where = place or self.terms.book(name)
         link = self.writer.n.refer("source", BOOK)
         return Markup("[{}, {}]").format(link, where) if where else Markup("[{}]").format(link)
+
+    @cached_property
+    def grid_errors(self) -> tuple[GridError, ...]:
+        """What the step of the tables puts far from the solution with a step of a degree."""
+        return grid_errors(self.input)
+
+    def told(self, name: str) -> Markup:
+        """A scalar with its unit and, where the grid is too coarse for it, with the fine value."""
+        value = self.terms.val(name)
+        for error in self.grid_errors:
+            if error.key == name:
+                fine = with_unit(of_digits(error.fine, error.quantity.digits), self.terms.unit(name))
+                return Markup("{} (при шаге 1° — {})").format(value, fine)
+        return value
 
     def worst(self, key: str) -> int:
         """Number of the most loaded journal by a scalar that holds it."""

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from functools import partial
+from itertools import pairwise
 
+import numpy as np
 from markupsafe import Markup
 
 from kshm.nomenclature.quantity import roman
+from reports.document.chapters import facts
 from reports.document.chapters.chapter import Chapter
 from reports.document.figures.shaft import crank_scheme
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
@@ -36,19 +39,42 @@ _MEAN = (
 def crankpin(chapter: Chapter) -> Markup:
     """Loads on the crankpins, wear and the best place of the oil hole."""
     terms, rays, pins = chapter.terms, chapter.input.calculation.wear_rays, chapter.shape.pins
-    names = [f"pin{pin_name(number)}" for number in range(1, len(pins) + 1)]
+    numbers = range(1, len(pins) + 1)
+    names = [f"pin{pin_name(number)}" for number in numbers]
     loads = partial(_loads, terms, names, (*_MOST, *_MEAN), 1.0)
     sums = partial(_ray_sums, terms, ["pin"], [r"\Sigma R'_{\mathrm{ш.ш}}"], rays)
     return chapter.page(
         "crankpin",
         several=pins[0] if len(pins[0]) > 1 else (),
-        others=range(2, len(pins) + 1),
+        others=numbers[1:],
+        same_curves=facts.are_alike(terms, [f"{_pin_table(n)}.Rpin_MPa" for n in numbers]),
+        same_loads=all(
+            len(facts.leaders(terms, [key.format(name) for name in names])) == len(names)
+            for key, _, _ in (_MOST[0], *_MEAN)
+        ),
+        same_gaps=_have_equal_gaps(chapter),
         pin_loads=TablePlan(loads, "Нагрузки на шатунные шейки", size="dense"),
-        worst_pin=chapter.worst("worst_pin_load") if len(pins) > 1 else 1,
+        worst_pins=facts.leaders(terms, [f"R{name}_max" for name in names]),
         rays=rays,
         sums=TablePlan(sums, "Суммы удельных сил по лучам шатунной шейки", keep=True),
         best=least_ray(terms),
     )
+
+
+def _pin_table(number: int) -> str:
+    return "crankpin" if number == 1 else f"crankpin_{number}"
+
+
+def _have_equal_gaps(chapter: Chapter) -> bool:
+    """Whether the rods of every pin work at the same intervals, whatever the pin."""
+    offsets, period = chapter.input.crankshaft.firing_offsets_deg, chapter.shape.period
+
+    def gaps(pin: tuple[int, ...]) -> list[float]:
+        starts = sorted(offsets[i - 1] % period for i in pin)
+        return sorted(b - a for a, b in pairwise([*starts, starts[0] + period]))
+
+    first, *others = map(gaps, chapter.shape.pins)
+    return all(len(other) == len(first) and np.allclose(other, first) for other in others)
 
 
 def least_ray(terms: Terms) -> str:
@@ -84,6 +110,7 @@ def journals(chapter: Chapter) -> Markup:
             for start in range(0, len(numbers), _SUM_COLUMNS)
         ],
         worst=k,
+        leaders=facts.leaders(terms, [f"Rmain{n}_max" for n in numbers]),
         sides=[(side, i, word) for side, i, word in neighbours if 1 <= i <= throws],
         forced=chapter.input.crankshaft.force_offsets_deg is not None,
     )

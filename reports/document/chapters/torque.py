@@ -8,11 +8,14 @@ from functools import partial
 import numpy as np
 from markupsafe import Markup
 
+from reports.document.chapters import facts
 from reports.document.chapters.chapter import Chapter
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.page.writer import TablePlan
 from reports.document.text.terms import Terms
 from reports.shared.russian import fixed
+from reports.tables.overview.summary import YES
+from reports.tables.overview.verdicts import reasons_of
 
 _MOST_PANELS = 2
 
@@ -26,9 +29,35 @@ def torque(chapter: Chapter) -> Markup:
         cylinders=chapter.input.engine.cylinders,
         intervals=_intervals(chapter),
         has_power=terms.has("T_ref"),
+        agrees=terms.values.scalars.get("check_power") == YES,
+        accepted=reasons_of(chapter.input).get("power", "").rstrip("."),
+        powers=_powers(chapter) if terms.has("cyc_N_gas") else None,
+        coarse=any(error.key in ("M_mean", "N_i_calc") for error in chapter.grid_errors),
         swing=fixed(terms.value("M_max") - terms.value("M_min"), 0),
         ratio=fixed(terms.value("M_max") / mean, 2) if mean > 0 else "",
     )
+
+
+def _powers(chapter: Chapter) -> TablePlan:
+    """From the pressure of the diagram that is not rounded to the effective one, Gots 2.8."""
+    terms, step = chapter.terms, fixed(chapter.input.calculation.step_deg, 0)
+    steps = (
+        ("Нескруглённая диаграмма без насосных ходов", "cyc_p_theory", ""),
+        ("Нескруглённая диаграмма с насосными ходами", "", "cyc_N_gas"),
+        (f"Динамический расчёт по той же диаграмме с шагом {step}°", "p_i_calc", "N_i_calc"),
+        ("Индикаторные показатели с коэффициентом полноты", "cyc_p_i", "cyc_N_i"),
+        ("Эффективные показатели", "cyc_p_e", "cyc_N_e"),
+    )
+    columns = [Column("Ступень", 4.2, text=True), Column("Среднее давление, МПа", 2.0),
+               Column("Мощность, кВт", 1.8)]  # fmt: skip
+
+    def cell(name: str) -> str:
+        return f"{terms.sym(name)} = {terms.num(name)}" if name else "—"
+
+    build = partial(
+        table_block, columns, [[title, Markup(cell(p)), Markup(cell(n))] for title, p, n in steps]
+    )
+    return TablePlan(build, "Мощности расчёта цикла и динамического расчёта", keep=True)
 
 
 def _intervals(chapter: Chapter) -> str:
@@ -56,8 +85,8 @@ def running(chapter: Chapter) -> Markup:
         last=count + 1,
         count=count,
         gap=fixed(gap, 1) if gap > 0.05 else "",
-        worst_main=chapter.worst("worst_main_torque"),
-        worst_pin=chapter.worst("worst_pin_torque"),
+        mains=[k + 1 for k in facts.leaders(terms, [f"dM_main{k}" for k in range(2, count + 2)])],
+        pins=facts.leaders(terms, [f"dM_pin{i}" for i in range(1, count + 1)]),
     )
 
 

@@ -17,7 +17,7 @@ from reports.document.text import fonts, texts
 from reports.document.text.complaints import complaints
 from reports.document.text.mathsvg import formula_lines
 from reports.document.text.symbols import inline_html
-from reports.shared.russian import NBSP
+from reports.shared.russian import NBSP, joined
 
 if TYPE_CHECKING:
     import weasyprint
@@ -145,7 +145,9 @@ def environment(
         "formula_lines": formula_lines,
         "nbsp": NBSP,
     }
-    result.filters |= {"plain": texts.plain, "sym": inline_html, "titled": texts.titled}
+    result.filters |= {
+        "joined": joined, "plain": texts.plain, "sym": inline_html, "titled": texts.titled,
+    }  # fmt: skip
     return result
 
 

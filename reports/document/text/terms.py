@@ -28,6 +28,7 @@ _SYMBOLS = {
     "p_start": r"p_{c1}",
     "x_open": r"x_{\mathrm{в.о}}",
     "share": r"\dfrac{a_{\mathrm{п}}}{l}",
+    "share2": r"\dfrac{a_{\mathrm{п}2}}{l}",
     "psi_deg": r"\psi",
     "throw": "",
 }

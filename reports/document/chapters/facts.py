@@ -1,0 +1,31 @@
+"""What conditional sentences ask: each a function of the values that the report prints."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from reports.document.text.terms import Terms
+
+_NOTHING = 2e-3  # of what it is measured by: no table and no curve shows it
+
+
+def leaders(terms: Terms, names: Sequence[str]) -> list[int]:
+    """Numbers, from 1, of the scalars that are printed as large as the largest."""
+    values = [terms.value(name) for name in names]
+    most = terms.num(names[int(np.argmax(values))])
+    return [number for number, name in enumerate(names, 1) if terms.num(name) == most]
+
+
+def are_alike(terms: Terms, columns: Sequence[str]) -> bool:
+    """Whether columns over a cycle hold the same values, at whatever angles."""
+    # The last row repeats the first.
+    first, *others = (np.sort(terms.column(name)[:-1]) for name in columns)
+    scale = float(np.abs(first).max())
+    return all(np.allclose(first, other, rtol=0, atol=1e-6 * scale) for other in others)
+
+
+def are_nothing(terms: Terms, columns: Sequence[str], scale: float) -> bool:
+    """Whether columns hold only what is nothing beside a scale in their unit."""
+    return all(np.abs(terms.column(name)).max() <= _NOTHING * scale for name in columns)

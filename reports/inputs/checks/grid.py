@@ -1,0 +1,116 @@
+"""How far results on the grid of the tables stand from those of a step of one degree."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from kshm.nomenclature.quantity import Quantity, quantity
+from kshm.results.solution import solve
+from reports.inputs.sections.input_file import InputFile
+from reports.inputs.to_si.engine import engine_and_cycle
+from reports.shared.errors import InputError
+from reports.shared.russian import NBSP, fixed, written
+
+FINE = 1.0  # step that the others are held against [deg]
+MOST = 2.0  # difference that is told [%]
+_TOLD = 4  # differences in the one line; the report has them all
+# Extremes and integrals of a cycle, which depend on where the rows stand; the first matter most.
+_KINDS = tuple(
+    re.compile(kind)
+    for kind in (
+        "M_(mean|max|min)", "I_flywheel|delta_speed|W_range", "N_i_calc|p_i_area|W_cycle",
+        "Rpin[_0-9]*_max(_kN)?|Rmain[0-9]+_max(_kN)?|B_max", "dM_(main|pin)[0-9]+",
+        "Rpin[_0-9]*_mean|Rmain[0-9]+_mean|B_mean", "Rpin[_0-9]*_min|Rmain[0-9]+_min",
+    )
+)  # fmt: skip
+
+
+
+@dataclass(frozen=True, slots=True)
+class GridError:
+    """A result on the grid and with the fine step, in the quantity's unit."""
+
+    key: str
+    coarse: float
+    fine: float
+
+    @property
+    def quantity(self) -> Quantity:
+        """What it is."""
+        return quantity(self.key)
+
+    @property
+    def percent(self) -> float:
+        """Difference from the fine step's value [%]; infinite from nothing."""
+        if self.fine == 0:
+            return float(np.sign(self.coarse)) * np.inf
+        return 100 * (self.coarse - self.fine) / abs(self.fine)
+
+
+def grid_errors(model: InputFile) -> tuple[GridError, ...]:
+    """What the step of the tables puts more than 2 % off, what matters most first.
+
+    Both are found by the solver.  Nothing for a step of a degree or less, nor for an input
+    that has no solution.
+    """
+    if model.calculation.step_deg <= FINE:
+        return ()
+    calculation = model.calculation.model_copy(update={"step_deg": FINE})
+    try:
+        coarse = _results(model)
+        fine = _results(model.model_copy(update={"calculation": calculation}))
+    except (ValueError, InputError):
+        return ()
+    found = [
+        GridError(key, value, fine[key])
+        for key, value in coarse.items()
+        if _is_off(value, fine[key], max(map(abs, _family(coarse, key))))
+    ]
+    return tuple(sorted(found, key=lambda error: (_rank(error.key), -abs(error.percent))))
+
+
+def _results(model: InputFile) -> dict[str, float]:
+    scalars = solve(*engine_and_cycle(model)).scalars
+    return {key: float(value) for key, value in scalars.items() if _rank(key) < len(_KINDS)}
+
+
+def _rank(key: str) -> int:
+    return next((n for n, kind in enumerate(_KINDS) if kind.fullmatch(key)), len(_KINDS))
+
+
+def _family(results: Mapping[str, float], key: str) -> list[float]:
+    """Values of the same kind: «Rmain3_min» beside «Rmain3_max»."""
+    stem = re.sub(r"_(max|min|mean)$", "", key)
+    return [value for other, value in results.items() if other.startswith(stem)]
+
+
+def _is_off(coarse: float, fine: float, scale: float) -> bool:
+    """Whether a difference is worth a word: over 2 %, and no rounding noise of zero."""
+    apart = abs(coarse - fine)
+    return bool(np.isfinite(apart)) and apart > max(MOST / 100 * abs(fine), 1e-6 * scale)
+
+
+def grid_remark(model: InputFile) -> str:
+    """The differences in one line; empty where there are none."""
+    errors = grid_errors(model)
+    if not errors:
+        return ""
+    told = "; ".join(_said(error) for error in errors[:_TOLD])
+    rest = len(errors) - _TOLD
+    more = f"; ещё {rest} в отчёте" if rest > 0 else ""
+    step = fixed(model.calculation.step_deg, 0)
+    return (
+        f"Шаг таблиц {step}° груб для части результатов, по решению с шагом 1° они другие: "
+        f"{told}{more}; уменьшите calculation.step_deg, если нужна точность"
+    )
+
+
+def _said(error: GridError) -> str:
+    q = error.quantity
+    coarse, fine = (written(value, q.digits) for value in (error.coarse, error.fine))
+    unit = f"{NBSP}{q.unit_label}" if q.unit_label else ""
+    return f"{q.title} {coarse} вместо {fine}{unit}"

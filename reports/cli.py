@@ -11,7 +11,7 @@ import click
 from reports.commands.common import BAD, DONE, HELP
 from reports.commands.engine import build, check, doctor, new, solve
 from reports.commands.group import grade, issue
-from reports.commands.studies import sweep, validate
+from reports.commands.studies import compare, sweep, validate
 from reports.commands.words import RussianGroup, error_text
 from reports.shared.errors import KshmError
 
@@ -106,7 +106,7 @@ def main(context: click.Context) -> None:
         click.echo(context.get_help())
 
 
-for _command in (new, check, solve, build, issue, grade, validate, sweep, doctor):
+for _command in (new, check, solve, build, issue, grade, validate, sweep, compare, doctor):
     main.add_command(_command)
 
 

@@ -12,8 +12,8 @@ from hypothesis import settings
 
 from reports.inputs.load import load_toml
 from reports.inputs.sections.input_file import InputFile
-from reports.recalculation.by_libreoffice import LibreOffice, find_soffice
 from reports.shared.resources import samples_dir
+from tools.referees.by_libreoffice import LibreOffice, find_soffice
 
 # Random engines are slow to solve on a loaded machine: no deadline, the same examples in CI.
 settings.register_profile("kshm", deadline=None, derandomize=True, print_blob=True)
@@ -26,6 +26,46 @@ def pytest_configure(config: pytest.Config) -> None:
         folder = tempfile.TemporaryDirectory(prefix="kshm-tests-", ignore_cleanup_errors=True)
         os.environ["KSHM_CACHE"] = folder.name
         config.add_cleanup(folder.cleanup)
+
+
+# Tests of more than about two seconds that ./run test --quick leaves out; of each kind of check
+# a quick one stays, of those over all samples these samples.
+QUICK_SAMPLES = {"gots-diesel", "ecoboost-10"}
+SLOW = (
+    "tests/document/test_document_tables.py::test_layout",
+    "tests/document/test_report_",
+    "tests/e2e/test_dask.py",
+    "tests/fuzz/test_corpus.py::test_the_command",
+    "tests/fuzz/test_properties.py",
+    "tests/grading/test_class_of_sixty.py",
+    "tests/grading/test_grade.py::test_a_pdf_on_demand",
+    "tests/grading/test_grade.py::test_the_command_explains",
+    "tests/grading/test_grade.py::test_the_last_of_several",
+    "tests/grading/test_hostile_files.py",
+    "tests/grading/test_issue.py::test_an_issue_can_be_repeated",
+    "tests/kshm/test_invariants.py",
+    "tests/manual/test_commands.py::test_commands",
+    "tests/manual/test_manual_pages.py::test_html_fits",
+    "tests/referee/test_recalculation.py::test_formualizer_agrees_on_every_layout",
+    "tests/referee/test_recalculation.py::test_libreoffice_agrees",
+    "tests/robustness/",
+    "tests/sweep/test_sweep.py::test_memory",
+    "tests/tables/test_diagram.py",
+    "tests/tables/test_reference.py",
+    "tests/tables/test_regimes.py",
+    "tests/validation/test_validation_book.py",
+    "tests/workbook/test_golden.py::test_saved_by_libreoffice",
+    "tests/workbook/test_schema.py",
+)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark what the quick tests leave out."""
+    others = set(sample_names()) - QUICK_SAMPLES
+    for item in items:
+        params = getattr(getattr(item, "callspec", None), "params", {}).values()
+        if item.nodeid.startswith(SLOW) or others & {p for p in params if isinstance(p, str)}:
+            item.add_marker(pytest.mark.slow)
 
 
 @lru_cache(maxsize=32)

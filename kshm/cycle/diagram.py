@@ -107,7 +107,9 @@ def indicator_diagram(cycle: Cycle, step_deg: int = 1) -> IndicatorDiagram:
 
 
 def diagram_at(cycle: Cycle, phi: Array) -> IndicatorDiagram:
-    """Points of the unrounded diagram at given angles [rad] from π to 3π, rising.
+    """Points of the unrounded diagram at given angles [rad] from π to 3π, rising, shape (points,).
+
+    Polytropes of Grinevetsky and Mazing, Gots appendix 2; pressures [Pa], volumes [m³].
 
     At 2π stands the start of the isobar z', not the end of compression c.
 

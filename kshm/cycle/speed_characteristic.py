@@ -102,7 +102,9 @@ class SpeedPoint:
 def curve(
     power: float, omega: float, consumption: float, law: Leiderman, speeds: Array
 ) -> SpeedCharacteristic:
-    """The characteristic at the given speeds.
+    """The characteristic at the given speeds, curves of shape (points,), SI [rad/s, N·m, W, kg/J].
+
+    Leiderman's relations, Gots 2.9.
 
     Args:
         power: N_e at the rated speed [W].

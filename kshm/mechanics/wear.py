@@ -18,7 +18,7 @@ def ray_angles(rays: int) -> Array:
 
 
 def components(size: Array, ray: Array, rays: int) -> tuple[Array, Array]:
-    """Components along ray I and against rotation of forces that point at rays, Gots table 14.
+    """Components [N or Pa] along ray I and across it of forces that point at rays, Gots table 14.
 
     Args:
         size: lengths of the forces, shape (angles,).

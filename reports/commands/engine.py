@@ -17,6 +17,7 @@ from reports.commands.common import (
     file_argument,
     load,
     notes_of,
+    path_option,
     tell,
     verbose_option,
 )
@@ -29,13 +30,41 @@ from reports.shared.errors import KshmError
     "-o", "--output", type=click.Path(path_type=Path), help="Куда записать (иначе на экран)."
 )
 @click.option("--sample", metavar="NAME", help="Взять за основу образец, например gots-diesel.")
+@path_option("--from", "base", metavar="FILE", help="Вариант этого двигателя по подобию.")
+@click.option("--cylinders", type=int, help="Число цилиндров, от 1 до 12.")
+@click.option("--layout", type=click.Choice(["inline", "v", "opposed"]),
+              help="Рядный, V-образный или оппозитный.")  # fmt: skip
+@click.option("--strokes", type=click.Choice(["4", "2"]), help="Тактность.")
+@click.option("--kind", type=click.Choice(["diesel", "petrol"]), help="Дизель или бензиновый.")
+@click.option("--power", "power_kw", type=float, metavar="кВт", help="Эффективная мощность, кВт.")
+@click.option("--speed", "speed_rpm", type=float, metavar="МИН⁻¹", help="Частота вращения, мин⁻¹.")
 @verbose_option
-def new(output: Path | None, sample: str | None, verbose: bool) -> int:
-    """Дать файл исходных данных с пояснениями."""
+def new(
+    output: Path | None, sample: str | None, base: Path | None, cylinders: int | None,
+    layout: str | None, strokes: str | None, kind: str | None, power_kw: float | None,
+    speed_rpm: float | None, verbose: bool,
+) -> int:  # fmt: skip
+    """Дать файл исходных данных с пояснениями.
+
+    С ключом --cylinders — свой двигатель из обычных значений, вместе с --from — вариант
+    данного двигателя с другим числом цилиндров.
+    """
+    from reports.commands.own import own_text
     from reports.inputs.template import new_file
     from reports.shared.files import write_text
 
-    text = new_file(sample)
+    wanted = {
+        "--layout": layout, "--strokes": strokes, "--kind": kind,
+        "--power": power_kw, "--speed": speed_rpm,
+    }  # fmt: skip
+    if cylinders is None and base is None:
+        extra = [key for key, value in wanted.items() if value is not None]
+        if extra:
+            msg = f"{extra[0]}: ключ для своего двигателя; добавьте --cylinders"
+            raise KshmError(msg)
+        text = new_file(sample)
+    else:
+        text = own_text(sample, base, cylinders, wanted)
     if output is None:
         click.echo(text, nl=False)
         return DONE

@@ -13,6 +13,7 @@ from reports.commands.common import (
     MISSING,
     dask_option,
     file_argument,
+    load,
     path_option,
     verbose_option,
 )
@@ -104,4 +105,27 @@ def sweep(
     if done.failed:
         click.echo(f"Без результата: {done.failed}, например: {done.first_error}", err=True)
         return LOOK
+    return DONE
+
+
+@click.command(cls=RussianCommand, context_settings=HELP)
+@click.argument(
+    "sources", metavar="INPUT...", nargs=-1, required=True, type=click.Path(path_type=Path)
+)
+@path_option(
+    "-o", "--output", "target", required=True, metavar="FILE", help="Файл .xlsx, .pdf или .html."
+)
+@verbose_option
+def compare(sources: tuple[Path, ...], target: Path, verbose: bool) -> int:
+    """Сравнить двигатели: данные, результаты, диаграммы и выводы рядом.
+
+    От двух до шести файлов .toml или книг; проценты — отличие от первого.
+    """
+    from reports.comparison.engines import check_sources
+    from reports.comparison.write import check_suffix, write
+
+    check_suffix(target)
+    check_sources(sources, target)
+    write(sources, [load(source).model for source in sources], target)
+    click.echo(f"{target}: двигателей {len(sources)}")
     return DONE

@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Literal
 
 from markupsafe import Markup
 
+from reports.document import store
 from reports.document.chapters import (
     bearings,
     closing,
     companions,
-    crankpin,
     cycle,
     dynamics,
     front,
@@ -29,12 +29,11 @@ from reports.document.chapters import (
 )
 from reports.document.chapters import torque as torques
 from reports.document.chapters.chapter import Chapter
-from reports.document.chapters.torque import worst
-from reports.document.page import overrides, store
+from reports.document.page import overrides
 from reports.document.page.blocks import DocumentInfo
-from reports.document.page.drawing import Drawing
+from reports.document.page.numbering import Draft
 from reports.document.page.render import AttachedFile, RenderError, environment, render_pdf
-from reports.document.page.writer import Draft, Writer
+from reports.document.page.writer import Writer
 from reports.document.text import texts
 from reports.document.text.terms import Terms
 from reports.inputs.sections.input_file import InputFile
@@ -51,7 +50,7 @@ CHAPTERS: tuple[Callable[[Chapter], Markup], ...] = (
     kinematics.kinematics,
     dynamics.dynamics,
     torques.torque,
-    crankpin.crankpin,
+    journals.crankpin,
     journals.journals,
     bearings.bearings,
     torques.running,
@@ -122,14 +121,12 @@ def report_page(
 def _page(model: Model, values: Values, env: Environment) -> str:
     terms = Terms(model, values)
     draft = Draft()
-    planned = Writer(env, draft)
-    _write(Chapter(terms, planned, env))
-    with Drawing({key: plan.draw for key, plan in planned.figures.items()}) as drawing:
-        writer = Writer(env, draft.order.numbering(), drawing)
-        body = _write(Chapter(terms, writer, env))
-    writer.n.check()
+    _write(Chapter(terms, Writer(env, draft), env))
+    chapter = Chapter(terms, Writer(env, draft.numbering()), env)
+    body = _write(chapter)
+    chapter.writer.n.check()
     store.store().save()
-    return texts.spaces_inside(_whole(env, Chapter(terms, writer, env), body))
+    return texts.spaces_inside(_whole(env, chapter, body))
 
 
 def _whole(env: Environment, chapter: Chapter, body: Markup) -> str:
@@ -143,8 +140,8 @@ def _whole(env: Environment, chapter: Chapter, body: Markup) -> str:
         task=front.assignment(chapter),
         brief=front.abstract(chapter),
         block=front.title_block(chapter.input),
-        exact=chapter.input.calculation.method == "exact",
-        load=worst(terms, "worst_main_load"),
+        exact=chapter.exact,
+        load=chapter.worst("worst_main_load"),
         failed=len(closing.failed(terms)),
         checks=len(closing.check_keys(terms)),
         toc=chapter.writer.contents(),

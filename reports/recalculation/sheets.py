@@ -80,8 +80,7 @@ def read_sheet(grid: Grid, title: str, data: bytes, strings: list[str]) -> None:
                 if part.tag == _VALUE:
                     text = part.text
                 elif part.tag == _FORMULA:
-                    get = part.get
-                    about = get("t", "normal"), part.text or "", get("si", ""), get("ref", "")
+                    about = _about(part)
                 elif part.tag == _INLINE:
                     text, kind = rich_text(part), "str"
             try:
@@ -92,6 +91,13 @@ def read_sheet(grid: Grid, title: str, data: bytes, strings: list[str]) -> None:
                 msg = f"на листе «{title}» есть ячейка с неверным значением"
                 raise BadBook(msg) from None
     sheet.finish()
+
+
+def _about(formula: etree._Element) -> About:
+    kind, text = formula.get("t"), formula.text or ""
+    if kind is None:
+        return "normal", text, "", ""
+    return kind, text, formula.get("si", ""), formula.get("ref", "")
 
 
 @lru_cache(maxsize=50_000)  # most books of a class have the same cells
@@ -182,7 +188,10 @@ class _Sheet:
         self, known: Column, row: int, column: int, kind: str, text: str, key: str, extent: str
     ) -> None:
         run, template, shared = self._open.get(column, (None, None, ""))
-        follows = run is not None and run.last + 1 == row
+        follows = run is not None and run.first + run.count == row
+        if kind == "normal" and follows and template and filled(template, row) == text:
+            run.count += 1  # type: ignore[union-attr]
+            return
         if kind == "shared" and text:
             self._shared.setdefault(key, (text, row, column))
         if kind == "shared" and not text:

@@ -31,6 +31,7 @@ class ChartSpec:
         kind: lines over an abscissa, path of a vector, wear diagram, scheme in a unit square.
         figure: its number in the textbook.
         caption: what the report says where that is more than the title.
+        x_tex: name and unit of the report's abscissa where they are not its column's.
         y_tex: name and unit of the report's ordinate where they are not the workbook's.
         x_is_angle: the abscissa is a crank angle [deg].
         x_reversed: positive x to the left, as the axes of the journals run.
@@ -39,6 +40,10 @@ class ChartSpec:
         levels: scalars and inputs that the report draws across, such as a mean.
         extremes: the report marks the greatest and the least value of the first curve.
         hole: scalar with the angle of the oil hole in a wear diagram [deg].
+        poles: points below the origin from which the report's vector is measured: symbol and
+            expression of the ordinate.
+        group: what the report says of this chart and the others that share a figure with it.
+        panel: what it says of this one.
     """
 
     id: str
@@ -50,6 +55,7 @@ class ChartSpec:
     y_title: str = ""
     figure: str = ""
     caption: str = ""
+    x_tex: str = ""
     y_tex: str = ""
     x_is_angle: bool = False
     x_reversed: bool = False
@@ -58,6 +64,9 @@ class ChartSpec:
     levels: tuple[str, ...] = ()
     extremes: bool = False
     hole: str = ""
+    poles: tuple[tuple[str, str], ...] = ()
+    group: str = ""
+    panel: str = ""
 
     @property
     def equal_axes(self) -> bool:
@@ -79,10 +88,14 @@ class More(TypedDict, total=False):
 
     figure: str
     caption: str
+    x_tex: str
     y_tex: str
     from_zero: bool
     levels: tuple[str, ...]
     extremes: bool
+    poles: tuple[tuple[str, str], ...]
+    group: str
+    panel: str
 
 
 def line(

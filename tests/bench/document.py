@@ -6,12 +6,17 @@ import re
 import shutil
 import tempfile
 from collections.abc import Iterator
+from contextlib import nullcontext
 from pathlib import Path
+from unittest import mock
 
+from reports.document.page import render as pages
+from reports.document.report import report_page
 from reports.shared.resources import samples_dir
-from tests.bench._figure import Figure, costs
+from tests.bench._figure import Figure, costs, interleaved, ratio
 from tests.bench._process import kshm, run
 from tests.document.pdftools import poppler
+from tests.document.report_samples import terms
 
 
 def figures() -> Iterator[Figure]:
@@ -40,3 +45,18 @@ def figures() -> Iterator[Figure]:
         yield Figure("на страницу", pdf.wall / pages * 1e3, "мс")
         yield Figure("вёрстка на страницу", layout / pages * 1e3, "мс")
         yield Figure("вёрстка на ячейку таблицы", layout / cells * 1e3, "мс")
+        yield _collecting()
+
+
+def _collecting() -> Figure:
+    """What it gains to collect garbage rarely during the layout."""
+    source = terms("gots-diesel")
+    html = report_page(source.model, source.values, media="print")
+
+    def as_usual() -> None:
+        with mock.patch.object(pages, "_quiet_gc", nullcontext):
+            pages.render(html)
+
+    times = interleaved({"rarely": lambda: pages.render(html), "as usual": as_usual}, rounds=2)
+    gained = ratio(times, "rarely", "as usual")
+    return Figure("редкая сборка мусора / обычная: процессор", gained, "раз")

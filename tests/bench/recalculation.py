@@ -9,10 +9,10 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 
-from reports.recalculation.by_formualizer import Formualizer
-from reports.recalculation.by_libreoffice import LibreOffice, find_soffice
 from tests.bench._figure import Figure, interleaved, median, memory
 from tests.bench.workbook import ours
+from tools.referees.by_formualizer import Formualizer
+from tools.referees.by_libreoffice import LibreOffice, find_soffice
 
 MORE = 2
 

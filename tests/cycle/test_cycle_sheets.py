@@ -10,8 +10,6 @@ from kshm.cycle.processes import N1_PASSES, N2_PASSES
 from reports.inputs.fields import iter_fields
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import engine_and_cycle
-from reports.recalculation.by_formualizer import Formualizer
-from reports.recalculation.protocol import Book
 from reports.spec.evaluation import Values, evaluate_model
 from reports.tables.registry import build_model
 from reports.workbook.layout import Layout
@@ -19,6 +17,8 @@ from reports.workbook.write import workbook_bytes
 from tests.cycle.cycle_files import SAMPLES, VARIANTS, loaded
 from tests.referee.changes import Change, type_into
 from tests.referee.compare import differences_from_solver, errors_in
+from tools.referees.by_formualizer import Formualizer
+from tools.referees.cells import Book
 
 TOLERANCE = 1e-9
 

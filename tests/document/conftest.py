@@ -5,12 +5,21 @@ import threading
 
 import pytest
 
+from reports.document import report
+from reports.document.chapters import closing, opening
+
 
 def pytest_collection_modifyitems(items):
     """Tests that share finished reports run in one worker: two would set each report twice."""
     for item in items:
         if item.path.name in ("test_report_pdf.py", "test_report_sheets.py"):
             item.add_marker(pytest.mark.xdist_group("reports"))
+
+
+@pytest.fixture
+def few_chapters(monkeypatch):
+    """Reports with all their sheets, but with hardly any chapter."""
+    monkeypatch.setattr(report, "CHAPTERS", (opening.introduction, closing.sources))
 
 
 @pytest.fixture

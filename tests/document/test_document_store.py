@@ -5,7 +5,7 @@ from functools import partial
 
 import pytest
 
-from reports.document.page import drawing, store
+from reports.document import store
 from reports.document.text import mathsvg
 
 
@@ -53,8 +53,8 @@ drawn: list[float] = []
 def test_a_changed_figure_is_drawn_anew(own):
     drawn.clear()
     for size in (1.0, 1.0, 2.0, 1.0):
-        with drawing.Drawing({"a": partial(picture, size)}) as figures:
-            assert figures.svg("a") == f"<svg>{size}</svg>"
+        made = store.kept("figure", str(size).encode(), partial(picture, size))
+        assert made == f"<svg>{size}</svg>"
         anew()
     assert drawn == [1.0, 2.0]
 

@@ -147,6 +147,7 @@ def test_a_missing_folder_and_an_unknown_name_are_refused(tmp_path):
         html_of(source, tmp_path)
 
 
+@pytest.mark.usefixtures("few_chapters")
 def test_wrong_css_names_the_folder(tmp_path):
     source = own(tmp_path, "frame.css.j2", "")
     own(tmp_path, "report.css.j2", "p { colour: red }")
@@ -188,6 +189,7 @@ def test_every_figure_and_formula_is_told_in_words(framed):
     assert "наибольшее" in torque and "при φ = " in torque and "Н·м" in torque
 
 
+@pytest.mark.usefixtures("few_chapters")
 def test_hostile_report_data_reads_nothing_and_asks_nobody(listener, tmp_path):
     base, hits = listener
     marker = tmp_path / "marker.txt"

@@ -1,4 +1,4 @@
-"""Foreign text, the HTML page, formulas with numbers, figures by the second process."""
+"""Foreign text, the HTML page, formulas with numbers."""
 
 import json
 import re
@@ -8,10 +8,8 @@ import pytest
 from pdftools import fonts_of, pages_of
 from report_samples import ONE, html_page, terms, terms_of
 
-from reports.document.page import store
-from reports.document.page.drawing import Drawing
+from reports.document import store
 from reports.document.page.render import render
-from reports.document.page.writer import Draft
 from reports.document.report import report_html, report_page
 from reports.document.text.mathsvg import formula, formula_lines
 from reports.document.text.terms import book_place, plain_number, unit_tex
@@ -38,6 +36,7 @@ def hostile():
     return terms_of(text)
 
 
+@pytest.mark.usefixtures("few_chapters")
 def test_foreign_text_is_set_as_plain_text(hostile, tmp_path):
     page = report_page(hostile.model, hostile.values, media="print")
     assert "<script" not in page and "<img" not in page
@@ -123,55 +122,3 @@ def test_units_and_plain_numbers():
     assert unit_tex("°") == r"^{\circ}" and unit_tex("") == ""
     assert plain_number(0.245) == "0,245" and plain_number(88.0) == "88"
     assert plain_number(-0.5) == "−0,5"
-
-
-def draw(text: str) -> str:
-    return f"<svg>{text}</svg>"
-
-
-def test_second_process_draws_the_same():
-    from functools import partial
-
-    from reports.document.figures import Series, line_chart
-
-    chart = partial(line_chart, (0, 1, 2), (Series("$s$", (0.0, 1.0, 0.5)),), "x", "y", angle=False)
-    calls = {str(i): chart for i in range(5)}
-    with Drawing(calls) as drawing:
-        assert [drawing.svg(key) for key in calls] == [chart()] * 5
-
-
-def test_a_missing_worker_is_replaced(monkeypatch):
-    import sys
-
-    monkeypatch.setattr(sys, "executable", "/nonexistent/python")
-    calls = {str(i): (lambda i=i: draw(str(i))) for i in range(5)}  # cannot be pickled either
-    with Drawing(calls) as drawing:
-        assert drawing.svg("3") == "<svg>3</svg>"
-    monkeypatch.undo()
-    with Drawing(calls) as drawing:
-        assert drawing.svg("4") == "<svg>4</svg>"
-
-
-def test_a_bad_figure_is_an_error_here_too():
-    from functools import partial
-
-    from reports.document.figures import Series, line_chart
-
-    bad = partial(line_chart, (0, 1), (Series("$s$", (0.0, float("nan"))),), "x", "y")
-    with (
-        Drawing({str(i): bad for i in range(5)}) as drawing,
-        pytest.raises(ValueError, match="не число"),
-    ):
-        drawing.svg("0")
-
-
-def test_the_draft_gives_numbers_in_order_of_standing():
-    draft = Draft()
-    draft.refer("figure", "late")
-    draft.place("figure", "early")
-    draft.place("figure", "late")
-    draft.place("table", "a", number="П1")
-    numbering = draft.order.numbering()
-    assert numbering.label("figure", "late").number == "2"
-    assert numbering.label("table", "a").number == "П1"
-    assert draft.order.count("figure") == 2

@@ -8,19 +8,34 @@ import json
 import os
 import subprocess
 import sys
+from contextlib import chdir, redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import pytest
+
+from reports.cli import main
 
 ROOT = Path(__file__).parents[2]
 SAMPLES = ROOT / "samples"
 
 
-def kshm(*args: object, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+def kshm(*args: object, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:
+    """The command line in this process: its words and its exit code."""
+    out, err = io.StringIO(), io.StringIO()
+    command = [*map(str, args)]
+    streams = redirect_stdout(out), redirect_stderr(err)
+    with chdir(cwd), streams[0], streams[1], pytest.raises(SystemExit) as left:
+        main(command)
+    code = left.value.code if isinstance(left.value.code, int) else 0
+    return subprocess.CompletedProcess(command, code, out.getvalue(), err.getvalue())
+
+
+def as_process(*args: object) -> subprocess.CompletedProcess[str]:
+    """The command line as a person starts it."""
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONIOENCODING": "utf-8"}
     return subprocess.run(
         [sys.executable, "-m", "reports", *map(str, args)],
-        capture_output=True, text=True, cwd=cwd or ROOT, env=environment, timeout=300, check=False,
+        capture_output=True, text=True, cwd=ROOT, env=environment, timeout=300, check=False,
     )  # fmt: skip
 
 
@@ -239,7 +254,7 @@ def test_check_json(tmp_path: Path) -> None:
 
 
 def test_help_is_russian() -> None:
-    done = kshm("--help")
+    done = as_process("--help")
     assert done.returncode == 0
     assert "Использование:" in done.stdout
     for word in ("Usage", "Options", "Commands", "Show this"):

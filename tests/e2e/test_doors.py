@@ -147,7 +147,8 @@ NAMES = set(
     re.findall(
         r"\w+",
         "kshm html pdf xlsx xlsm csv json toml excel moodle zip dask parquet tcp host variants "
-        "gots diesel geometry bore mm m mean p n mpa libreoffice issue build new",
+        "gots diesel geometry bore mm m mean p n mpa libreoffice issue build new "
+        "inline v opposed petrol",
     )
 )
 

@@ -9,9 +9,9 @@ from collections.abc import Callable
 
 from lxml import etree
 
-from reports.recalculation.by_formualizer import Formualizer
 from reports.recalculation.language import column_number, pattern, render
 from reports.workbook.caches import sheet_parts
+from tools.referees.by_formualizer import Formualizer
 
 MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 OFFICE = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"

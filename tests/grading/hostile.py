@@ -151,6 +151,11 @@ def hostile_files(book: bytes, ticket: str, other: str) -> Iterator[tuple[str, b
     yield "whole-sheet.xlsx", part(book, sheet, answer("SUM(A1:XFD1048576)"))
     yield "product.xlsx", part(book, sheet, answer("SUMPRODUCT(E1:E20000*TRANSPOSE(E1:E20000))"))
     yield "text-growth.xlsx", part(book, sheet, answer('REPT("x",1E9)'))
+    # Doubled forty-four times: the library aborts, and with it the worker.
+    doubled = cell("Z3000", "<v>abcdefgh</v>", ' t="str"') + "".join(
+        cell(f"Z{r}", f"<f>Z{r - 1}&amp;Z{r - 1}</f>") for r in range(3001, 3045)
+    )
+    yield "doubling.xlsx", part(book, sheet, rows(doubled))
     yield "web.xlsx", part(book, sheet, answer('WEBSERVICE("http://localhost:9/")'))
     yield "dde.xlsx", part(book, sheet, answer("cmd|' /C calc'!A0"))
     yield "other-file.xlsx", part(book, sheet, answer("[1]Sheet1!A1"))

@@ -14,7 +14,6 @@ from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.judging.marking import Marker
 from reports.grading.reading.submissions import Submission
-from reports.recalculation.by_libreoffice import LibreOffice
 from reports.spec.blocks import TableSpec
 from reports.spec.charts import ChartSpec
 from reports.spec.evaluation import Values, evaluate_model
@@ -23,6 +22,7 @@ from tests.grading.classroom import issue_class
 from tests.grading.defects import DEFECTS, Defect
 from tests.grading.fill import filled_book, solved_formulas
 from tests.grading.forms import as_excel, tampered
+from tools.referees.by_libreoffice import LibreOffice
 
 RUBRIC = """
 [work]

@@ -14,12 +14,6 @@ import pytest
 import kshm
 
 ROOMS = ("mechanics", "chain", "cycle")
-# Functions of the cycle that do not state all yet.
-OPEN = {
-    "kshm.cycle.diagram.diagram_at",
-    "kshm.cycle.speed_characteristic.curve",
-    "kshm.cycle.speed_characteristic.speed_grid",
-}
 # What a result looks like: its axes, or one value for every value given.
 SHAPE = re.compile(r"\bshapes?\b|\belementwise\b|\bscalar\b|\(engines, |\(rays,\)", re.IGNORECASE)
 UNIT = re.compile(r"\[[^\]]+\]|\bSI\b")
@@ -61,9 +55,7 @@ def lacking(text: str) -> list[str]:
 @pytest.mark.parametrize("room", ROOMS)
 def test_array_functions_state_shape_unit_and_source(room: str) -> None:
     wrong = {
-        name: lacking(inspect.getdoc(function) or "")
-        for name, function in array_functions(room)
-        if name not in OPEN
+        name: lacking(inspect.getdoc(function) or "") for name, function in array_functions(room)
     }
     assert {name: what for name, what in wrong.items() if what} == {}
 

@@ -29,7 +29,7 @@ LEFT_OUT = {
 }
 CHAINS = {
     "class": re.compile(r"^./run (issue|grade)\b"),
-    "project": re.compile(r"my-engine|blank"),
+    "project": re.compile(r"my-engine|blank|own\.toml"),
     "others": re.compile(r""),
 }
 _RUN = """#!/bin/sh
@@ -98,7 +98,14 @@ def test_commands(tmp_path, chain):
 
 EXPECTED = {
     "class": ("issued/register.json", "graded/gradebook.xlsx", "graded/moodle.csv"),
-    "project": ("out/my-engine.xlsx", "out/my-engine.pdf", "out2/my-engine.pdf", "results.json"),
+    "project": (
+        "own/own.xlsx",
+        "own/compare.xlsx",
+        "out/my-engine.xlsx",
+        "out/my-engine.pdf",
+        "out2/my-engine.pdf",
+        "results.json",
+    ),
     "others": (
         "out/gots-diesel.xlsx",
         "out/gots-diesel.pdf",
@@ -133,3 +140,26 @@ def test_the_message_shown_is_the_message_given(tmp_path):
     (shown,) = blocks(DOCS / "first-project.md", "text")
     assert done.stderr == shown
     assert done.returncode == 2
+
+
+def test_an_own_engine_takes_the_lines_and_commands_that_the_page_says(tmp_path, monkeypatch):
+    """Four lines of a made file are edited; the file passes without a warning."""
+    page = DOCS / "first-project.md"
+    own = [command for command in commands(page) if "own.toml" in command]
+    shown = own[: next(i for i, command in enumerate(own) if "--from" in command)]
+    assert len(shown) == 6
+    assert "Команд шесть, строк правки четыре" in " ".join(page.read_text("utf-8").split())
+    monkeypatch.chdir(tmp_path)
+    program = f'"{sys.executable}" -m reports'
+    env = {**os.environ, "PYTHONPATH": str(ROOT)}
+    texts = []
+    for command in shown:
+        if "build" in command:
+            continue
+        line = command.replace("./run", program)
+        done = subprocess.run(["bash", "-c", line], check=False, env=env, capture_output=True)
+        assert (done.returncode, done.stderr) == (0, b""), command
+        texts.append((tmp_path / "own.toml").read_text("utf-8").splitlines())
+    first, last = texts[0], texts[-1]
+    assert len(first) == len(last)
+    assert sum(a != b for a, b in zip(first, last, strict=True)) == 4

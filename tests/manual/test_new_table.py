@@ -12,12 +12,12 @@ import pytest
 from reports.grading.issuing.issue import assignment_for
 from reports.grading.judging.marking import Marker
 from reports.grading.reading.submissions import Submission
-from reports.recalculation.by_formualizer import Formualizer
 from reports.tables import registry
 from tests.grading.classroom import issue_class
 from tests.grading.fill import filled_book
 from tests.manual.pages import DOCS, ROOT, blocks
 from tests.referee.compare import differences_from_caches, errors_in
+from tools.referees.by_formualizer import Formualizer
 
 PAGE = DOCS / "new-table.md"
 SHEET = "Опрокидывание"

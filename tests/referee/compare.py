@@ -7,10 +7,10 @@ import numpy as np
 from kshm import solve
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import engine_and_cycle
-from reports.recalculation.protocol import Book, cached_values
 from reports.spec.blocks import Model
 from reports.tables.registry import build_model
 from reports.workbook.layout import FIRST_ROW, Layout
+from tools.referees.cells import Book, cached_values
 
 TOLERANCE = 1e-9
 

@@ -11,16 +11,16 @@ import pytest
 
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.recalculation.by_formualizer import Formualizer
 from reports.recalculation.evaluate import Engine
 from reports.recalculation.language import UnknownFormula
-from reports.recalculation.protocol import row_and_column
 from reports.recalculation.read import read_grid
 from reports.tables.registry import build_model
 from reports.workbook.caches import sheet_parts
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
 from tests.referee.books import engine_of
+from tools.referees.by_formualizer import Formualizer
+from tools.referees.cells import row_and_column
 
 COLUMN = 26
 

@@ -11,12 +11,12 @@ from openpyxl import Workbook
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.formula import ArrayFormula
 
-from reports.recalculation.by_libreoffice import LibreOffice
 from reports.recalculation.evaluate import Engine
 from reports.recalculation.language import UnknownFormula
-from reports.recalculation.protocol import CellValue
 from reports.recalculation.read import read_grid
 from tests.referee.features import DATA, DIFFERENT, FEATURES, NAMES, SHEET
+from tools.referees.by_libreoffice import LibreOffice
+from tools.referees.cells import CellValue
 
 FIRST, COLUMN = 10, 10
 _PERCENT = re.compile(r"(-?[0-9.]+)%")

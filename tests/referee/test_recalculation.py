@@ -12,9 +12,6 @@ import pytest
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.input_file import InputFile
-from reports.recalculation.by_formualizer import Formualizer
-from reports.recalculation.by_libreoffice import LibreOffice
-from reports.recalculation.protocol import formula_cells
 from reports.spec.blocks import Model
 from reports.tables.registry import build_model
 from reports.workbook.caches import sheet_parts
@@ -34,6 +31,9 @@ from tests.referee.compare import (
     differences_from_solver,
     errors_in,
 )
+from tools.referees.by_formualizer import Formualizer
+from tools.referees.by_libreoffice import LibreOffice
+from tools.referees.cells import formula_cells
 
 # Shares by which all inputs change at once: little, so that nearly all are taken, and much,
 # so that choices between branches come out otherwise.

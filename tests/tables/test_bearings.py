@@ -15,7 +15,6 @@ from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import engine_and_cycle, to_engine
-from reports.recalculation.by_formualizer import Formualizer
 from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from reports.workbook.write import workbook_bytes
@@ -23,6 +22,7 @@ from tests.conftest import sample
 from tests.kshm.engines import engines
 from tests.referee.compare import differences_from_caches, differences_from_solver, errors_in
 from tests.tables.test_two_statements import assert_agree
+from tools.referees.by_formualizer import Formualizer
 
 
 def made(name: str = "gots-appendix1", **shaft: Any) -> InputFile:

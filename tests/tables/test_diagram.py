@@ -14,8 +14,6 @@ from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_toml
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import engine_and_cycle, to_engine
-from reports.recalculation.by_formualizer import Formualizer
-from reports.recalculation.by_libreoffice import LibreOffice
 from reports.shared.errors import InputError
 from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
@@ -24,6 +22,8 @@ from reports.workbook.write import workbook_bytes
 from tests.conftest import sample, samples_dir
 from tests.referee.compare import differences_from_caches, differences_from_solver, errors_in
 from tests.tables.test_two_statements import assert_agree
+from tools.referees.by_formualizer import Formualizer
+from tools.referees.by_libreoffice import LibreOffice
 
 PETROL: dict[str, Any] = {
     "source": "rounded", "kind": "petrol", "intake_pressure_mpa": 0.085,

@@ -18,7 +18,6 @@ from kshm.mechanics.rod_masses import (
 )
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import Loaded, load_mapping
-from reports.recalculation.by_formualizer import Formualizer
 from reports.shared.errors import InputError
 from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
@@ -26,6 +25,7 @@ from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
 from tests.referee.compare import differences_from_caches, differences_from_solver, errors_in
 from tests.tables.test_two_statements import assert_agree
+from tools.referees.by_formualizer import Formualizer
 
 PARTS = {"piston_group_kg": 1.52, "rod_kg": 1.752}
 SWINGS = {

@@ -14,7 +14,6 @@ from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import engine_and_cycle
-from reports.recalculation.by_formualizer import Formualizer
 from reports.shared.errors import InputError
 from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
@@ -23,6 +22,7 @@ from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
 from tests.referee.compare import differences_from_caches, differences_from_solver, errors_in
 from tests.tables.test_two_statements import assert_agree
+from tools.referees.by_formualizer import Formualizer
 
 
 def asked(**reference: object) -> InputFile:

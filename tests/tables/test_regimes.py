@@ -16,7 +16,6 @@ from reports.inputs.fields import iter_fields, to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import engine_and_cycle, to_engine
-from reports.recalculation.by_formualizer import Formualizer
 from reports.shared.errors import InputError
 from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
@@ -26,6 +25,7 @@ from tests.conftest import sample
 from tests.referee.changes import Change, type_into
 from tests.referee.compare import differences_from_solver, errors_in
 from tests.tables.test_two_statements import assert_agree
+from tools.referees.by_formualizer import Formualizer
 
 
 def coarse(**changes: Any) -> dict[str, Any]:

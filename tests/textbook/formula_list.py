@@ -9,6 +9,7 @@ import ast
 import re
 import sys
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
@@ -121,6 +122,7 @@ def _sources(tree: ast.Module) -> Iterator[str]:
             yield from _SOURCE.findall(text)
 
 
+@cache
 def places() -> dict[int, tuple[list[str], list[str]]]:
     """Number → functions of the solver, modules of the tables that name it."""
     found: dict[int, tuple[list[str], list[str]]] = {n: ([], []) for n in range(1, LAST + 1)}

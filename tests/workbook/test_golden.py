@@ -11,12 +11,12 @@ import pytest
 from lxml import etree
 
 from reports.inputs.fields import to_mapping
-from reports.recalculation.by_libreoffice import LibreOffice
 from reports.workbook.caches import sheet_parts
 from reports.workbook.read import load_workbook_input
 from tests.layouts import made
 from tests.workbook import golden
 from tests.workbook.lint import LITERAL, MAIN
+from tools.referees.by_libreoffice import LibreOffice
 
 NAME = "basic"
 

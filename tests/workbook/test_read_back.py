@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import io
+from functools import lru_cache
 from pathlib import Path
 
 import pytest
-from openpyxl import load_workbook
+from openpyxl import Workbook, load_workbook
 
 from reports.inputs.fields import to_mapping
 from reports.shared.errors import InputError
@@ -16,14 +17,25 @@ from tests.conftest import sample
 from tests.workbook.made import book, coarse_book, coarse_model
 
 
-def edited(tmp_path: Path, changes: dict[str, object], name: str = "gots-diesel") -> Path:
-    opened = load_workbook(io.BytesIO(coarse_book(name)))
-    layout = Layout.of(coarse_model(name))
-    for field, value in changes.items():
-        cell = layout.cells[field]
-        opened[cell.sheet][cell.coordinate].value = value
+@lru_cache(maxsize=1)
+def opened_input_sheet() -> Workbook:
+    """The book as a person's program opens it; sheets that no input stands on are left out."""
+    opened = load_workbook(io.BytesIO(coarse_book()))
+    for sheet in opened.sheetnames[2:]:
+        del opened[sheet]
+    return opened
+
+
+def edited(tmp_path: Path, changes: dict[str, object]) -> Path:
+    opened, layout = opened_input_sheet(), Layout.of(coarse_model())
+    cells = {field: layout.cells[field] for field in changes}
+    kept = {field: opened[cell.sheet][cell.coordinate].value for field, cell in cells.items()}
+    for field, cell in cells.items():
+        opened[cell.sheet][cell.coordinate].value = changes[field]
     path = tmp_path / "edited.xlsx"
     opened.save(path)
+    for field, cell in cells.items():
+        opened[cell.sheet][cell.coordinate].value = kept[field]
     return path
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from reports.shared.files import write_text
 from reports.validation.book import validate
 from reports.validation.markdown import markdown
+from tools.manual.drawings import write_drawings
 from tools.manual.input_page import input_page
 from tools.manual.sheets_page import sheets_page
 
@@ -19,8 +20,8 @@ GENERATED: Mapping[str, Callable[[], str]] = {
 
 
 def write_pages(docs: Path) -> list[Path]:
-    """Write every generated page anew; return those that changed."""
-    changed = []
+    """Write every generated page and drawing anew; return those that changed."""
+    changed = write_drawings(docs / "images")
     for name, text in pages().items():
         path = docs / name
         if not path.exists() or path.read_text(encoding="utf-8") != text:

@@ -59,7 +59,7 @@ def write_pictures(folder: Path) -> list[Path]:
 
 
 def _printed(workbook: Path) -> bytes:
-    from reports.recalculation.by_libreoffice import LibreOffice
+    from tools.referees.by_libreoffice import LibreOffice
 
     return LibreOffice().converted([workbook.read_bytes()], "pdf")[0]
 

@@ -29,7 +29,8 @@ def write_site(docs: Path, target: Path) -> list[Path]:
     contents = [(name, _title(page)) for page, name in pages.items() if page.stem != "index"]
     for page, name in pages.items():
         write_text(target / name, _html(page, pages, contents))
-    for picture in sorted((docs / "images").glob("*.png")):
+    pictures = [path for kind in ("png", "svg") for path in (docs / "images").glob(f"*.{kind}")]
+    for picture in sorted(pictures):
         (target / "images").mkdir(exist_ok=True)
         shutil.copyfile(picture, target / "images" / picture.name)
     return [target / name for name in pages.values()]

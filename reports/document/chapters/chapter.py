@@ -1,17 +1,20 @@
-"""What every chapter is given: writer, terms and the words for formulas."""
+"""What every chapter is given: writer, terms and the words for formulas, tables and figures."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 from markupsafe import Markup
 
-from reports.document.page.writer import Writer
+from reports.document.page.charts import HEIGHT, chart_figure, panels_figure
+from reports.document.page.spec_tables import angle_table, scalar_table
+from reports.document.page.writer import TablePlan, Writer
 from reports.document.text.terms import Terms
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Model
+from reports.spec.blocks import Grid, Model
 from reports.spec.shape import Shape
 
 if TYPE_CHECKING:
@@ -49,26 +52,34 @@ class Chapter:
         """Crank angle of the worked lines of the dynamics, shortly after the combustion [deg]."""
         return 390.0 if self.shape.strokes == 4 else 30.0
 
+    @property
+    def exact(self) -> bool:
+        """Whether the forces follow from the exact acceleration."""
+        return self.input.calculation.method == "exact"
+
+    @property
+    def order(self) -> str:
+        """Order in which the power strokes begin: ``1–3–4–2``."""
+        offsets = self.input.crankshaft.firing_offsets_deg
+        order = sorted(range(len(offsets)), key=lambda i: (offsets[i] % self.shape.period, i))
+        return "–".join(str(i + 1) for i in order)
+
     def page(self, template: str, **context: Any) -> Markup:  # noqa: ANN401
         """Render a template of the folder ``report`` with the tools and a chapter's own data."""
         names = {
             "t": self.terms,
             "w": self.writer,
             "n": self.writer.n,
-            "input": self.input,
-            "shape": self.shape,
-            "example": self.example,
-            "eq": self.eq,
-            "full": self.full,
-            "sub": self.sub,
-            "ref": self.ref,
-            "book": self.book,
             "h": self.writer.heading,
             "figure": self.writer.figure,
             "table": self.writer.table,
+            "at": self.example,
         }
-        text = self.environment.get_template(f"report/{template}").render(**names, **context)
-        return Markup(text)
+        own = ("input", "shape", "example", "exact", "order", "eq", "full", "sub", "ref", "book",
+               "chart", "panels")  # fmt: skip
+        names |= {name: getattr(self, name) for name in own}
+        text = self.environment.get_template(f"report/{template}.html.j2")
+        return Markup(text.render(**names | context))
 
     def eq(self, name: str, at: float | None = None, end: str = "") -> Markup:
         """The formula of a node in symbols, numbered."""
@@ -92,3 +103,50 @@ class Chapter:
         where = place or self.terms.book(name)
         link = self.writer.n.refer("source", BOOK)
         return Markup("[{}, {}]").format(link, where) if where else Markup("[{}]").format(link)
+
+    def worst(self, key: str) -> int:
+        """Number of the most loaded journal by a scalar that holds it."""
+        return round(self.terms.value(key))
+
+    def chart(
+        self,
+        name: str,
+        size: float = HEIGHT,
+        *,
+        key: str = "",
+        **more: Any,  # noqa: ANN401
+    ) -> Markup:
+        """A chart of the specifications as a figure; see :func:`chart_figure`."""
+        plan = chart_figure(self.terms, self.model.charts_by_id[name], size, **more)
+        return self.writer.figure(key or name, plan)
+
+    def panels(
+        self,
+        key: str,
+        names: Iterable[str],
+        size: float,
+        **more: Any,  # noqa: ANN401
+    ) -> Markup:
+        """Charts of one group in one figure, one above the other."""
+        charts = [self.model.charts_by_id[name] for name in names]
+        return self.writer.figure(key, panels_figure(self.terms, charts, size, **more))
+
+    def scalars(self, caption: str, keys: Iterable[str], **manner: Any) -> TablePlan:  # noqa: ANN401
+        """A list of the scalars and inputs that there are."""
+        present = [key for key in keys if self.terms.has(key)]
+        return TablePlan(partial(scalar_table, self.terms, present), caption, **manner)
+
+    def columns(
+        self,
+        table: str,
+        keys: Sequence[str] | None = None,
+        caption: str = "",
+        **manner: Any,  # noqa: ANN401
+    ) -> TablePlan:
+        """A table over the crank angle, whole or some columns of it."""
+        build = partial(angle_table, self.terms, table, keys)
+        return TablePlan(build, caption or self.model.tables[table].title, **manner)
+
+    def grid(self, name: str) -> Grid:
+        """A grid of the model."""
+        return next(b for b in self.model.blocks if isinstance(b, Grid) and b.id == name)

@@ -7,8 +7,7 @@ from functools import partial
 from markupsafe import Markup
 
 from reports.document.chapters.chapter import BOOK, Chapter
-from reports.document.chapters.crankpin import least_ray
-from reports.document.chapters.torque import worst
+from reports.document.chapters.journals import least_ray
 from reports.document.page.blocks import Column, TableBlock, table_block
 from reports.document.page.spec_tables import angle_table
 from reports.document.page.writer import TablePlan
@@ -47,7 +46,7 @@ def checks(chapter: Chapter) -> Markup:
     keys = check_keys(terms)
     plan = TablePlan(partial(_check_table, terms, keys), "Проверки расчёта", lined=True)
     return chapter.page(
-        "checks.html.j2",
+        "checks",
         plan=plan,
         failed=failed(terms),
         count=len(keys),
@@ -77,39 +76,36 @@ def _check_value(terms: Terms, key: str) -> str:
 
 def _check_table(terms: Terms, keys: list[str]) -> TableBlock:
     columns = (Column("Проверка", 6, text=True), Column("Значение", 1.5), Column("Выполнено", 1.5))
-    rows = []
-    for key in keys:
-        note = terms.model.scalars[f"check_{key}"].note
-        verdict = terms.values.scalars[f"check_{key}"]
-        shown = "да" if verdict == YES else "нет"
-        rows.append([note, _check_value(terms, key), shown])
+    rows = [
+        [
+            terms.model.scalars[f"check_{key}"].note,
+            _check_value(terms, key),
+            "да" if terms.values.scalars[f"check_{key}"] == YES else "нет",
+        ]
+        for key in keys
+    ]
     return table_block(columns, rows)
 
 
 def conclusion(chapter: Chapter) -> Markup:
     """Conclusions, each from numbers."""
-    terms, count = chapter.terms, chapter.input.engine.cylinders
+    terms = chapter.terms
+    pressure = terms.column("gas.p_MPa")
+    row = int(pressure.argmax())
     return chapter.page(
-        "conclusion.html.j2",
-        count=count,
+        "conclusion",
+        count=chapter.input.engine.cylinders,
         failed=failed(terms),
         checks=len(check_keys(terms)),
-        load=worst(terms, "worst_main_load"),
-        main=worst(terms, "worst_main_torque"),
-        pin=worst(terms, "worst_pin_torque"),
-        ray=least_ray(terms, "hole_pin_ray"),
+        load=chapter.worst("worst_main_load"),
+        main=chapter.worst("worst_main_torque"),
+        pin=chapter.worst("worst_pin_torque"),
+        ray=least_ray(terms),
         has_power=terms.has("T_ref"),
         step=chapter.input.calculation.step_deg,
-        exact=chapter.input.calculation.method == "exact",
         forced=chapter.input.crankshaft.force_offsets_deg is not None,
-        pz=_greatest_pressure(terms),
+        pz=(fixed(float(pressure[row]), 2), fixed(terms.model.tables["gas"].rows[row], 0)),
     )
-
-
-def _greatest_pressure(terms: Terms) -> tuple[str, str]:
-    values = terms.column("gas.p_MPa")
-    row = int(values.argmax())
-    return fixed(float(values[row]), 2), fixed(terms.model.tables["gas"].rows[row], 0)
 
 
 def sources(chapter: Chapter) -> Markup:
@@ -120,52 +116,42 @@ def sources(chapter: Chapter) -> Markup:
 
 def appendices(chapter: Chapter) -> Markup:
     """All tables over the crank angle: П3 in appendix А, П4 in appendix Б."""
-    terms, shape = chapter.terms, chapter.shape
-    tables, count = terms.model.tables, shape.cylinders
-    main = [
-        (
-            f"P4_3_{k}",
-            _plan(terms, f"P4_3_{k}", ["phi_deg", "Rx_MPa", "Ry_MPa", "R_MPa", "psiR_deg"]),
-        )
-        for k in range(1, shape.throws + 2)
-    ]
-    wear = tables["table_14"]
+    shape, tables = chapter.shape, chapter.model.tables
+    wide = "dense" if shape.cylinders > 6 else ""
+    reactions = ["phi_deg", "Rx_MPa", "Ry_MPa", "R_MPa", "psiR_deg"]
+    plan = partial(_plan, chapter)
     return chapter.page(
-        "appendices.html.j2",
-        kinematic=[(key, _plan(terms, key, number=number)) for key, number in _kinematic(shape)],
-        cylinder=[
-            ("gas", _plan(terms, "gas", number="П4.Г")),
-            ("P4_1", _plan(terms, "P4_1")),
-            ("P4_2", _plan(terms, "P4_2", size="dense" if count > 6 else "")),
-            *((key, _plan(terms, key, number=f"П4.{tables[key].number}")) for key in _loads(shape)),
+        "appendices",
+        kinematic=[
+            plan("P3_1"),
+            plan("P3_2"),
+            *([plan("offset", number="П3.Д")] if shape.offset else ()),
+            *([plan("articulated", number="П3.П")] if shape.articulated else ()),
         ],
-        main=main,
-        running=[
-            (key, _plan(terms, key, _moments(terms, key), size="dense" if count > 6 else ""))
-            for key in ("P4_4", "P4_5", "P4_5s")
+        forces=[
+            plan("gas", number="П4.Г"),
+            plan("P4_1"),
+            plan("P4_2", size=wide),
+            *(plan(key, number=f"П4.{tables[key].number}") for key in _loads(shape)),
+            *(plan(f"P4_3_{k}", reactions) for k in range(1, shape.throws + 2)),
+            *(
+                plan(key, _moments(chapter.terms, key), size=wide)
+                for key in ("P4_4", "P4_5", "P4_5s")
+            ),
+            plan(
+                "table_14",
+                number="П4.Л",
+                size="tiny" if len(tables["table_14"].columns) > 14 else "dense",
+            ),
         ],
-        rays=_plan(
-            terms, "table_14", number="П4.Л", size="tiny" if len(wear.columns) > 14 else "dense"
-        ),
     )
-
-
-def _kinematic(shape: Shape) -> list[tuple[str, str | None]]:
-    """Tables of appendix А with the numbers of those that the book has not."""
-    found: list[tuple[str, str | None]] = [("P3_1", None), ("P3_2", None)]
-    if shape.offset:
-        found.append(("offset", "П3.Д"))
-    if shape.articulated:
-        found.append(("articulated", "П3.П"))
-    return found
 
 
 def _loads(shape: Shape) -> list[str]:
     """Tables of the forces on throws and crankpins."""
     pins = ["crankpin", *(f"crankpin_{n}" for n in range(2, len(shape.pins) + 1))]
-    if shape.single_rods:
-        return pins
-    return [*(rods_table(throw) for throw in range(1, shape.throws + 1)), *pins]
+    throws = [] if shape.single_rods else [rods_table(k) for k in range(1, shape.throws + 1)]
+    return [*throws, *pins]
 
 
 def _moments(terms: Terms, table: str) -> list[str]:
@@ -177,20 +163,20 @@ def _moments(terms: Terms, table: str) -> list[str]:
 
 
 def _plan(
-    terms: Terms,
+    chapter: Chapter,
     key: str,
     columns: list[str] | None = None,
     *,
-    number: str | None = None,
+    number: str = "",
     size: str = "",
-) -> TablePlan:
-    spec = terms.model.tables[key]
+) -> tuple[str, TablePlan]:
+    spec = chapter.model.tables[key]
     build = partial(
         angle_table,
-        terms,
+        chapter.terms,
         key,
         columns,
         own_symbols=key in ("gas", "P4_1"),
-        every=SHORT_EVERY if terms.model.input.report.detail == "short" else 1,
+        every=SHORT_EVERY if chapter.input.report.detail == "short" else 1,
     )
-    return TablePlan(build, spec.title, number=number or spec.number, size=size)
+    return key, TablePlan(build, spec.title, number=number or spec.number, size=size)

@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
-import numpy as np
 from markupsafe import Markup
 
 from reports.document.chapters.chapter import Chapter
-from reports.document.chapters.plots import PHI, series
-from reports.document.figures import Mark, Panel, line_chart, pv_diagram, stacked_panels
-from reports.document.page.blocks import Column, TableBlock, table_block
-from reports.document.page.spec_tables import angle_table, list_block, scalar_table, unit_cell
-from reports.document.page.writer import Figure, TablePlan
+from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
+from reports.document.page.spec_tables import list_block, unit_cell
+from reports.document.page.writer import TablePlan
 from reports.document.text import numbers
 from reports.document.text.symbols import inline_html
 from reports.document.text.terms import Terms
-from reports.shared.russian import fixed
-from reports.spec.blocks import Grid
+from reports.shared.russian import MINUS, capital, fixed
 from reports.tables.gas.cycle_names import friction_by_speed, is_boosted, section_of
 from reports.tables.gas.cycle_speed import INSIDE
 
@@ -37,6 +32,12 @@ _EQUATIONS = {
     "speed": r"M_e = M_N\,(a + b x - c x^2),\quad g_e = g_N\,(a' + b' x + c' x^2)",
 }
 _BALANCE = ("useful", "exhaust", "incomplete", "rest")
+_ENERGIES = ("cyc_w_c", "cyc_U_air", "cyc_U_rest", "cyc_U_c", "cyc_content", "cyc_t_root")
+_EFFECTIVE = (
+    "cyc_p_i", "cyc_p_m", "cyc_p_e", "cyc_eta_i", "cyc_eta_m", "cyc_eta_e", "cyc_g_i",
+    "cyc_g_e", "cyc_N_i", "cyc_N_e", "cyc_M_e", "cyc_G_f", "cyc_G_a", "cyc_N_error",
+)  # fmt: skip
+_HEAT = ("heat_a", "heat_b", "heat_c", "hot_a", "hot_b")
 
 
 def cycle(chapter: Chapter) -> Markup:
@@ -47,8 +48,10 @@ def cycle(chapter: Chapter) -> Markup:
     terms = chapter.terms
     petrol = section.kind == "petrol"
     species = ("CO2", "CO", "H2O", "H2", "O2", "N2") if petrol else ("CO2", "H2O", "O2", "N2")
+    verdicts = [str(terms.values.scalars[f"range_{key}"]) for key in _range_keys(terms)]
+    last = len(terms.model.tables["cycle_diagram"].rows) - 1
     return chapter.page(
-        "cycle.html.j2",
+        "cycle",
         equations=_EQUATIONS,
         petrol=petrol,
         boosted=is_boosted(section),
@@ -59,106 +62,62 @@ def cycle(chapter: Chapter) -> Markup:
         derived_idle=section.idle_speed_rpm is None,
         newton=terms.value("cyc_t_root") < 1500,
         species=[f"mix_{name}" for name in species],
-        tables=_tables(terms),
-        figures=_figures(terms),
-        inside=_counts(terms),
+        tables=_tables(chapter),
+        corners=[("$a$", 0), ("$z'$", terms.row("cycle_diagram", 360.0)), ("$b$", last)],
+        speed_step=500.0 if float(terms.column("speed.speed_n")[-1]) <= 5000 else 1000.0,
+        inside=(verdicts.count(INSIDE), len(verdicts)),
         turbine_enough=is_boosted(section) and terms.value("cyc_N_t") >= terms.value("cyc_N_k"),
-        residual_gap=_percent(terms.value("value_cycle_Tr")),
+        residual_gap=fixed(terms.value("value_cycle_Tr"), 1),
     )
 
 
-def _percent(value: float) -> str:
-    return fixed(value, 1)
-
-
-def _tables(terms: Terms) -> dict[str, TablePlan]:
-    heat = ["heat_a", "heat_b", "heat_c", "hot_a", "hot_b"]
-    energies = [
-        name
-        for name in ("cyc_w_c", "cyc_U_air", "cyc_U_rest", "cyc_U_c", "cyc_content", "cyc_t_root")
-        if terms.has(name)
-    ]
+def _tables(chapter: Chapter) -> dict[str, TablePlan]:
+    terms, dense = chapter.terms, {"size": "dense", "keep": True}
+    near = "Последовательные приближения показателя политропы"
     return {
         "heat": TablePlan(
-            partial(_coefficients, terms, heat),
+            partial(_coefficients, terms),
             "Коэффициенты средней мольной теплоёмкости продуктов сгорания",
             size="dense",
             keep=True,
         ),
-        "energies": TablePlan(
-            partial(scalar_table, terms, energies),
-            "Величины уравнения сгорания",
-            size="dense",
-            keep=True,
-        ),
-        "n1": TablePlan(
-            partial(_passes, terms, "cycle_n1"),
-            "Последовательные приближения показателя политропы сжатия",
-            keep=True,
-        ),
-        "n2": TablePlan(
-            partial(_passes, terms, "cycle_n2"),
-            "Последовательные приближения показателя политропы расширения",
-            keep=True,
-        ),
-        "effective": TablePlan(
-            partial(scalar_table, terms, _effective(terms)),
-            "Эффективные показатели",
-            size="dense",
-            keep=True,
-        ),
+        "energies": chapter.scalars("Величины уравнения сгорания", _ENERGIES, **dense),
+        "n1": TablePlan(partial(_passes, chapter, "cycle_n1"), f"{near} сжатия", keep=True),
+        "n2": TablePlan(partial(_passes, chapter, "cycle_n2"), f"{near} расширения", keep=True),
+        "effective": chapter.scalars("Эффективные показатели", _EFFECTIVE, **dense),
         "balance": TablePlan(partial(_balance, terms), "Тепловой баланс", keep=True),
-        "diagram": TablePlan(
-            partial(angle_table, terms, "cycle_diagram"), "Индикаторная диаграмма цикла по точкам"
+        "diagram": chapter.columns(
+            "cycle_diagram", caption="Индикаторная диаграмма цикла по точкам"
         ),
-        "speed": TablePlan(
-            partial(angle_table, terms, "speed"), "Внешняя скоростная характеристика", keep=True
-        ),
+        "speed": chapter.columns("speed", caption="Внешняя скоростная характеристика", keep=True),
         "ranges": TablePlan(
             partial(_ranges, terms), "Результаты и обычные пределы", size="dense", lined=True
         ),
     }
 
 
-def _effective(terms: Terms) -> list[str]:
-    names = (
-        "cyc_p_i", "cyc_p_m", "cyc_p_e", "cyc_eta_i", "cyc_eta_m", "cyc_eta_e", "cyc_g_i",
-        "cyc_g_e", "cyc_N_i", "cyc_N_e", "cyc_M_e", "cyc_G_f", "cyc_G_a", "cyc_N_error",
-    )  # fmt: skip
-    return [name for name in names if terms.has(name)]
-
-
-def _coefficients(terms: Terms, names: Sequence[str]) -> TableBlock:
-    """Coefficients of a heat capacity: small numbers, so significant digits."""
+def _coefficients(terms: Terms) -> TableBlock:
+    """Coefficients of a heat capacity: the small ones in millionths."""
     rows = []
-    for name in names:
-        tex, value = terms.tex(name), terms.value(name)
-        text = fixed(value, 4) if abs(value) >= 1 else f"{value * 1e6:.4f}".replace(".", ",")
-        text = text.replace("-", "−")
-        scale = "" if abs(value) >= 1 else Markup("·10<sup>−6</sup>")
-        title = terms.title(name)
-        rows.append(
-            [
-                title[:1].upper() + title[1:],
-                inline_html(tex),
-                Markup("{}{}").format(text, scale),
-                unit_cell(terms.unit(name)),
-            ]
-        )
+    for name in _HEAT:
+        value = terms.value(name)
+        small = abs(value) < 1
+        number = fixed(value * 1e6 if small else value, 4, group=False)
+        text = Markup("{}·10<sup>−6</sup>" if small else "{}").format(number)
+        unit = unit_cell(terms.unit(name))
+        rows.append([capital(terms.title(name)), inline_html(terms.tex(name)), text, unit])
     return list_block(rows)
 
 
-def _passes(terms: Terms, grid_id: str) -> TableBlock:
+def _passes(chapter: Chapter, name: str) -> TableBlock:
     """A grid of passes turned: one row a pass."""
-    grid = next(b for b in terms.model.blocks if isinstance(b, Grid) and b.id == grid_id)
+    grid, terms = chapter.grid(name), chapter.terms
     columns = [Column("Проход")]
     cells: list[list[str]] = [[str(i + 1) for i in range(len(grid.labels))]]
     for row in grid.rows:
-        unit = f", {row.quantity.unit_label}" if row.quantity.unit_label else ""
-        columns.append(Column(inline_html(row.quantity.tex) + Markup(unit)))
-        digits = replace(
-            row.quantity.digits, decimals=min(row.quantity.digits.decimals, _MOST_DECIMALS)
-        )
+        q = row.quantity
+        columns.append(Column(symbol_head(q.tex, q.unit_label)))
+        digits = replace(q.digits, decimals=min(q.digits.decimals, _MOST_DECIMALS))
         cells.append(
             [numbers.of_digits(terms.value(c.key), digits) for c in row.cells if c is not None]
         )
@@ -172,17 +131,15 @@ def _balance(terms: Terms) -> TableBlock:
         Column("кВт", 1.3),
         Column("%", 1.2),
     ]
-    rows = [_part(terms, f"bal_{name}", f"bal_{name}_share") for name in _BALANCE]
-    rows.append(_part(terms, "bal_total", ""))
+    parts = {f"bal_{name}": terms.num(f"bal_{name}_share") for name in _BALANCE}
+    parts["bal_total"] = "100,0"
     if terms.has("bal_cooler"):
-        rows.append(_part(terms, "bal_cooler", None))
+        parts["bal_cooler"] = "—"
+    rows = [
+        [capital(terms.title(name)), terms.sym(name), terms.num(name), share]
+        for name, share in parts.items()
+    ]
     return table_block(columns, rows)
-
-
-def _part(terms: Terms, name: str, share: str | None) -> list[str]:
-    title = terms.title(name)
-    percent = "—" if share is None else terms.num(share) if share else "100,0"
-    return [title[:1].upper() + title[1:], terms.sym(name), terms.num(name), percent]
 
 
 def _range_keys(terms: Terms) -> list[str]:
@@ -203,76 +160,7 @@ def _ranges(terms: Terms) -> TableBlock:
         scalar = terms.model.scalars[f"range_value_{key}"]
         title, _, usual = scalar.note.partition(": обычно ")
         value = terms.value(f"range_value_{key}")
-        digits = 0 if abs(value) >= 100 else 2 if abs(value) >= 1 else 3
+        shown = fixed(value, 0 if abs(value) >= 100 else 2 if abs(value) >= 1 else 3)
         verdict = str(terms.values.scalars[f"range_{key}"])
-        rows.append([title, fixed(value, digits), usual.replace("-", "−"), verdict, scalar.source])
+        rows.append([title, shown, usual.replace("-", MINUS), verdict, scalar.source])
     return table_block(columns, rows)
-
-
-def _counts(terms: Terms) -> tuple[int, int]:
-    """How many results lie inside their usual range, and of how many."""
-    keys = _range_keys(terms)
-    inside = sum(terms.values.scalars[f"range_{key}"] == INSIDE for key in keys)
-    return inside, len(keys)
-
-
-def _figures(terms: Terms) -> dict[str, Figure]:
-    volume, pressure = (
-        terms.column("cycle_diagram.cd_V_dm3"),
-        terms.column("cycle_diagram.cd_p_MPa"),
-    )
-    angles = terms.model.tables["cycle_diagram"].rows
-    closed_v = np.append(volume, volume[0])
-    closed_p = np.append(pressure, pressure[0])
-    rows = {"$a$": 0, "$z'$": terms.row("cycle_diagram", 360.0), "$b$": len(volume) - 1}
-    marks = tuple(Mark(k, float(volume[i]), float(pressure[i])) for k, i in rows.items())
-    speed = terms.column("speed.speed_n")
-    curves = (
-        ("speed_Ne", "$N_e$, кВт"),
-        ("speed_Me", "$M_e$, Н·м"),
-        ("speed_ge", "$g_e$, г/(кВт·ч)"),
-        ("speed_Gf", r"$G_{\mathrm{т}}$, кг/ч"),
-    )
-    panels = tuple(Panel(series(terms, f"speed.{key}"), label) for key, label in curves)
-    return {
-        "cycle_pv": Figure(
-            partial(
-                pv_diagram,
-                closed_v,
-                closed_p,
-                marks=marks,
-                volume_label="$V$, дм³",
-                pressure_label="$p$, МПа",
-                ambient=terms.value("gas_ambient_pressure_mpa"),
-            ),
-            "Нескруглённая индикаторная диаграмма рассчитанного цикла",
-        ),
-        "cycle_T": Figure(
-            partial(
-                line_chart,
-                angles,
-                series(terms, "cycle_diagram.cd_T_K"),
-                PHI,
-                "$T$, К",
-                height=70.0,
-                zero=False,
-            ),
-            "Температура газов в цилиндре при сжатии, сгорании и расширении",
-        ),
-        "speed": Figure(
-            partial(
-                stacked_panels,
-                speed,
-                panels,
-                "$n$, мин⁻¹",
-                panel_height=42.0,
-                x_step=_speed_step(float(speed[-1])),
-            ),
-            "Внешняя скоростная характеристика: а\u00a0— мощность; б\u00a0— крутящий момент; "
-            "в\u00a0— удельный расход топлива; г\u00a0— часовой расход топлива",
-        ),
-    }
-
-
-def _speed_step(highest: float) -> float:
-    return 500.0 if highest <= 5000 else 1000.0

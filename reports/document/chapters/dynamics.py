@@ -8,50 +8,39 @@ import numpy as np
 from markupsafe import Markup
 
 from reports.document.chapters.chapter import Chapter
-from reports.document.chapters.diagram import rounded_text
 from reports.document.chapters.layout import rods_text
-from reports.document.chapters.masses import mass_notes
-from reports.document.chapters.plots import PHI, over_phi, phi, series
-from reports.document.figures import Level, Mark, line_chart, pv_diagram
-from reports.document.page.blocks import TableBlock
-from reports.document.page.spec_tables import scalar_table
-from reports.document.page.writer import Figure, TablePlan
+from reports.document.page.blocks import Column, TableBlock, table_block
+from reports.document.page.charts import Row
+from reports.document.page.writer import TablePlan
 from reports.document.text.terms import Terms
 from reports.inputs.sections.gas import RoundedGasSection, TableGasSection
-from reports.tables.gas.diagram import is_smooth
+from reports.shared.russian import fixed
+from reports.spec.blocks import ScalarTable
+from reports.tables.gas.diagram import NODES, is_smooth
+from reports.tables.motion.rod_masses import SHEET
+
+_POINTS = (
+    "phi_c_deg", "p_start", "p_c_end", "gas_max_pressure_mpa", "cyc_p_z",
+    "phi_open_deg", "p_open", "phi_scavenge_deg", "phi_close_deg",
+)  # fmt: skip
 
 
 def dynamics(chapter: Chapter) -> Markup:
     """Masses, pressure of the gases and the forces of one cylinder."""
     terms, gas = chapter.terms, chapter.input.gas
     polytropic = not isinstance(gas, TableGasSection | RoundedGasSection)
-    figures = {
-        "pv": _pv(terms, two_stroke=chapter.shape.strokes == 2),
-        "p_phi": _p_phi(terms, two_stroke=chapter.shape.strokes == 2),
-        "specific": over_phi(terms, "Удельные силы давления газов, инерции и их сумма",
-                             "$p'$, МПа", "P4_1.Pg_MPa", "P4_1.Pj_MPa", "P4_1.Ps_MPa", height=80.0),
-        "ns": over_phi(terms, "Удельные силы на стенку цилиндра и вдоль шатуна",
-                       "МПа", "P4_1.N_MPa", "P4_1.S_MPa", height=76.0),
-        "kt": over_phi(terms, "Удельные нормальная и тангенциальная силы на кривошипе",
-                       "МПа", "P4_1.K_MPa", "P4_1.T_MPa", height=76.0),
-    }  # fmt: skip
-    points = TablePlan(partial(_points, terms), "Характерные точки индикаторной диаграммы")
-    masses = [key for key in ("m_1", "m_2", "m_j") if _is_computed(chapter, key)]
-    inertia = {"tdc": terms.num("P4_1.Pj_MPa", 360.0), "bdc": terms.num("P4_1.Pj_MPa", 180.0)}
     return chapter.page(
-        "dynamics.html.j2",
-        figures=figures,
-        points=points,
+        "dynamics",
+        corners=_corners(terms, two_stroke=chapter.shape.strokes == 2),
+        points=chapter.scalars("Характерные точки индикаторной диаграммы", _POINTS),
         polytropic=polytropic,
-        rounded=partial(rounded_text, chapter),
+        rounded=partial(_rounded_text, chapter),
         smooth=is_smooth(chapter.input),
         pressure=_pressure_tex(terms) if polytropic else "",
-        masses=masses,
-        mass_notes=partial(mass_notes, chapter),
+        masses=[key for key in ("m_1", "m_2", "m_j") if _is_computed(chapter, key)],
+        mass_notes=partial(_mass_notes, chapter),
         rods=partial(rods_text, chapter),
-        at=chapter.example,
-        exact=chapter.input.calculation.method == "exact",
-        inertia=inertia,
+        inertia={"tdc": terms.num("P4_1.Pj_MPa", 360.0), "bdc": terms.num("P4_1.Pj_MPa", 180.0)},
         from_cycle=chapter.input.gas.source == "cycle",
     )
 
@@ -62,12 +51,47 @@ def _is_computed(chapter: Chapter, key: str) -> bool:
     return scalar is not None and any(sign in scalar.expr for sign in "+-*/")
 
 
-def _points(terms: Terms) -> TableBlock:
-    names = (
-        "phi_c_deg", "p_start", "p_c_end", "gas_max_pressure_mpa", "cyc_p_z",
-        "phi_open_deg", "p_open", "phi_scavenge_deg", "phi_close_deg",
-    )  # fmt: skip
-    return scalar_table(terms, [name for name in names if terms.has(name)])
+def _mass_notes(chapter: Chapter) -> Markup:
+    """How the masses and the rod were found, Gots 2.2, with their table."""
+    given, scalars = chapter.input.masses, chapter.terms.values.scalars
+    lists = [block for block in chapter.model.blocks if isinstance(block, ScalarTable)]
+    listed = [scalar for block in lists if block.sheet == SHEET for scalar in block.scalars]
+    keys = [scalar.key for scalar in listed if scalar.of != "verdict"]
+    verdicts = [
+        scalar
+        for block in lists
+        if block.id == "specific_masses"
+        for scalar in block.scalars
+        if scalar.of == "verdict"
+    ]
+    return chapter.page(
+        "masses",
+        plan=chapter.scalars("Массы и шатун", keys, size="dense"),
+        estimated=given.estimate_fuel is not None,
+        weighed=given.rod_weighed_small_end_kg is not None,
+        swung=given.swing_edges_mm is not None,
+        outside=[verdict.note for verdict in verdicts if scalars[verdict.key] == "НЕТ"],
+    )
+
+
+def _rounded_text(chapter: Chapter) -> Markup:
+    """Text and table of the rounded diagram of figure 22; nothing for another one."""
+    if not isinstance(chapter.input.gas, RoundedGasSection):
+        return Markup("")
+    build = partial(_nodes, chapter.terms)
+    plan = TablePlan(build, "Точки скруглённой индикаторной диаграммы", keep=True)
+    return chapter.page("diagram", plan=plan)
+
+
+def _nodes(terms: Terms) -> TableBlock:
+    wanted = (("node_deg{}", 1), ("node_MPa{}", 3), ("node_slope{}", 4))
+    rows = [
+        [name.replace("′", "'").replace("″", "''"),
+         *(fixed(terms.value(key.format(n)), digits) for key, digits in wanted)]
+        for n, name in enumerate(NODES, 1)
+    ]  # fmt: skip
+    heads = ("φ, °", "p, МПа", "Наклон, МПа/°")
+    return table_block([Column("Точка", text=True), *map(Column, heads)], rows)
 
 
 def _pressure_tex(terms: Terms) -> str:
@@ -85,47 +109,13 @@ def _pressure_tex(terms: Terms) -> str:
     return r" \\ ".join(lines)
 
 
-def _marks(
-    terms: Terms, x: np.ndarray[tuple[int, ...], np.dtype[np.float64]], *, two_stroke: bool
-) -> tuple[Mark, ...]:
-    """Points of the cycle that lie on the grid: a, z, b, r."""
-    p = terms.column("gas.p_MPa")
-    angles = np.asarray(phi(terms, "gas"))
+def _corners(terms: Terms, *, two_stroke: bool) -> list[Row]:
+    """Points of the cycle that lie on the grid: a, z, r, b."""
     start = terms.value("phi_close_deg") if two_stroke and terms.has("phi_close_deg") else 180.0
-    rows = {"$a$": terms.row("gas", start), "$z$": int(np.argmax(p))}
+    corners = [("$a$", terms.row("gas", start)), ("$z$", int(terms.column("gas.p_MPa").argmax()))]
     if not two_stroke:
-        rows["$r$"] = 0
+        corners.append(("$r$", 0))
     if terms.has("phi_open_deg"):
-        opening = terms.value("phi_open_deg")
-        rows["$b$"] = int(np.flatnonzero(angles <= opening + 1e-9)[-1])
-    return tuple(Mark(name, float(x[row]), float(p[row])) for name, row in rows.items())
-
-
-def _pv(terms: Terms, *, two_stroke: bool) -> Figure:
-    volume = terms.column("gas.volume_dm3")
-    draw = partial(
-        pv_diagram,
-        volume,
-        terms.column("gas.p_MPa"),
-        marks=_marks(terms, volume, two_stroke=two_stroke),
-        volume_label="$V$, дм³",
-        pressure_label=rf"${terms.tex('gas.p_MPa')}$, МПа",
-        ambient=terms.value("gas_ambient_pressure_mpa"),
-        height=82.0,
-    )
-    return Figure(draw, "Индикаторная диаграмма в координатах p–V")
-
-
-def _p_phi(terms: Terms, *, two_stroke: bool) -> Figure:
-    angles = np.asarray(phi(terms, "gas"))
-    draw = partial(
-        line_chart,
-        phi(terms, "gas"),
-        series(terms, "gas.p_MPa"),
-        PHI,
-        rf"${terms.tex('gas.p_MPa')}$, МПа",
-        height=72.0,
-        levels=(Level("$p_0$", terms.value("gas_ambient_pressure_mpa")),),
-        marks=_marks(terms, angles, two_stroke=two_stroke),
-    )
-    return Figure(draw, "Индикаторная диаграмма, развёрнутая по углу поворота вала")
+        before = np.asarray(terms.model.tables["gas"].rows) <= terms.value("phi_open_deg") + 1e-9
+        corners.append(("$b$", int(np.flatnonzero(before)[-1])))
+    return corners

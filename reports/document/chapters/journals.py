@@ -1,138 +1,132 @@
-"""Chapter on the main journals: throws, reactions, diagrams of each (figures 53-55)."""
+"""Chapters on crankpins and main journals: loads, wear, oil holes (figures 50-55)."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from functools import partial
 
 from markupsafe import Markup
 
+from kshm.nomenclature.quantity import roman
 from reports.document.chapters.chapter import Chapter
-from reports.document.chapters.crankpin import ray_sums, wear_figure
-from reports.document.chapters.plots import over_phi, phi
-from reports.document.chapters.torque import firing_order, worst
-from reports.document.figures import Level, Pole, crank_scheme, polar_path
+from reports.document.figures.shaft import crank_scheme
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.page.spec_tables import grid_table
 from reports.document.page.writer import Figure, TablePlan
 from reports.document.text.terms import Terms
-from reports.spec.blocks import Grid
+from reports.shared.russian import capital, fixed
+from reports.spec.shape import pin_name
 
 _FORCES = ("C1", "C2", "C3", "C4", "C5", "C6", "C7", "C8", "C9", "C10", "C11", "C12", "C13",
            "C14", "C15", "C4x", "C5x")  # fmt: skip
 _REACTIONS = ("length", "share", "share2", "RKCL", "RTCL", "RKCP", "RTCP")
 _SUM_COLUMNS = 7  # journals in one table of sums
+# Columns of a table of loads: key of the scalar, symbol, unit.
+_MOST = (("R{}_max", r"R'_{\max}", "МПа"), ("phi_R{}_max_deg", r"\varphi_{\max}", "°"))
+_LEAST = (("R{}_min", r"R'_{\min}", "МПа"), ("phi_R{}_min_deg", r"\varphi_{\min}", "°"))
+_MEAN = (
+    ("R{}_mean", r"R'_{\mathrm{ср}}", "МПа"),
+    ("R{}_max_kN", r"R_{\max}", "кН"),
+    ("q_{}_max", r"q_{\max}", "МПа"),
+    ("q_{}_mean", r"q_{\mathrm{ср}}", "МПа"),
+    ("hole_{}_deg", r"\alpha_{\mathrm{м}}", "°"),
+)
+
+
+def crankpin(chapter: Chapter) -> Markup:
+    """Loads on the crankpins, wear and the best place of the oil hole."""
+    terms, rays, pins = chapter.terms, chapter.input.calculation.wear_rays, chapter.shape.pins
+    names = [f"pin{pin_name(number)}" for number in range(1, len(pins) + 1)]
+    loads = partial(_loads, terms, names, (*_MOST, *_MEAN), 1.0)
+    sums = partial(_ray_sums, terms, ["pin"], [r"\Sigma R'_{\mathrm{ш.ш}}"], rays)
+    return chapter.page(
+        "crankpin",
+        several=pins[0] if len(pins[0]) > 1 else (),
+        others=range(2, len(pins) + 1),
+        pin_loads=TablePlan(loads, "Нагрузки на шатунные шейки", size="dense"),
+        worst_pin=chapter.worst("worst_pin_load") if len(pins) > 1 else 1,
+        rays=rays,
+        sums=TablePlan(sums, "Суммы удельных сил по лучам шатунной шейки", keep=True),
+        best=least_ray(terms),
+    )
+
+
+def least_ray(terms: Terms) -> str:
+    """Roman number of the crankpin's least loaded ray."""
+    return roman(round(terms.value("hole_pin_ray")))
 
 
 def journals(chapter: Chapter) -> Markup:
     """Reactions of the bearings on every main journal."""
-    terms, rays = chapter.terms, chapter.input.calculation.wear_rays
-    throws = chapter.shape.throws
-    numbers = list(range(1, throws + 2))
-    k = worst(terms, "worst_main_load")
+    terms, rays, throws = chapter.terms, chapter.input.calculation.wear_rays, chapter.shape.throws
+    numbers = range(1, throws + 2)
+    k = chapter.worst("worst_main_load")
     neighbours = [("a", k - 1, "правой"), ("b", k, "левой")]
     size = "" if throws <= 5 else "dense" if throws <= 7 else "tiny"
+    loads = partial(
+        _loads, terms, [f"main{n}" for n in numbers], (*_MOST, *_LEAST, *_MEAN), 0.8
+    )  # fmt: skip
     return chapter.page(
-        "journals.html.j2",
+        "journals",
         scheme=Figure(
             partial(crank_scheme, chapter.input.crankshaft.throw_angles_deg),
             "Схема коленчатого вала: вид сбоку и с носка",
         ),
-        order=firing_order(chapter),
         throws=throws,
-        forces=TablePlan(
-            partial(_throws, terms, _FORCES), "Центробежные силы колен", size=size, keep=True
+        numbers=numbers,
+        forces=_throws(chapter, _FORCES, "Центробежные силы колен", size),
+        reactions=_throws(
+            chapter, _REACTIONS, "Пролёты колен и реакции опор от центробежных сил", size
         ),
-        reactions=TablePlan(
-            partial(_throws, terms, _REACTIONS),
-            "Пролёты колен и реакции опор от центробежных сил",
-            size=size,
-            keep=True,
-        ),
-        loads=TablePlan(
-            partial(_loads, terms, numbers), "Нагрузки на коренные шейки", size="dense", keep=True
-        ),
-        sums=_sum_plans(terms, numbers, rays),
-        figures=[(number, _figures(terms, number, rays)) for number in numbers],
+        loads=TablePlan(loads, "Нагрузки на коренные шейки", size="dense", keep=True),
+        sums=[
+            (f"sums_main_{start}", _sums(terms, numbers[start : start + _SUM_COLUMNS], rays))
+            for start in range(0, len(numbers), _SUM_COLUMNS)
+        ],
         worst=k,
         sides=[(side, i, word) for side, i, word in neighbours if 1 <= i <= throws],
         forced=chapter.input.crankshaft.force_offsets_deg is not None,
-        at=chapter.example,
     )
 
 
-def _throws(terms: Terms, keys: tuple[str, ...]) -> TableBlock:
-    grid = next(b for b in terms.model.blocks if isinstance(b, Grid) and b.id == "throws")
-    block = grid_table(terms, grid, keys, "Величина")
-    columns = [block.columns[0], *(Column(label.capitalize()) for label in grid.labels)]
-    return table_block(columns, block.rows)
+def _throws(chapter: Chapter, keys: Iterable[str], caption: str, size: str) -> TablePlan:
+    grid = chapter.grid("throws")
+    labels = [capital(label) for label in grid.labels]
+    build = partial(grid_table, chapter.terms, grid, keys, labels)
+    return TablePlan(build, caption, size=size, keep=True)
 
 
-def _loads(terms: Terms, numbers: list[int]) -> TableBlock:
-    columns = [
-        Column("Шейка", 0.8),
-        Column(symbol_head(r"R'_{\max}", "МПа")),
-        Column(symbol_head(r"\varphi_{\max}", "°")),
-        Column(symbol_head(r"R'_{\min}", "МПа")),
-        Column(symbol_head(r"\varphi_{\min}", "°")),
-        Column(symbol_head(r"R'_{\mathrm{ср}}", "МПа")),
-        Column(symbol_head(r"R_{\max}", "кН")),
-        Column(symbol_head(r"q_{\max}", "МПа")),
-        Column(symbol_head(r"q_{\mathrm{ср}}", "МПа")),
-        Column(symbol_head(r"\alpha_{\mathrm{м}}", "°"), 0.8),
+def _loads(
+    terms: Terms, names: Sequence[str], wanted: Sequence[tuple[str, str, str]], last: float
+) -> TableBlock:
+    """Loads of all crankpins or main journals side by side."""
+    columns = [Column(symbol_head(tex, unit)) for _, tex, unit in wanted[:-1]]
+    _, tex, unit = wanted[-1]
+    rows = [
+        [str(number), *(terms.num(key.format(name)) for key, _, _ in wanted)]
+        for number, name in enumerate(names, 1)
     ]
-    rows = []
-    for k in numbers:
-        keys = (
-            f"Rmain{k}_max", f"phi_Rmain{k}_max_deg", f"Rmain{k}_min", f"phi_Rmain{k}_min_deg",
-            f"Rmain{k}_mean", f"Rmain{k}_max_kN", f"q_main{k}_max", f"q_main{k}_mean",
-            f"hole_main{k}_deg",
-        )  # fmt: skip
-        rows.append([str(k), *(terms.num(key) for key in keys)])
-    return table_block(columns, rows)
+    return table_block([Column("Шейка", 0.8), *columns, Column(symbol_head(tex, unit), last)], rows)
 
 
-def _sum_plans(terms: Terms, numbers: list[int], rays: int) -> list[tuple[str, TablePlan]]:
-    plans = []
-    for start in range(0, len(numbers), _SUM_COLUMNS):
-        chunk = numbers[start : start + _SUM_COLUMNS]
-        names = [f"main{k}" for k in chunk]
-        heads = [rf"\Sigma R'_{{{k}}}" for k in chunk]
-        last = f"{chunk[0]}–{chunk[-1]}" if len(chunk) > 1 else str(chunk[0])
-        plan = TablePlan(
-            partial(ray_sums, terms, names, heads, rays),
-            f"Суммы удельных сил по лучам коренных шеек {last}",
-            keep=True,
-            size="dense" if len(chunk) > 4 else "",
-        )
-        plans.append((f"sums_main_{start}", plan))
-    return plans
-
-
-def _figures(terms: Terms, k: int, rays: int) -> dict[str, Figure]:
-    table = f"P4_3_{k}"
-    x, y = (terms.tex(f"{table}.{key}") for key in ("Rx_MPa", "Ry_MPa"))
-    polar = partial(
-        polar_path,
-        terms.column(f"{table}.Rx_MPa"),
-        terms.column(f"{table}.Ry_MPa"),
-        phi(terms, table),
-        f"${x}$, МПа",
-        f"${y}$, МПа",
-        invert=(True, False),
-        poles=(Pole("$O$"),),
-        most=100.0,
+def _sums(terms: Terms, numbers: Sequence[int], rays: int) -> TablePlan:
+    names = [f"main{k}" for k in numbers]
+    heads = [rf"\Sigma R'_{{{k}}}" for k in numbers]
+    said = f"{numbers[0]}–{numbers[-1]}" if len(numbers) > 1 else str(numbers[0])
+    return TablePlan(
+        partial(_ray_sums, terms, names, heads, rays),
+        f"Суммы удельных сил по лучам коренных шеек {said}",
+        keep=True,
+        size="dense" if len(numbers) > 4 else "",
     )
-    return {
-        "polar": Figure(polar, f"Полярная диаграмма удельной нагрузки на коренную шейку {k}"),
-        "wear": wear_figure(
-            terms, f"main{k}", rays, f"Условная диаграмма износа коренной шейки {k}", "ось y", 84.0
-        ),
-        "unfolded": over_phi(
-            terms,
-            f"Развёрнутая диаграмма нагрузки на коренную шейку {k}",
-            rf"${terms.tex(f'{table}.R_MPa')}$, МПа",
-            f"{table}.R_MPa",
-            height=64.0,
-            levels=(Level(r"$R'_{\mathrm{ср}}$", terms.value(f"Rmain{k}_mean")),),
-        ),
-    }
+
+
+def _ray_sums(terms: Terms, names: list[str], heads: list[str], rays: int) -> TableBlock:
+    """Sums of the forces by rays, a column for each surface."""
+    columns = [Column("Луч"), Column(symbol_head(r"\delta", "°"))]
+    columns += [Column(symbol_head(head, "МПа")) for head in heads]
+    rows = []
+    for i in range(1, rays + 1):
+        sums = [fixed(terms.value(f"{name}_sum{i}"), 2) for name in names]
+        rows.append([roman(i), fixed(terms.value(f"{names[0]}_deg{i}"), 0), *sums])
+    return table_block(columns, rows)

@@ -34,7 +34,7 @@ _TITLES = {
 
 def introduction(chapter: Chapter) -> Markup:
     """Introduction: what is computed and how."""
-    return chapter.page("introduction.html.j2")
+    return chapter.page("introduction")
 
 
 def input_data(chapter: Chapter) -> Markup:
@@ -49,7 +49,7 @@ def input_data(chapter: Chapter) -> Markup:
         "points": TablePlan(partial(_points, model), "Точки индикаторной диаграммы"),
     }
     return chapter.page(
-        "inputs.html.j2",
+        "inputs",
         plans=plans,
         scheme=partial(scheme_text, chapter),
         by_points=isinstance(model.gas, TableGasSection),
@@ -78,6 +78,12 @@ def _named(fields: Sequence[Field], pattern: str, count: int) -> Iterator[str]:
     values = {field.name: field.value for field in fields}
     for number in range(1, count + 1):
         yield plain_number(float(values[pattern.format(number)]))
+
+
+def _numbered(fields: Sequence[Field], patterns: Sequence[str], count: int) -> list[list[str]]:
+    """Rows of the numbers 1 … count with the values of the fields after them."""
+    columns = [map(str, range(1, count + 1)), *(_named(fields, p, count) for p in patterns)]
+    return [list(row) for row in zip(*columns, strict=True)]
 
 
 def _phases(fields: Sequence[Field], model: InputFile) -> TableBlock:
@@ -122,20 +128,14 @@ def _webs(fields: Sequence[Field]) -> TableBlock:
         columns.insert(2, Column(symbol_head(r"\rho", "мм")))
     elif "web_1_mass_kg" not in names:  # estimated: see the section on masses
         keys, columns = keys[1:], [columns[0], *columns[2:]]
-    cells = [list(_named(fields, f"web_{{}}_{key}", count)) for key in keys]
-    return table_block(
-        columns, [[str(i), *row] for i, row in enumerate(zip(*cells, strict=True), 1)]
-    )
+    return table_block(columns, _numbered(fields, [f"web_{{}}_{key}" for key in keys], count))
 
 
 def _arms(fields: Sequence[Field]) -> TableBlock:
     count = sum(field.name.endswith("_l1_mm") for field in fields)
     heads = [rf"l_{i}" for i in range(1, 7)] + [r"h_{\mathrm{Л}}", r"h_{\mathrm{П}}"]
     columns = [Column("Колено", 1.3), *(Column(inline_html(tex)) for tex in heads)]
-    cells = [list(_named(fields, f"throw_{{}}_{key}_mm", count)) for key in _ARMS]
-    return table_block(
-        columns, [[str(i), *row] for i, row in enumerate(zip(*cells, strict=True), 1)]
-    )
+    return table_block(columns, _numbered(fields, [f"throw_{{}}_{key}_mm" for key in _ARMS], count))
 
 
 def _points(model: InputFile) -> TableBlock:

@@ -13,6 +13,8 @@ from reports.document.text.texts import raised
 from reports.document.text.texwords import for_mathtext
 
 Points = NDArray[np.float64]
+Box = tuple[float, float, float, float]  # left, bottom, right, top [pt]
+Place = tuple[float, float]
 
 
 @functools.lru_cache(maxsize=2048)
@@ -44,35 +46,21 @@ def shown(text: str) -> str:
 class Room:
     """What is taken already: points of curves and boxes of texts, all in points of the sheet."""
 
-    limits: tuple[float, float, float, float]
+    limits: Box
     curves: list[Points] = field(default_factory=list)
-    boxes: list[tuple[float, float, float, float]] = field(default_factory=list)
+    boxes: list[Box] = field(default_factory=list)
 
-    def free(self, box: tuple[float, float, float, float], *, gap: float = 1.0) -> bool:
-        """Whether a box (left, bottom, right, top) lies inside and touches nothing."""
-        left, bottom, right, top = box
-        if (
-            left < self.limits[0]
-            or bottom < self.limits[1]
-            or right > self.limits[2]
-            or top > self.limits[3]
-        ):
+    def free(self, box: Box, *, gap: float = 1.0) -> bool:
+        """Whether a box lies inside and touches nothing."""
+        left, bottom, right, top = self.limits
+        if box[0] < left or box[1] < bottom or box[2] > right or box[3] > top:
             return False
-        for other in self.boxes:
-            if (
-                left < other[2] + gap
-                and right > other[0] - gap
-                and bottom < other[3] + gap
-                and top > other[1] - gap
-            ):
-                return False
-        return all(not _hits(curve, box, gap) for curve in self.curves)
+        wide = (box[0] - gap, box[1] - gap, box[2] + gap, box[3] + gap)
+        return not any(_overlap(wide, other) for other in self.boxes) and not any(
+            _hits(curve, wide) for curve in self.curves
+        )
 
-    def take(self, box: tuple[float, float, float, float]) -> None:
-        """Mark a box as used."""
-        self.boxes.append(box)
-
-    def clearance(self, box: tuple[float, float, float, float], curves: Iterable[Points]) -> float:
+    def clearance(self, box: Box, curves: Iterable[Points]) -> float:
         """Distance from a box to the nearest point of some curves [pt]."""
         best = float("inf")
         for curve in curves:
@@ -81,26 +69,33 @@ class Room:
             best = min(best, float(np.hypot(dx, dy).min()))
         return best
 
+    def take(self, box: Box) -> Place:
+        """Mark a box as used; its centre."""
+        self.boxes.append(box)
+        return ((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)
 
-def _hits(curve: Points, box: tuple[float, float, float, float], gap: float) -> bool:
+
+def _overlap(one: Box, other: Box) -> bool:
+    return (
+        one[0] < other[2] and one[2] > other[0] and one[1] < other[3] and one[3] > other[1]
+    )  # fmt: skip
+
+
+def _hits(curve: Points, box: Box) -> bool:
     x, y = curve[:, 0], curve[:, 1]
-    inside = (x > box[0] - gap) & (x < box[2] + gap) & (y > box[1] - gap) & (y < box[3] + gap)
-    return bool(inside.any())
+    return bool(((x > box[0]) & (x < box[2]) & (y > box[1]) & (y < box[3])).any())
 
 
 def dense(points: Points, spacing: float = 2.0) -> Points:
     """Points along a polyline not farther apart than ``spacing`` [pt], shape (n, 2)."""
-    steps = np.hypot(*np.diff(points, axis=0).T)
-    length = np.concatenate([[0.0], np.cumsum(steps)])
+    length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
     if length[-1] == 0:
         return points[:1]
     places = np.linspace(0, length[-1], max(2, int(length[-1] / spacing) + 1))
     return np.column_stack([np.interp(places, length, points[:, axis]) for axis in (0, 1)])
 
 
-def box_at(
-    point: Sequence[float], size: tuple[float, float], direction: tuple[float, float], gap: float
-) -> tuple[float, float, float, float]:
+def box_at(point: Sequence[float], size: Place, direction: Place, gap: float) -> Box:
     """Box of a text set off from a point in a direction so that it clears it by ``gap``."""
     width, height = size
     norm = max(abs(direction[0]), abs(direction[1])) or 1.0
@@ -109,11 +104,9 @@ def box_at(
     return (x - width / 2, y - height / 2, x + width / 2, y + height / 2)
 
 
-def label_curve(
-    room: Room, own: Points, others: Sequence[Points], size: tuple[float, float]
-) -> tuple[float, float] | None:
+def label_curve(room: Room, own: Points, others: Sequence[Points], size: Place) -> Place | None:
     """Centre for the name of a curve: beside it, clear of everything, far from the others."""
-    best: tuple[float, tuple[float, float, float, float]] | None = None
+    best: tuple[float, Box] | None = None
     tangent = np.gradient(own, axis=0)
     for share in np.linspace(0.04, 0.96, 60):
         index = int(share * (len(own) - 1))
@@ -125,20 +118,17 @@ def label_curve(
             score = min(room.clearance(box, others), 40.0) - 6 * abs(share - 0.5)
             if best is None or score > best[0]:
                 best = (score, box)
-    if best is None or best[0] < -2.0:
-        return None
-    room.take(best[1])
-    return ((best[1][0] + best[1][2]) / 2, (best[1][1] + best[1][3]) / 2)
+    return None if best is None or best[0] < -2.0 else room.take(best[1])
 
 
 def label_point(
     room: Room,
-    point: tuple[float, float],
-    size: tuple[float, float],
+    point: Place,
+    size: Place,
     *,
-    first: tuple[float, float] = (1.0, 1.0),
+    first: Place = (1.0, 1.0),
     gaps: Sequence[float] = (2.5, 5.0, 9.0, 14.0, 20.0),
-) -> tuple[float, float] | None:
+) -> Place | None:
     """Centre for the name of a point, as near as there is room, ``None`` if there is none.
 
     Args:
@@ -149,12 +139,10 @@ def label_point(
         gaps: Distances to try [pt].
     """
     start = float(np.arctan2(first[1], first[0]))
-    turns = (0.0, 0.5, -0.5, 1.0, -1.0, 1.6, -1.6, 2.2, -2.2, 3.1)
     for gap in gaps:
-        for turn in turns:
+        for turn in (0.0, 0.5, -0.5, 1.0, -1.0, 1.6, -1.6, 2.2, -2.2, 3.1):
             direction = (float(np.cos(start + turn)), float(np.sin(start + turn)))
             box = box_at(point, size, direction, gap)
             if room.free(box):
-                room.take(box)
-                return ((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)
+                return room.take(box)
     return None

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from reports.document.figures.axes import put
+from reports.document.figures.labels import text_size
 from reports.document.figures.style import FONT_SIZE, Sheet
 
 if TYPE_CHECKING:
@@ -28,7 +30,7 @@ class Pen:
 
     def line(
         self,
-        points: Sequence[Point],
+        points: Sequence[Sequence[float]],
         width: float = THIN,
         dash: Dash = "-",
         colour: str = "#000000",
@@ -37,14 +39,18 @@ class Pen:
         xs, ys = zip(*points, strict=True)
         self.axes.plot(xs, ys, color=colour, linewidth=width, linestyle=dash, clip_on=False)
 
-    def shape(self, points: Sequence[Point], *, fill: str = "none", width: float = THIN) -> None:
-        """Closed polygon."""
+    def shape(
+        self,
+        points: Sequence[Point],
+        *,
+        fill: str = "none",
+        width: float = THIN,
+        order: float = 3,
+    ) -> None:
+        """Closed polygon; one of a lower order lies under the others."""
         from matplotlib.patches import Polygon
 
-        edge = "#000000" if width else "none"
-        self._add(
-            Polygon(points, closed=True, facecolor=fill, edgecolor=edge, linewidth=width, zorder=3)
-        )
+        self._add(Polygon(points, closed=True), fill, width, order)
 
     def circle(
         self,
@@ -53,22 +59,13 @@ class Pen:
         *,
         fill: str = "none",
         width: float = THIN,
-        dash: Dash = "-",
+        order: float | None = None,
     ) -> None:
-        """Circle."""
+        """Circle; a filled one lies above lines."""
         from matplotlib.patches import Circle
 
-        self._add(
-            Circle(
-                centre,
-                radius,
-                facecolor=fill,
-                edgecolor="#000000" if width else "none",
-                linewidth=width,
-                linestyle=dash,
-                zorder=4 if fill != "none" else 2,
-            )
-        )
+        above = 2 if fill == "none" else 4
+        self._add(Circle(centre, radius), fill, width, above if order is None else order)
 
     def arc(
         self, centre: Point, radius: float, start: float, end: float, *, arrow: bool = False
@@ -84,29 +81,44 @@ class Pen:
     def arrow(self, tail: Point, tip: Point, width: float = 1.2, head: float = 8.0) -> None:
         """Straight arrow."""
         along = direction(tail, tip)
-        self.line([tail, (tip[0] - along[0] * head * 0.7, tip[1] - along[1] * head * 0.7)], width)
+        self.line([tail, shifted(tip, along, -0.7 * head)], width)
         self._head(tip, along, head)
 
     def measure(self, start: Point, end: Point) -> None:
         """Dimension line with heads at both ends."""
-        along = direction(start, end)
         self.line([start, end], HAIR)
-        self._head(end, along, 5.5)
-        self._head(start, (-along[0], -along[1]), 5.5)
+        self._head(end, direction(start, end), 5.5)
+        self._head(start, direction(end, start), 5.5)
 
     def text(self, place: Point, text: str, size: float = FONT_SIZE, *, halo: bool = True) -> None:
         """Text centred at a place, on white unless ``halo`` is off."""
         put(self.axes, place, text, size, halo=halo)
 
-    def _head(self, tip: Point, along: Point, length: float) -> None:
-        side = length * 0.2
-        back = (tip[0] - along[0] * length, tip[1] - along[1] * length)
-        across = (-along[1] * side, along[0] * side)
-        left = (back[0] + across[0], back[1] + across[1])
-        right = (back[0] - across[0], back[1] - across[1])
-        self.shape([tip, left, right], fill="#000000", width=0)
+    def throws(
+        self, centre: Point, radius: float, angles: Sequence[float], size: float, *, lean: float = 0
+    ) -> None:
+        """Cranks from the nose [deg]: a thick ray for each direction, its numbers at the end."""
+        self.circle(centre, radius, width=HAIR)
+        for angle, names in by_direction(angles):
+            ray = math.radians(angle + lean)
+            end, name = polar(centre, radius, ray), ", ".join(names)
+            self.line([centre, end], THICK)
+            self.circle(end, 3.1, fill="#ffffff", width=1.2)
+            wide = text_size(name, size)[0] / 2
+            self.text(
+                polar(centre, radius + 0.9 * size + abs(math.sin(ray)) * wide, ray), name, size
+            )
+        self.circle(centre, 2.5, fill="#ffffff", width=1.2)
 
-    def _add(self, patch: Patch) -> None:
+    def _head(self, tip: Point, along: Point, length: float) -> None:
+        back = shifted(tip, along, -length)
+        across = (-along[1], along[0])
+        sides = [shifted(back, across, share * length) for share in (0.2, -0.2)]
+        self.shape([tip, *sides], fill="#000000", width=0)
+
+    def _add(self, patch: Patch, fill: str, width: float, order: float) -> None:
+        patch.set(facecolor=fill, edgecolor="#000000" if width else "none", linewidth=width)
+        patch.set_zorder(order)
         self.axes.add_patch(patch)
         patch.set_clip_on(False)
 
@@ -118,6 +130,17 @@ def polar(centre: Point, radius: float, angle: float) -> Point:
 
 def direction(start: Point, end: Point) -> Point:
     """Unit vector from one point to another."""
-    dx, dy = end[0] - start[0], end[1] - start[1]
-    norm = math.hypot(dx, dy) or 1.0
-    return (dx / norm, dy / norm)
+    norm = math.dist(start, end) or 1.0
+    return ((end[0] - start[0]) / norm, (end[1] - start[1]) / norm)
+
+
+def shifted(point: Point, along: Point, distance: float) -> Point:
+    """Point moved along a unit vector."""
+    return (point[0] + along[0] * distance, point[1] + along[1] * distance)
+
+
+def by_direction(angles: Sequence[float]) -> Iterator[tuple[float, list[str]]]:
+    """Each direction [deg] with the numbers of those that share it."""
+    numbered = sorted((round(angle % 360, 6) % 360, n) for n, angle in enumerate(angles, 1))
+    for angle, members in itertools.groupby(numbered, key=lambda pair: pair[0]):
+        yield angle, [str(number) for _, number in members]

@@ -12,7 +12,7 @@ from xml.etree import ElementTree as ET  # our own output, no foreign XML
 
 _SVG = "{http://www.w3.org/2000/svg}"
 _NUMBER = re.compile(r"-?\d+\.\d{3,}")
-_DROPPED = {"id", "clip-path"}
+_DROPPED = {"id", "clip-path", "style"}
 _DEFAULTS = {
     ("stroke-dashoffset", "0"),
     ("fill-opacity", "1"),
@@ -22,6 +22,8 @@ _DEFAULTS = {
     ("text-anchor", "start"),
 }
 _USELESS = re.compile(r"rotate\(-?0 [^)]*\)\s*")
+_FONT = re.compile(r"(?:(italic|oblique) )?([\d.]+)px (.*)")  # the shorthand of older versions
+_GRID_LINE = re.compile(r'<path d="(M [^"]*)"( fill="none" stroke="#c4c4c4"[^>]*)/>')
 
 
 def clean(svg: str, width_mm: float) -> str:
@@ -45,23 +47,16 @@ def clean(svg: str, width_mm: float) -> str:
     )
 
 
-_GRID_LINE = re.compile(r'<path d="(M [^"]*)"( fill="none" stroke="#c4c4c4"[^>]*)/>')
-
-
 def _gridless(body: str) -> str:
     """Gather the grid lines of equal looks into one path each, below everything else.
 
     A line of its own for every mark is half of all elements, and elements cost time.
     """
     lines: dict[str, list[str]] = {}
-
-    def take(match: re.Match[str]) -> str:
-        lines.setdefault(match.group(2), []).append(match.group(1).strip())
-        return ""
-
-    rest = _GRID_LINE.sub(take, body)
+    for path, looks in _GRID_LINE.findall(body):
+        lines.setdefault(looks, []).append(path.strip())
     grids = (f'<path d="{" ".join(parts)}"{looks}/>' for looks, parts in lines.items())
-    return "".join(grids) + rest
+    return "".join(grids) + _GRID_LINE.sub("", body)
 
 
 def _write(element: ET.Element) -> str:
@@ -72,8 +67,10 @@ def _write(element: ET.Element) -> str:
         msg = f"Рисунок содержит элемент {tag}, который зависит от идентификаторов"
         raise ValueError(msg)
     attributes = _attributes(element)
-    inner = "".join(_write(child) + escape(_tail(child), quote=False) for child in element)
-    inner = escape(_text(element), quote=False) + inner
+    text = element.text or ""
+    inner = escape(text if tag in ("text", "tspan") else text.strip(), quote=False)
+    for child in element:
+        inner += _write(child) + escape((child.tail or "").strip(), quote=False)
     if tag == "g" and (not attributes or not inner):
         return inner
     written = "".join(f' {name}="{escape(value)}"' for name, value in attributes.items())
@@ -81,52 +78,28 @@ def _write(element: ET.Element) -> str:
 
 
 def _attributes(element: ET.Element) -> dict[str, str]:
-    found = {
-        name: value for name, value in element.attrib.items() if name not in {*_DROPPED, "style"}
-    }
-    for rule in element.attrib.get("style", "").split(";"):
+    wanted = {name: value for name, value in element.attrib.items() if name not in _DROPPED}
+    for rule in filter(None, element.attrib.get("style", "").split(";")):
         name, _, value = rule.partition(":")
-        found |= _property(name.strip(), value.strip())
-    if "transform" in found:
-        found["transform"] = _USELESS.sub("", found["transform"]).strip()
-    if "d" in found:
-        found["d"] = re.sub(r"\s*\n\s*", "", found["d"])
-    if found.get("stroke", "") == "none":
-        found = {name: value for name, value in found.items() if not name.startswith("stroke-")}
+        wanted |= _property(name.strip(), value.strip())
+    wanted["transform"] = _USELESS.sub("", wanted.get("transform", "")).strip()
+    wanted["d"] = re.sub(r"\s*\n\s*", "", wanted.get("d", ""))
+    bare = wanted.get("stroke", "") == "none"
     return {
         name: _NUMBER.sub(lambda match: _short(match.group()), value)
-        for name, value in found.items()
-        if value and (name, value) not in _DEFAULTS
+        for name, value in wanted.items()
+        if value and (name, value) not in _DEFAULTS and not (bare and name.startswith("stroke-"))
     }
 
 
 def _property(name: str, value: str) -> dict[str, str]:
-    if name == "font":
-        # "italic 11px 'STIXGeneral'": the shorthand of older versions
-        match = re.fullmatch(r"((?:italic|oblique) )?([\d.]+)px (.*)", value)
-        if match is None:
-            msg = f"Непонятный шрифт в рисунке: {value}"
-            raise ValueError(msg)
-        style = {"font-style": "italic"} if match.group(1) else {}
-        return style | {"font-size": match.group(2), "font-family": _family(match.group(3))}
+    font = _FONT.fullmatch(value) if name == "font" else None
+    if font is not None:
+        style = {"font-style": "italic"} if font[1] else {}
+        return style | {"font-size": font[2]} | _property("font-family", font[3])
     if name == "font-family":
-        value = _family(value)
-    if name == "font-size":
-        value = value.removesuffix("px")
-    return {name: value} if name else {}
-
-
-def _family(value: str) -> str:
-    return value.split(",", maxsplit=1)[0].strip("' \"")
-
-
-def _text(element: ET.Element) -> str:
-    text = element.text or ""
-    return text if element.tag in (f"{_SVG}text", f"{_SVG}tspan") else text.strip()
-
-
-def _tail(element: ET.Element) -> str:
-    return (element.tail or "").strip()
+        value = value.split(",", maxsplit=1)[0].strip("' \"")
+    return {name: value.removesuffix("px") if name == "font-size" else value}
 
 
 def _short(number: str) -> str:

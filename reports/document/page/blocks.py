@@ -1,10 +1,9 @@
-"""What the macros of the templates are given: columns, tables, sources, title page."""
+"""What the macros of the templates are given: columns, tables, data of the document."""
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from markupsafe import Markup
 
@@ -25,56 +24,12 @@ class Column:
     Attributes:
         head: Heading; ``Markup`` (see :func:`symbol_head`) passes as it is.
         width: Share of the table's width relative to the other columns.
-        group: Heading above this and its neighbours of the same group.
         text: Cells are text: left aligned and wrapped.
     """
 
     head: str
     width: float = 1.0
-    group: str = ""
     text: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class HeadCell:
-    """A cell of the table's heading with its spans."""
-
-    head: str
-    colspan: int = 1
-    rowspan: int = 1
-
-
-@dataclass(frozen=True, slots=True)
-class TableBlock:
-    """A table ready for the macro ``table``: heading rows, widths in per cent, cells.
-
-    ``Column`` numbers and the repeated heading come from the macro; numbers in a column are
-    brought in line here.
-    """
-
-    columns: tuple[Column, ...]
-    rows: tuple[tuple[str, ...], ...]
-    head_rows: tuple[tuple[HeadCell, ...], ...] = field(init=False)
-    widths: tuple[str, ...] = field(init=False)
-
-    def tabbed(self, size: str) -> Tabbed | None:
-        """The same rows as lines with tab stops, or ``None`` where that will not do.
-
-        A cell costs WeasyPrint half a millisecond and a kilobyte or more; a line of ten
-        numbers costs hardly more than one cell.  It serves long tables of numbers in equal
-        columns, on paper only.
-        """
-        return _tabbed(self, size)
-
-    def __post_init__(self) -> None:
-        for number, row in enumerate(self.rows, 1):
-            if len(row) != len(self.columns):
-                msg = f"Строка {number} таблицы: ячеек {len(row)}, граф {len(self.columns)}"
-                raise ValueError(msg)
-        total = sum(column.width for column in self.columns)
-        widths = tuple(f"{100 * column.width / total:.2f}%" for column in self.columns)
-        object.__setattr__(self, "widths", widths)
-        object.__setattr__(self, "head_rows", _head_rows(self.columns))
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,14 +46,60 @@ class Tabbed:
         return self.first - self.tab
 
 
-def table_block(columns: Sequence[Column], rows: Sequence[Sequence[str]]) -> TableBlock:
+@dataclass(frozen=True, slots=True)
+class TableBlock:
+    """A table ready for the macro ``table``; column numbers and repeated heading come from it."""
+
+    columns: tuple[Column, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+    def __post_init__(self) -> None:
+        for number, row in enumerate(self.rows, 1):
+            if len(row) != len(self.columns):
+                msg = f"Строка {number} таблицы: ячеек {len(row)}, граф {len(self.columns)}"
+                raise ValueError(msg)
+
+    @property
+    def widths(self) -> list[str]:
+        """Widths of the columns in per cent."""
+        total = sum(column.width for column in self.columns)
+        return [f"{100 * column.width / total:.2f}%" for column in self.columns]
+
+    def tabbed(self, size: str) -> Tabbed | None:
+        """The same rows as lines with tab stops, or ``None`` where that will not do.
+
+        A cell costs WeasyPrint half a millisecond and a kilobyte or more; a line of ten
+        numbers costs hardly more than one cell.  It serves long tables of numbers in equal
+        columns, on paper only.
+        """
+        count = len(self.columns)
+        equal = len({column.width for column in self.columns}) == 1
+        if len(self.rows) < _LONG or not equal or any(column.text for column in self.columns):
+            return None
+        cells = [cell for row in self.rows for cell in row]
+        if not all(type(cell) is str and numbers.is_number(cell) for cell in cells):
+            return None
+        tab = int(_WIDTH / count)
+        first = _WIDTH - tab * (count - 1)
+        quarter = _SIZES[size] * 96 / 72 / 4
+        widest = [max(map(numbers.quarters, column)) for column in zip(*self.rows, strict=True)]
+        if max(widest) * quarter > tab - 4:
+            return None
+        middles = [tab - first / 2, *[tab / 2] * (count - 1)]
+        leads = [
+            NBSP * max(0, round(middle / quarter - width / 2))
+            for middle, width in zip(middles, widest, strict=True)
+        ]
+        lines = ("\t".join(map(str.__add__, leads, row)) for row in self.rows)
+        return Tabbed(tuple(lines), tab, first)
+
+
+def table_block(columns: Sequence[Column], rows: Sequence[Sequence[object]]) -> TableBlock:
     """Build a table from written cells, bringing the numbers of each column in line."""
-    shown = [list(map(_cell, row)) for row in rows]
+    shown = [[cell if isinstance(cell, str) else str(cell) for cell in row] for row in rows]
     for place, column in enumerate(columns):
-        if column.text or any(place >= len(row) for row in shown):
-            continue
-        texts = [row[place] for row in shown]
-        if any(isinstance(text, Markup) for text in texts):
+        texts = [row[place] for row in shown if place < len(row)]
+        if column.text or len(texts) < len(shown) or any(isinstance(t, Markup) for t in texts):
             continue
         for row, text in zip(shown, numbers.aligned(texts), strict=True):
             row[place] = text
@@ -112,34 +113,6 @@ def symbol_head(symbol_tex: str, unit: str = "") -> Markup:
 
 
 @dataclass(frozen=True, slots=True)
-class WhereItem:
-    """A line of the «где» list: symbol in TeX, what it means, unit."""
-
-    symbol: str
-    meaning: str
-    unit: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class TitlePage:
-    """Words of the title page; what is empty is left out or becomes a line to write on."""
-
-    title: str
-    subtitle: str = ""
-    kind: str = "Расчётно-пояснительная записка к курсовому проекту"
-    ministry: str = ""
-    institution: str = ""
-    department: str = ""
-    discipline: str = ""
-    student: str = ""
-    group: str = ""
-    supervisor: str = ""
-    variant: str = ""
-    city: str = ""
-    year: str = ""
-
-
-@dataclass(frozen=True, slots=True)
 class DocumentInfo:
     """Metadata of the HTML and the PDF.  ``created`` is an ISO date and must not be the clock's."""
 
@@ -149,46 +122,3 @@ class DocumentInfo:
     keywords: str = ""
     created: str = "2000-01-01"
     generator: str = "kshm"
-
-
-def _cell(value: object) -> str:
-    return value if isinstance(value, str) else str(value)
-
-
-def _tabbed(block: TableBlock, size: str) -> Tabbed | None:
-    count = len(block.columns)
-    equal = len({column.width for column in block.columns}) == 1
-    if len(block.rows) < _LONG or not equal or any(column.text for column in block.columns):
-        return None
-    if not all(type(cell) is str and numbers.is_number(cell) for row in block.rows for cell in row):
-        return None
-    tab = int(_WIDTH / count)
-    first = _WIDTH - tab * (count - 1)
-    quarter = _SIZES[size] * 96 / 72 / 4
-    widest = [max(map(numbers.quarters, cells)) for cells in zip(*block.rows, strict=True)]
-    if max(widest) * quarter > tab - 4:
-        return None
-    middles = [first / 2 - (first - tab), *[tab / 2] * (count - 1)]
-    leads = [
-        NBSP * max(0, round(middle / quarter - width / 2))
-        for middle, width in zip(middles, widest, strict=True)
-    ]
-    lines = (
-        "\t".join(lead + cell for lead, cell in zip(leads, row, strict=True)) for row in block.rows
-    )
-    return Tabbed(tuple(lines), tab, first)
-
-
-def _head_rows(columns: tuple[Column, ...]) -> tuple[tuple[HeadCell, ...], ...]:
-    if not any(column.group for column in columns):
-        return (tuple(HeadCell(column.head) for column in columns),)
-    upper: list[HeadCell] = []
-    lower: list[HeadCell] = []
-    for group, members in itertools.groupby(columns, key=lambda column: column.group):
-        heads = [column.head for column in members]
-        if group:
-            upper.append(HeadCell(group, colspan=len(heads)))
-            lower.extend(HeadCell(head) for head in heads)
-        else:
-            upper.extend(HeadCell(head, rowspan=2) for head in heads)
-    return (tuple(upper), tuple(lower))

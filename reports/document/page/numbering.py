@@ -1,33 +1,27 @@
 """Numbers of figures, tables, formulas and sections, and the check that references resolve.
 
 Everything is declared in the order in which it will stand; then the text may refer to it
-before or after it appears.  The same object can number the workbook's captions.
+before or after it appears.  A draft of the text declares what it places.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
 from markupsafe import Markup
 
-Kind = Literal["figure", "table", "formula", "section", "source"]
+Kind = Literal["figure", "table", "formula", "source"]
+Name = tuple[Kind, str]
 
-_TITLES: dict[Kind, str] = {
-    "figure": "рисунок",
-    "table": "таблица",
-    "formula": "формула",
-    "section": "раздел",
-    "source": "источник",
-}
-_ANCHORS: dict[Kind, str] = {
-    "figure": "ris",
-    "table": "tab",
-    "formula": "eq",
-    "section": "sec",
-    "source": "src",
+# What a kind is called and how its anchors begin.
+_WORDS: dict[Kind, tuple[str, str]] = {
+    "figure": ("рисунок", "ris"),
+    "table": ("таблица", "tab"),
+    "formula": ("формула", "eq"),
+    "source": ("источник", "src"),
 }
 
 
@@ -45,8 +39,8 @@ class Label:
     anchor: str
 
     def __str__(self) -> str:
-        """The number alone."""
-        return self.number
+        """What it is, its number and key, for messages."""
+        return f"{_WORDS[self.kind][0]} {self.number} «{self.key}»"
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,12 +60,11 @@ class Numbering:
     numbers itself (``number="П4.1"``).  Sections number themselves by level.
     """
 
-    def __init__(self) -> None:
-        self._labels: dict[tuple[Kind, str], Label] = {}
-        self._numbers: dict[tuple[Kind, str], str] = {}
+    def __init__(self, labels: Mapping[Name, Label] | None = None) -> None:
+        self._labels: dict[Name, Label] = dict(labels or {})
         self._counts: Counter[Kind] = Counter()
-        self._referred: Counter[tuple[Kind, str]] = Counter()
-        self._placed: list[tuple[Kind, str]] = []
+        self._referred: set[Name] = set()
+        self._placed: list[Name] = []
         self._early: list[str] = []
         self._section: list[int] = []
         self._headings: list[Heading] = []
@@ -82,25 +75,20 @@ class Numbering:
         Raises:
             NumberingError: The key or the number was given before.
         """
+        word, anchor = _WORDS[kind]
         if (kind, key) in self._labels:
-            msg = f"{_TITLES[kind]} «{key}»: объявлено дважды"
+            msg = f"{word} «{key}»: объявлено дважды"
             raise NumberingError(msg)
         if number is None:
             self._counts[kind] += 1
             number = str(self._counts[kind])
-        owner = self._numbers.setdefault((kind, number), key)
-        if owner != key:
-            msg = f"{_TITLES[kind]} {number}: номер уже у «{owner}», его просит и «{key}»"
-            raise NumberingError(msg)
-        anchor = f"{_ANCHORS[kind]}-{_ascii(key)}"
-        label = Label(kind, key, number, anchor)
+        for other in self._labels.values():
+            if (other.kind, other.number) == (kind, number):
+                msg = f"{word} {number}: номер уже у «{other.key}», его просит и «{key}»"
+                raise NumberingError(msg)
+        label = Label(kind, key, number, f"{anchor}-{_ascii(key)}")
         self._labels[kind, key] = label
         return label
-
-    def declare_all(self, kind: Kind, keys: Iterable[str]) -> None:
-        """Declare several things in order."""
-        for key in keys:
-            self.declare(kind, key)
 
     def label(self, kind: Kind, key: str) -> Label:
         """Look a number up without counting as a reference.
@@ -108,16 +96,15 @@ class Numbering:
         Raises:
             NumberingError: Nothing of that name was declared.
         """
-        try:
-            return self._labels[kind, key]
-        except KeyError:
-            msg = f"{_TITLES[kind]} «{key}»: ссылка на необъявленное"
-            raise NumberingError(msg) from None
+        if (kind, key) not in self._labels:
+            msg = f"{_WORDS[kind][0]} «{key}»: ссылка на необъявленное"
+            raise NumberingError(msg)
+        return self._labels[kind, key]
 
     def refer(self, kind: Kind, key: str) -> Markup:
         """Number as a link to its thing, for the text: ``<a href="#ris-x">3</a>``."""
         label = self.label(kind, key)
-        self._referred[kind, key] += 1
+        self._referred.add((kind, key))
         return Markup('<a class="ref" href="#{}">{}</a>').format(label.anchor, label.number)
 
     def fig(self, key: str) -> Markup:
@@ -132,53 +119,35 @@ class Numbering:
         """Link to a formula with its parentheses."""
         return Markup("({})").format(self.refer("formula", key))
 
-    def sec(self, key: str) -> Markup:
-        """Link to a section."""
-        return self.refer("section", key)
-
     def src(self, *keys: str) -> Markup:
         """Links to sources of the bibliography in brackets: «[1, 3]»."""
         return Markup("[{}]").format(Markup(", ").join(self.refer("source", key) for key in keys))
 
-    def place(self, kind: Kind, key: str) -> Label:
-        """Say that the thing stands here; it must be the first time.
+    def place(self, kind: Kind, key: str, *, number: str | None = None) -> Label:
+        """Say that the thing stands here, under the number it was declared with.
 
         Raises:
             NumberingError: Not declared, or placed before.
         """
         label = self.label(kind, key)
         if (kind, key) in self._placed:
-            msg = f"{_TITLES[kind]} {label.number} «{key}»: помещено дважды"
+            msg = f"{label}: помещено дважды"
             raise NumberingError(msg)
-        if not self._referred[kind, key] and kind in ("figure", "table"):
-            self._early.append(f"{_TITLES[kind]} {label.number} «{key}»: нет ссылки до появления")
+        if (kind, key) not in self._referred and kind in ("figure", "table"):
+            self._early.append(f"{label}: нет ссылки до появления")
         self._placed.append((kind, key))
         return label
 
-    def section(
-        self, level: int, title: str, *, key: str | None = None, numbered: bool = True
-    ) -> Heading:
+    def section(self, level: int, title: str, *, numbered: bool = True) -> Heading:
         """Number a heading and note it for the contents.
 
         Args:
             level: 1 for a chapter, 2 and 3 below it.
             title: Text of the heading.
-            key: Key for references; without it the heading cannot be referred to.
             numbered: False for «Введение», «Заключение», appendices.
         """
         number = self._next_section(level) if numbered else ""
-        if key is None:
-            anchor = f"sec-h{len(self._headings) + 1}"
-        else:
-            label = self._labels.get(("section", key)) or self.declare(
-                "section", key, number=number or title
-            )
-            if label.number != (number or title):
-                msg = f"раздел «{key}»: объявлен под номером {label.number}, стоит под {number}"
-                raise NumberingError(msg)
-            self._placed.append(("section", key))
-            anchor = label.anchor
-        heading = Heading(level, number, title, anchor)
+        heading = Heading(level, number, title, f"sec-h{len(self._headings) + 1}")
         self._headings.append(heading)
         return heading
 
@@ -189,24 +158,20 @@ class Numbering:
 
     def count(self, kind: Kind) -> int:
         """How many things of a kind stand in the report (for the реферат)."""
-        return sum(1 for placed, _ in self._placed if placed == kind)
+        return sum(placed == kind for placed, _ in self._placed)
 
     def problems(self) -> list[str]:
         """What does not fit: declared but absent, referred to but absent, out of order."""
-        found = list(self._early)
-        placed = set(self._placed)
-        for (kind, key), label in self._labels.items():
-            if (kind, key) not in placed:
-                said = "есть ссылка" if self._referred[kind, key] else "объявлено"
-                found.append(f"{_TITLES[kind]} {label.number} «{key}»: {said}, но в отчёте нет")
-        declared = list(self._labels)
-        for kind, title in _TITLES.items():
-            if kind == "section":
-                continue
-            order = [declared.index(item) for item in self._placed if item[0] == kind]
-            if order != sorted(order):
-                found.append(f"{title}: порядок в тексте не по номерам")
-        return found
+        problems = list(self._early)
+        for name, label in self._labels.items():
+            if name not in self._placed:
+                said = "есть ссылка" if name in self._referred else "объявлено"
+                problems.append(f"{label}: {said}, но в отчёте нет")
+        for kind, (word, _) in _WORDS.items():
+            declared = [name for name in self._labels if name[0] == kind and name in self._placed]
+            if declared != [name for name in self._placed if name[0] == kind]:
+                problems.append(f"{word}: порядок в тексте не по номерам")
+        return problems
 
     def check(self) -> None:
         """Raise if :meth:`problems` finds any.
@@ -214,9 +179,9 @@ class Numbering:
         Raises:
             NumberingError: One line that names every problem.
         """
-        found = self.problems()
-        if found:
-            msg = "Нумерация отчёта не сходится: " + "; ".join(found)
+        problems = self.problems()
+        if problems:
+            msg = "Нумерация отчёта не сходится: " + "; ".join(problems)
             raise NumberingError(msg)
 
     def _next_section(self, level: int) -> str:
@@ -228,7 +193,23 @@ class Numbering:
         return ".".join(map(str, self._section))
 
 
+class Draft(Numbering):
+    """A numbering of the first pass: declares what is placed and answers every reference."""
+
+    def refer(self, kind: Kind, key: str) -> Markup:
+        """No number yet."""
+        return Markup("?")
+
+    def place(self, kind: Kind, key: str, *, number: str | None = None) -> Label:
+        """Declare the thing."""
+        return self.declare(kind, key, number=number)
+
+    def numbering(self) -> Numbering:
+        """A numbering in which everything is declared."""
+        return Numbering(self._labels)
+
+
 def _ascii(key: str) -> str:
     """Anchor-safe form of a key; distinct keys stay distinct."""
-    plain = (c.isascii() and (c.isalnum() or c in "_-") for c in key)
-    return "".join(c if ok else f".{ord(c):x}." for c, ok in zip(key, plain, strict=True))
+    safe = (c.isascii() and (c.isalnum() or c in "_-") for c in key)
+    return "".join(c if ok else f".{ord(c):x}." for c, ok in zip(key, safe, strict=True))

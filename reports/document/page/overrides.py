@@ -29,9 +29,9 @@ def find(given: str, beside: Path) -> Path | None:
         what = f"нет папки {folder}"
         raise InputError(Problem(KEY, what, "укажите папку от файла исходных данных")) from None
     known = {path.name for path in (resources.templates_dir() / "report").glob(f"*{SUFFIX}")}
-    found = [name for name in names if name.endswith(SUFFIX)]
-    unknown = [name for name in found if name not in known]
-    if unknown or not found:
+    given_names = [name for name in names if name.endswith(SUFFIX)]
+    unknown = [name for name in given_names if name not in known]
+    if unknown or not given_names:
         what = f"{folder}: {unknown[0]} ничего не заменяет" if unknown else f"{folder}: пусто"
         hint = "имена шаблонов: " + ", ".join(sorted(known))
         raise InputError(Problem(KEY, what, hint))

@@ -4,25 +4,25 @@ from __future__ import annotations
 
 import functools
 import gc
-import logging
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from markupsafe import Markup
 
-from reports.document.page import fonts
-from reports.document.text import texts
+from reports.document.text import fonts, texts
+from reports.document.text.complaints import complaints
+from reports.document.text.mathsvg import formula_lines
+from reports.document.text.symbols import inline_html
+from reports.shared.russian import NBSP
 
 if TYPE_CHECKING:
     import weasyprint
     from jinja2 import Environment
     from weasyprint.urls import URLFetcher, URLFetcherResponse
-
-    from reports.document.text.mathsvg import Formula
 
 _EPOCH = datetime(2000, 1, 1, tzinfo=UTC)
 _GC_THRESHOLD = (200_000, 50, 100)
@@ -89,7 +89,7 @@ def render(
     import weasyprint
     from weasyprint.text.fonts import FontConfiguration
 
-    with _quiet_gc(), _warnings() as warnings:
+    with _quiet_gc(), complaints("weasyprint") as warnings:
         page = weasyprint.HTML(string=html, base_url=None, url_fetcher=_fetcher())
         # The same configuration for parsing and layout, or @font-face is dropped silently.
         document = page.render(font_config=FontConfiguration(), pdf_variant=variant, pdf_tags=True)
@@ -138,34 +138,15 @@ def environment(
         lstrip_blocks=True,
         keep_trailing_newline=False,
     )
-    result.globals.update(_globals())
-    result.globals["media"] = media
-    result.filters["plain"] = texts.plain
-    result.filters["sym"] = _symbol
-    result.filters["titled"] = texts.titled
-    result.filters["tex"] = _formula
-    return result
-
-
-def fonts_css(*, embedded: bool = False) -> str:
-    """``@font-face`` rules of the report; see :func:`reports.document.page.fonts.fonts_css`."""
-    return fonts.fonts_css(embedded=embedded)
-
-
-def _globals() -> dict[str, Any]:
-    from reports.document.text import numbers
-    from reports.shared.russian import NBSP, fixed
-
-    return {
-        "fonts_css": lambda embedded=False: Markup(fonts_css(embedded=embedded)),
+    result.globals |= {
+        "media": media,
+        "fonts_css": lambda embedded=False: Markup(fonts.fonts_css(embedded=embedded)),
         "font_stack": Markup(fonts.STACK),
-        "fixed": fixed,
-        "significant": numbers.significant,
-        "power": numbers.power_html,
-        "number": numbers.auto_html,
-        "formula_lines": _formula_lines,
+        "formula_lines": formula_lines,
         "nbsp": NBSP,
     }
+    result.filters |= {"plain": texts.plain, "sym": inline_html, "titled": texts.titled}
+    return result
 
 
 def _finalize(value: object) -> object:
@@ -173,27 +154,6 @@ def _finalize(value: object) -> object:
     if isinstance(value, str) and not isinstance(value, Markup):
         return texts.rich(value)
     return value
-
-
-def _symbol(tex: str) -> Markup:
-    from reports.document.text.symbols import inline_html
-
-    return inline_html(str(tex))
-
-
-def _formula(tex: str) -> Markup:
-    from reports.document.text.mathsvg import formula
-
-    return Markup(formula(str(tex)).svg)
-
-
-def _formula_lines(tex: str | Formula, max_em: float = 28.0) -> list[Formula]:
-    """Lines of a displayed formula: TeX is set, a finished ``Formula`` stays one line."""
-    from reports.document.text.mathsvg import Formula, formula_lines
-
-    if isinstance(tex, Formula):
-        return [tex]
-    return list(formula_lines(str(tex), max_em))
 
 
 def _attachment(item: AttachedFile) -> weasyprint.Attachment:
@@ -244,34 +204,3 @@ def _quiet_gc() -> Iterator[None]:
         yield
     finally:
         gc.set_threshold(*before)
-
-
-class _Collector(logging.Handler):
-    def __init__(self, lines: list[str]) -> None:
-        super().__init__(logging.WARNING)
-        self.lines = lines
-
-    def emit(self, record: logging.LogRecord) -> None:
-        line = record.getMessage()
-        if line not in self.lines:
-            self.lines.append(line)
-
-
-@contextmanager
-def _warnings() -> Iterator[list[str]]:
-    """Collect WeasyPrint's warnings instead of letting them reach the screen."""
-    lines: list[str] = []
-    logger = logging.getLogger("weasyprint")
-    handler, propagate = _Collector(lines), logger.propagate
-    others = logger.handlers[:]
-    for other in others:
-        logger.removeHandler(other)
-    logger.addHandler(handler)
-    logger.propagate = False
-    try:
-        yield lines
-    finally:
-        logger.removeHandler(handler)
-        for other in others:
-            logger.addHandler(other)
-        logger.propagate = propagate

@@ -10,9 +10,9 @@ from markupsafe import Markup
 
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.text import numbers
-from reports.document.text.symbols import inline_html
 from reports.document.text.terms import Terms
-from reports.spec.blocks import Grid, TableSpec
+from reports.shared.russian import capital
+from reports.spec.blocks import Grid
 
 
 def angle_table(
@@ -47,16 +47,11 @@ def angle_table(
     return table_block(heads, [row for i, row in enumerate(rows) if i % every == 0 or i == last])
 
 
-def result_columns(spec: TableSpec, *, but: Iterable[str] = ()) -> list[str]:
-    """Keys of the columns that are results."""
-    left_out = set(but)
-    return [c.key for c in spec.columns if not c.helper and c.key not in left_out]
-
-
 def scalar_table(terms: Terms, keys: Iterable[str]) -> TableBlock:
     """Quantity, symbol, value, unit: one row for each scalar."""
     rows = [
-        [_upper(terms.title(k)), terms.sym(k), terms.num(k), unit_cell(terms.unit(k))] for k in keys
+        [capital(terms.title(k)), terms.sym(k), terms.num(k), unit_cell(terms.unit(k))]
+        for k in keys
     ]
     return list_block(rows)
 
@@ -78,14 +73,13 @@ def unit_cell(unit: str) -> str:
     return unit or "—"
 
 
-def grid_table(terms: Terms, grid: Grid, rows: Iterable[str], head: str) -> TableBlock:
-    """A grid with its instances as columns; ``rows`` names the quantities to show."""
+def grid_table(
+    terms: Terms, grid: Grid, rows: Iterable[str] = (), labels: Iterable[str] = ()
+) -> TableBlock:
+    """A grid with its instances as columns; ``rows`` names the quantities to show, all else."""
     by_key = {row.of: row for row in grid.rows}
     shown = []
-    for key in rows:
-        if key not in by_key:
-            continue
-        row = by_key[key]
+    for row in (by_key[key] for key in rows or by_key if key in by_key):
         q = row.quantity
         cells = [
             "—"
@@ -93,12 +87,6 @@ def grid_table(terms: Terms, grid: Grid, rows: Iterable[str], head: str) -> Tabl
             else numbers.of_digits(cast(float, terms.values.scalars[cell.key]), q.digits)
             for cell in row.cells
         ]
-        name = inline_html(q.tex)
-        unit = Markup(", {}").format(q.unit_label) if q.unit_label else ""
-        shown.append([name + unit, *cells])
-    columns = [Column(head, 1.4), *(Column(label) for label in grid.labels)]
+        shown.append([symbol_head(q.tex, q.unit_label), *cells])
+    columns = [Column("Величина", 1.4), *(Column(label) for label in labels or grid.labels)]
     return table_block(columns, shown)
-
-
-def _upper(text: str) -> str:
-    return text[:1].upper() + text[1:]

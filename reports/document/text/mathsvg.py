@@ -13,17 +13,18 @@ from __future__ import annotations
 
 import functools
 import json
-import logging
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from html import escape as escape_html
 from typing import Any
 
-from reports.document.page import store
-from reports.document.text.symbols import GREEK
-from reports.document.text.texsplit import balanced, break_points, tokens
+from reports.document import store
+from reports.document.text.complaints import complaints
+from reports.document.text.symbols import SIGNS
+from reports.document.text.tex import FRACTIONS, GREEK, Node, TexError, break_points, tree
 from reports.document.text.texwords import for_mathtext
+from reports.shared.russian import MINUS, NBSP
 
 _UNITS = 1000.0  # size at which mathtext sets the formula; one em of the result
 _PAD = 0.04  # em added left and right: slanted letters reach out of their boxes
@@ -31,7 +32,8 @@ _PAD = 0.04  # em added left and right: slanted letters reach out of their boxes
 _PRIME = 0x2032
 _PRIME_DROP = 0.5
 _PRIME_GROWTH = 1.25
-_NO_SIGN = {r"\left", r"\right", r"\mathrm", r"\text", r"\,", r"\;", r"\:", r"\!"}
+_NO_SIGN = {r"\left", r"\right", r"\,", r"\;", r"\:", r"\!"}
+_SILENT = {"mathrm", "text", "left", "right", "operatorname", "mathit", "displaystyle"}
 _WORDS = {r"\sin", r"\cos", r"\tg", r"\min", r"\max", r"\arcsin", r"\arccos", r"\arctg"}
 _SIGN = 0.56  # em that a sign takes on the average
 _DECIMAL_POINT = re.compile(r"\d\.\d")
@@ -67,19 +69,13 @@ def formula(tex: str) -> Formula:
     Raises:
         FormulaError: mathtext does not understand the TeX; the message shows the place.
     """
-    key = store.key("formula", tex.encode())
-    kept = store.store().get(key)
-    if kept is not None:
-        found = json.loads(kept)
-        width, height, depth = found["size"]
-        return Formula(found["svg"], width, height, depth, tex)
-    made = _set(tex)
-    size = (made.width_em, made.height_em, made.depth_em)
-    store.store().put(key, json.dumps({"svg": made.svg, "size": size}))
-    return made
+    text = store.kept("formula", tex.encode(), lambda: json.dumps(_set(tex)))
+    svg, width, height, depth = json.loads(text)
+    return Formula(svg, width, height, depth, tex)
 
 
-def _set(tex: str) -> Formula:
+def _set(tex: str) -> tuple[str, float, float, float]:
+    """SVG, width, height and depth [em] of one line."""
     width, height, depth, glyphs, rects = _parse(tex)
     baseline = height - depth
     pad = _PAD * _UNITS
@@ -95,7 +91,7 @@ def _set(tex: str) -> Formula:
         f'viewBox="{-pad:g} 0 {width + 2 * pad:g} {height:g}">'
         f"<title>{escape_html(plain(tex), quote=False)}</title>{''.join(body)}</svg>"
     )
-    return Formula(svg, width_em, height_em, depth_em, tex)
+    return svg, width_em, height_em, depth_em
 
 
 @functools.lru_cache(maxsize=4096)
@@ -146,73 +142,45 @@ def _fit(tex: str, max_em: float) -> list[Formula]:
 
 @functools.lru_cache(maxsize=8192)
 def _signs(tex: str) -> int:
-    """About how many signs a formula is wide; of a fraction the wider part counts."""
-    total = place = 0
-    source = tokens(tex)
-    while place < len(source):
-        token = source[place]
-        place += 1
-        if token in (r"\dfrac", r"\frac", r"\tfrac"):
-            over, place = _group(source, place)
-            under, place = _group(source, place)
-            total += max(_signs(over), _signs(under))
-        elif not (token.isspace() or token in "{}_^" or token in _NO_SIGN):
-            total += 3 if token in _WORDS else 1
-    return total
+    """About how many signs a formula is wide; a line cut out of one may be unbalanced."""
+    try:
+        return sum(map(_wide, tree(tex)))
+    except TexError:
+        return len(tex)
 
 
-def _group(source: list[str], place: int) -> tuple[str, int]:
-    """The braced group that begins at a place, and the place after it."""
-    depth, start = 0, place
-    while place < len(source):
-        depth += {"{": 1, "}": -1}.get(source[place], 0)
-        place += 1
-        if depth == 0:
-            break
-    return "".join(source[start:place]), place
+def _wide(node: Node) -> int:
+    """Signs of a node; of a fraction the wider part counts."""
+    parts = [sum(map(_wide, part)) for part in node.parts]
+    if node.token in FRACTIONS:
+        return max(parts)
+    silent = node.parts or node.token.isspace() or node.token in _NO_SIGN
+    return sum(parts) + (0 if silent else 3 if node.token in _WORDS else 1)
 
 
 def _parse(tex: str) -> tuple[float, float, float, Iterable[Any], Iterable[Any]]:
     from matplotlib.font_manager import FontProperties
     from matplotlib.mathtext import MathTextParser
 
-    if not tex.strip() or "$" in tex or not balanced(tex) or _DECIMAL_POINT.search(tex):
+    try:
+        source = "" if "$" in tex or _DECIMAL_POINT.search(tex) else for_mathtext(tex).strip()
+    except TexError:
+        source = ""
+    if not source:
         msg = f"Формула пуста, содержит $, десятичную точку или непарные скобки: {tex!r}"
         raise FormulaError(msg)
-    source = for_mathtext(tex)
     font = FontProperties(family="STIXGeneral", size=_UNITS, math_fontfamily="stix")
-    with _Complaints() as complaints:
+    with complaints("matplotlib.mathtext") as lines:  # a sign without a glyph is no formula
         try:
             parsed = MathTextParser("path").parse(f"${source}$", dpi=72, prop=font)
         except (ValueError, RuntimeError) as error:
             reason = str(error).strip().splitlines()[-1]
             msg = f"Формула не набирается: {tex!r}: {reason}"
             raise FormulaError(msg) from error
-    if complaints.lines:
-        msg = f"Формула не набирается: {tex!r}: {complaints.lines[0]}"
+    if lines:
+        msg = f"Формула не набирается: {tex!r}: {lines[0]}"
         raise FormulaError(msg)
     return parsed.width, parsed.height, parsed.depth, parsed.glyphs, parsed.rects
-
-
-class _Complaints(logging.Handler):
-    """Collects what mathtext logs: a sign without a glyph is no formula for us."""
-
-    def __init__(self) -> None:
-        super().__init__(logging.WARNING)
-        self.lines: list[str] = []
-        self._logger = logging.getLogger("matplotlib.mathtext")
-
-    def emit(self, record: logging.LogRecord) -> None:
-        self.lines.append(record.getMessage())
-
-    def __enter__(self) -> _Complaints:
-        self._logger.addHandler(self)
-        self._propagate, self._logger.propagate = self._logger.propagate, False
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._logger.removeHandler(self)
-        self._logger.propagate = self._propagate
 
 
 def _texts(glyphs: Iterable[Any], baseline: float) -> list[str]:
@@ -256,21 +224,19 @@ def _number(value: float) -> str:
     return str(round(float(value)))
 
 
-_COMMAND = re.compile(r"\\([A-Za-z]+)\s*")
-
-
 def plain(tex: str) -> str:
     """A readable text of a formula for people who hear the page or copy it."""
-    text = re.sub(r"\{,\}", ",", tex)
-    text = re.sub(r"\\d?frac\{([^{}]*)\}\{([^{}]*)\}", r"(\1)/(\2)", text)
-    text = re.sub(r"\\sqrt\{([^{}]*)\}", r"√(\1)", text)
-    text = re.sub(r"\\[,;:! ]", " ", text)
-    words = {"cdot": "·", "times": "×", "leq": "≤", "geq": "≥", "circ": "°", "sum": "∑"}
-    silent = {"mathrm", "text", "left", "right", "operatorname", "mathit", "displaystyle"}
+    return re.sub(r"\s+", " ", "".join(map(_said, tree(tex.replace("{,}", ","))))).strip()
 
-    def spoken(match: re.Match[str]) -> str:
-        name = match.group(1)
-        return "" if name in silent else GREEK.get(name) or words.get(name, name + " ")
 
-    text = _COMMAND.sub(spoken, text)
-    return re.sub(r"\s+", " ", text.replace("{", "").replace("}", "").replace("-", "−")).strip()
+def _said(node: Node) -> str:
+    parts = ["".join(map(_said, part)) for part in node.parts]
+    if node.token in FRACTIONS:
+        return f"({parts[0]})/({parts[1]})"
+    if node.token == r"\sqrt":
+        return f"√({parts[0]})"
+    if node.command in _SILENT or node.token == "{":
+        return "".join(parts)
+    sign = {"-": MINUS, r"\!": " "}.get(node.token) or SIGNS.get(node.command)
+    sign = sign or GREEK.get(node.command) or (f"{node.command} " if node.command else node.token)
+    return (" " if sign == NBSP else sign) + "".join(parts)

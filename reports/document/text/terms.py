@@ -9,10 +9,9 @@ import numpy as np
 from markupsafe import Markup
 
 from kshm.nomenclature.quantity import Quantity, quantity
-from reports.document.page.blocks import WhereItem
 from reports.document.text import numbers
 from reports.document.text.symbols import inline_html
-from reports.document.text.texts import rich
+from reports.document.text.texts import powers, rich
 from reports.formula import tex as formulas
 from reports.formula.numeric import evaluate
 from reports.inputs.fields import Field
@@ -34,8 +33,6 @@ _SYMBOLS = {
 }
 _SIGNIFICANT = 5
 _NO_SPACE = {"°"}
-_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
-_RUN = re.compile("[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+")
 
 
 def unit_tex(label: str) -> str:
@@ -46,24 +43,30 @@ def unit_tex(label: str) -> str:
         return r"^{\circ}"
     if label == "%":
         return r"\,\%"
-    text = _RUN.sub(lambda m: "}^{" + m.group().translate(_RAISED) + r"}\mathrm{", label)
+    text = powers(label, r"}}^{{{}}}\mathrm{{")
     return r"\;" + rf"\mathrm{{{text}}}".replace(r"\mathrm{}", "")
 
 
 def input_text(field: Field) -> str:
     """An input value as printed: the label of a choice, a number with decimal comma."""
-    value = field.value
     if field.choices is not None:
-        return field.choices.get(str(value), str(value))
-    if isinstance(value, str):
-        return value
-    return plain_number(float(value))
+        return field.choices.get(str(field.value), str(field.value))
+    return field.value if isinstance(field.value, str) else plain_number(float(field.value))
 
 
 def plain_number(value: float) -> str:
     """A number with the digits it was given with."""
     digits = next((d for d in range(12) if round(value, d) == value), 12)
     return fixed(value, digits)
+
+
+@dataclass(frozen=True, slots=True)
+class WhereItem:
+    """A line of the «где» list: symbol in TeX, what it means, unit."""
+
+    symbol: str
+    meaning: str
+    unit: str = ""
 
 
 @dataclass(frozen=True)
@@ -93,12 +96,9 @@ class Terms:
         """TeX symbol of a node."""
         if name in self.model.fields:
             return formulas.input_symbol_tex(self.model.fields[name].symbol)
-        shown = self.quantity(name)
         key = name.rpartition(".")[2]
         family = key.split("_", 1)[1] if key.startswith("throw") else key
-        if family in _SYMBOLS:
-            return _SYMBOLS[family]
-        return shown.tex
+        return _SYMBOLS[family] if family in _SYMBOLS else self.quantity(name).tex
 
     def sym(self, name: str) -> Markup:
         """Symbol for running text."""
@@ -219,8 +219,8 @@ class Terms:
             return self.model.scalars[name]
         table, _, key = name.rpartition(".")
         if table in self.model.tables:
-            found = (c for c in self.model.tables[table].columns if c.key == key)
-            return next(found, None)
+            columns = self.model.tables[table].columns
+            return next((column for column in columns if column.key == key), None)
         return None
 
     def _node_expr(self, name: str) -> str:
@@ -234,11 +234,11 @@ class Terms:
         table = name.rpartition(".")[0]
 
         def lookup(inner: str) -> float | str:
-            found = self._global(inner, table)
-            field = self.model.fields.get(found)
+            node = self._global(inner, table)
+            field = self.model.fields.get(node)
             if field is not None and isinstance(field.value, str):
                 return (field.choices or {}).get(field.value, field.value)
-            return self.value(found, at)
+            return self.value(node, at)
 
         return formulas.chosen(self._node_expr(name), lambda test: bool(evaluate(test, lookup)))
 
@@ -268,10 +268,10 @@ def book_place(source: str) -> str:
     """Place in the textbook from the source of a specification; empty for other sources."""
     if not source.startswith("Гоц"):
         return ""
-    found = re.findall(r"\(\d+[а-я]?\)", source)
-    if found:
-        word = "формула" if len(found) == 1 else "формулы"
-        return f"{word}\u00a0{', '.join(found)}"
+    formulas_named = re.findall(r"\(\d+[а-я]?\)", source)
+    if formulas_named:
+        word = "формула" if len(formulas_named) == 1 else "формулы"
+        return f"{word}\u00a0{', '.join(formulas_named)}"
     match = re.search(r"(рис|табл)\.\s*(\d+)", source)
     if match:
         return f"{match.group(1)}.\u00a0{match.group(2)}"

@@ -7,10 +7,11 @@ import re
 
 from markupsafe import Markup, escape
 
-from reports.document.page.fonts import printable
+from reports.document.text.fonts import printable
+from reports.shared.russian import MINUS
 
 _RAISED = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079\u207a\u207b"
-_LEVEL = "0123456789+\u2212"
+_LEVEL = f"0123456789+{MINUS}"
 _LOWER = str.maketrans(_RAISED, _LEVEL)
 _RUN = re.compile(f"[{_RAISED}]+")
 
@@ -23,12 +24,10 @@ def rich(text: str) -> str | Markup:
     """
     if not _RUN.search(text):
         return printable(text)
-    return Markup("").join(
-        Markup("<sup>{}</sup>").format(piece.translate(_LOWER))
-        if _RUN.fullmatch(piece)
-        else escape(printable(piece))
-        for piece in _split(text)
-    )
+    pieces = [escape(printable(piece)) for piece in _RUN.split(text)]
+    raised_signs = [run.translate(_LOWER) for run in _RUN.findall(text)]
+    powers_html = [Markup("<sup>{}</sup>").format(run) for run in raised_signs]
+    return Markup("").join(a + b for a, b in zip(pieces, [*powers_html, ""], strict=True))
 
 
 def plain(text: object) -> Markup:
@@ -59,17 +58,13 @@ def spaces_inside(page: str) -> str:
     return _SPACE_BEFORE_UNBROKEN.sub(r"<span>\1</span>\2", page)
 
 
-def raised(text: str) -> str:
-    """The same for labels of figures: raised signs become mathtext (``мин$^{-1}$``)."""
+def powers(text: str, form: str) -> str:
+    """Raised signs as a formatted power in TeX: ``-1`` for «⁻¹»."""
     return _RUN.sub(
-        lambda match: "$^{" + match.group().translate(_LOWER).replace("\u2212", "-") + "}$",
-        text,
+        lambda match: form.format(match.group().translate(_LOWER).replace(MINUS, "-")), text
     )
 
 
-def _split(text: str) -> list[str]:
-    pieces, place = [], 0
-    for match in _RUN.finditer(text):
-        pieces += [text[place : match.start()], match.group()]
-        place = match.end()
-    return [piece for piece in [*pieces, text[place:]] if piece]
+def raised(text: str) -> str:
+    """The same for labels of figures: raised signs become mathtext (``мин$^{-1}$``)."""
+    return powers(text, "$^{{{}}}$")

@@ -8,21 +8,19 @@ so that the formulas can be written as a textbook's author would.
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
-from reports.document.text.symbols import GREEK
-from reports.document.text.texsplit import tokens
+from reports.document.text.tex import FRACTIONS, GREEK, Node, tree
 
 _OPERATORS = {"tg", "ctg", "arctg", "sh", "ch", "sign"}  # unknown to mathtext
 _FUNCTIONS = _OPERATORS | {"sin", "cos", "tan", "arcsin", "arccos", "arctan", "ln", "lg", "exp"}
 _RENAMED = {r"\le": r"\leq", r"\ge": r"\geq", r"\text": r"\mathrm", r"\ne": r"\neq"}
 _RENAMED |= {r"\bar": r"\overline"}  # the accent of mathtext breaks beside a prime
-_FRACTIONS = {r"\frac", r"\dfrac", r"\tfrac"}
-_TAKES_ONE = {"_", "^", r"\mathrm", r"\mathbf", r"\mathit", r"\text", r"\overline", r"\bar"}
-_TAKES_ONE |= {r"\sqrt", r"\vec", r"\dot", r"\ddot", r"\operatorname", r"\hat", r"\hspace"}
+_RENAMED |= {rf"\{name}": rf"\operatorname{{{name}}}" for name in _OPERATORS}
+_RENAMED |= {".": r".\hspace{-0.2}"}
 _BIG = {r"\sum", r"\int", r"\prod", r"\oint"}
-_THIN = r"\,"
 _DEGREE = re.compile(r"\^(?:\{\\circ\}|\\circ(?![A-Za-z]))")
-_NO_SPACE_AFTER_DOT = r".\hspace{-0.2}"
+_PRIMES = re.compile("'+")
 
 
 def for_mathtext(tex: str, *, level_primes: bool = False) -> str:
@@ -32,85 +30,59 @@ def for_mathtext(tex: str, *, level_primes: bool = False) -> str:
         tex: The formula without dollar signs.
         level_primes: Set primes as letters, for figures: mathtext raises them too high and
             only :mod:`mathsvg` can bring them down again.
+
+    Raises:
+        TexError: The TeX is not well formed.
     """
-    if level_primes:
-        tex = tex.replace("'", r"{\prime}")
-    translated, _ = _sequence(tokens(_DEGREE.sub("°", tex)), 0)
-    return translated
+    # mathtext would set an index beside a prime, not below it.
+    prime, around = (r"{\prime}", "{}") if level_primes else (r"\prime", "^{{{}}}")
+    tex = _PRIMES.sub(lambda match: around.format(prime * len(match.group())), tex)
+    return _words(tree(_DEGREE.sub("°", tex)))
 
 
-def _sequence(source: list[str], start: int) -> tuple[str, int]:
-    """Translate up to the closing brace; give the text and the place after the brace."""
+def _words(nodes: Sequence[Node]) -> str:
     out: list[str] = []
     closed = False  # something that takes room stands before
     pending = False  # a fraction or a big operator does: a thin space if more follows
-    place = start
-    while place < len(source) and source[place] != "}":
-        token = source[place]
-        if (pending and _opens(token)) or (closed and _wants_room(token)):
-            out.append(_THIN)
-        text, place = _item(source, place)
-        out.append(text)
-        if token not in ("_", "^") and not token.isspace():  # an index belongs to its letter
-            pending = token in _FRACTIONS or token in _BIG
-            closed = _closes(token)
-    return "".join(out), place + 1
+    for node in nodes:
+        if (pending and _opens(node)) or (closed and _wants_room(node)):
+            out.append(r"\,")
+        if out and out[-1][0] == "\\" and out[-1][-1].isalpha() and node.token.isalpha():
+            out.append(" ")
+        out.append(_word(node))
+        if (
+            node.token not in ("_", "^") and not node.token.isspace()
+        ):  # an index belongs to its letter
+            pending = node.token in FRACTIONS or node.token in _BIG
+            closed = _closes(node)
+    return "".join(out)
 
 
-def _item(source: list[str], place: int) -> tuple[str, int]:
-    """One token with its arguments."""
-    token = source[place]
-    name = token.removeprefix("\\")
-    place += 1
-    if token == "{":
-        inner, place = _sequence(source, place)
-        return f"{{{inner}}}", place
-    if token == ".":
-        return _NO_SPACE_AFTER_DOT, place
-    if token == "'":  # mathtext would set an index beside the prime, not below it
-        primes = r"\prime"
-        while place < len(source) and source[place] == "'":
-            primes, place = primes + r"\prime", place + 1
-        return f"^{{{primes}}}", place
-    word = rf"\operatorname{{{name}}}" if _is_command(token, _OPERATORS) else token
-    word = _RENAMED.get(word, word)
-    arguments = 2 if token in _FRACTIONS else 1 if token in _TAKES_ONE else 0
-    if arguments:
-        while arguments and place < len(source):
-            argument, place = _item(source, place)
-            word += "" if argument.isspace() else _braced(argument)
-            arguments -= 0 if argument.isspace() else 1
-    elif word[0] == "\\" and word[-1].isalpha() and place < len(source):
-        word += " " if source[place].isalpha() else ""
-    return word, place
+def _word(node: Node) -> str:
+    parts = "".join(f"{{{_words(part)}}}" for part in node.parts)
+    return parts if node.token == "{" else _RENAMED.get(node.token, node.token) + parts
 
 
-def _braced(argument: str) -> str:
-    return argument if argument.startswith("{") else f"{{{argument}}}"
+def _wants_room(node: Node) -> bool:
+    return node.token in FRACTIONS or node.token in _BIG or node.command in _FUNCTIONS
 
 
-def _is_command(token: str, names: set[str]) -> bool:
-    return token.startswith("\\") and token[1:] in names
-
-
-def _wants_room(token: str) -> bool:
-    return token in _FRACTIONS or token in _BIG or _is_command(token, _FUNCTIONS)
-
-
-def _closes(token: str) -> bool:
-    """Whether the token ends something that takes room: a letter, a group, a bracket."""
+def _closes(node: Node) -> bool:
+    """Whether the node ends something that takes room: a letter, a group, a bracket."""
     return (
-        token.isalnum()
-        or token in ("{", ")", "]", "'", "°")
-        or (token in _TAKES_ONE or _is_command(token, set(GREEK)))
+        node.token.isalnum()
+        or node.token in ("{", ")", "]", "°")
+        or node.takes_one
+        or node.command in GREEK
     )
 
 
-def _opens(token: str) -> bool:
-    """Whether the token begins something that takes room."""
+def _opens(node: Node) -> bool:
+    """Whether the node begins something that takes room."""
     return (
-        token.isalnum()
-        or token in ("{", "(", "[", r"\left")
-        or _wants_room(token)
-        or (token in _TAKES_ONE - {"_", "^"} or _is_command(token, set(GREEK)))
+        node.token.isalnum()
+        or node.token in ("{", "(", "[", r"\left")
+        or _wants_room(node)
+        or (node.takes_one and node.token not in ("_", "^"))
+        or node.command in GREEK
     )

@@ -243,10 +243,11 @@ def _vector(
     shape: Shape, key: str, unit: str, title: str, axes: tuple[str, str], of: str
 ) -> ChartSpec:
     right = "right" if shape.banks else "rot_right"
-    at = f"balance.{key}"
+    at, letter, label = f"balance.{key}", "F" if key == "F" else "M", axes[0].rpartition(", ")[2]
     return polar(
         f"balance_{key}_vector", SHEET, title, axes, f"balance_{key}_box.box",
         Series(f"{at}{right}_{unit}", f"{at}up_{unit}", "до"),
         Series(f"{at}right_after_{unit}", f"{at}up_after_{unit}", "после", only="workbook"),
         caption=f"Конец вектора {of} за оборот до уравновешивания",
+        x_tex=f"${letter}_x$, {label}", y_tex=f"${letter}_y$, {label}",
     )  # fmt: skip

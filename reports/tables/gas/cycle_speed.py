@@ -218,10 +218,10 @@ def cycle_checks() -> list[tuple[str, str, str, str]]:
 
 def _charts() -> tuple[ChartSpec, ...]:
     names = (
-        ("Ne", "Эффективная мощность", "Nе, кВт"),
-        ("Me", "Эффективный крутящий момент", "Mе, Н·м"),
-        ("ge", "Удельный расход топлива", "gе, г/(кВт·ч)"),
-        ("Gf", "Часовой расход топлива", "Gт, кг/ч"),
+        ("Ne", "Эффективная мощность", "мощность", "Nе, кВт"),
+        ("Me", "Эффективный крутящий момент", "крутящий момент", "Mе, Н·м"),
+        ("ge", "Удельный расход топлива", "удельный расход топлива", "gе, г/(кВт·ч)"),
+        ("Gf", "Часовой расход топлива", "часовой расход топлива", "Gт, кг/ч"),
     )
     return (
         line("cycle_pv", DIAGRAM_SHEET, "Диаграмма цикла p–V: расчетная и принятая в динамике",
@@ -235,7 +235,8 @@ def _charts() -> tuple[ChartSpec, ...]:
                  caption="Температура газов в цилиндре при сжатии, сгорании и расширении"),
         *(
             line(f"speed_{key}", SPEED_SHEET, f"{title} по внешней характеристике",
-                 ("n, мин⁻¹", label), Series("speed.speed_n", f"speed.speed_{key}"))
-            for key, title, label in names
+                 ("n, мин⁻¹", label), Series("speed.speed_n", f"speed.speed_{key}"),
+                 group="Внешняя скоростная характеристика", panel=panel)
+            for key, title, panel, label in names
         ),
     )  # fmt: skip

@@ -30,11 +30,16 @@ def polar_box(table: str, name: str, sheet: str) -> Grid:
     return corners(f"{table}_box", title, sheet, f"{name}_box", f"{name}_max")
 
 
+def _centrifugal(shape: Shape, number: int) -> str:
+    """Specific centrifugal force of the rods that turn with a crankpin."""
+    rods = sum(not shape.is_hung(cylinder) for cylinder in shape.pins[number - 1])
+    return "K_r_rod" if rods == 1 else f"{rods}*K_r_rod"
+
+
 def _crankpin(shape: Shape, number: int, rows: tuple[float, ...]) -> TableSpec:
     """Loads on a crankpin, Gots (40)-(42), of all rods that turn on it."""
     group, name = shape.pins[number - 1], pin_name(number)
-    rods = sum(not shape.is_hung(cylinder) for cylinder in group)
-    centrifugal = "K_r_rod" if rods == 1 else f"{rods}*K_r_rod"
+    centrifugal = _centrifugal(shape, number)
     sheet = f"Шатунная шейка {name}".strip()
     title = "Удельные нагрузки на шатунную шейку" + (f" {number}" if len(shape.pins) > 1 else "")
     columns = [Column("phi_deg", None)]
@@ -158,13 +163,20 @@ def _pin_charts(shape: Shape) -> tuple[ChartSpec, ...]:
                   ("T, МПа", "K − Kr ш, МПа (вниз — к оси вала)"), f"{table}_box.box",
                   Series(f"{table}.T_MPa", f"{table}.Krod_MPa", "R′ш.ш", only="workbook"),
                   Series(f"{table}.T_MPa", f"{table}.K_MPa", "R′ш.ш", only="report"),
-                  figure="50", y_reversed=True,
+                  figure="50", y_reversed=True, poles=_poles(shape, number),
                   caption=f"Полярная диаграмма удельной нагрузки {caption}"),
             over_phi(f"fig51{end}", sheet, f"Нагрузка {of}", "R, МПа", f"{table}.Rpin_MPa",
                      figure="51", levels=(f"Rpin{n}_mean",), extremes=True,
                      caption=f"Развёрнутая диаграмма нагрузки {caption}"),
         ]  # fmt: skip
     return tuple(made)
+
+
+def _poles(shape: Shape, number: int) -> tuple[tuple[str, str], ...]:
+    """From where the loads on the crankpin and on a throw of one rod are measured."""
+    rod = _centrifugal(shape, number)
+    poles = ((r"O_{\mathrm{ш}}", rod), (r"O_{\mathrm{к}}", f"{rod} + K_r_throw"))
+    return poles if shape.single_rods else poles[:1]
 
 
 def _rods_charts(table: str) -> tuple[ChartSpec, ...]:

@@ -97,18 +97,20 @@ def rod_shares(shape: Shape) -> tuple[str, str]:
 
 def _charts(shape: Shape) -> tuple[ChartSpec, ...]:
     """Figures 49, 56 and 57."""
-    y = "M, Н·м"
+    y, y_tex = "M, Н·м", "$M$, Н·м"
     return (
         over_phi("fig49", "П4.2", "Индикаторный крутящий момент двигателя", y, "P4_2.Msum_Nm",
                  figure="49", y_tex=r"$M_{\mathrm{кр}}$, Н·м", levels=("M_mean",), extremes=True),
         *(
             over_phi(f"fig56_{k}", "П4.4", f"Набегающий момент на коренную шейку {k}", y,
-                     f"P4_4.Mmain{k}_Nm", figure="56")
+                     f"P4_4.Mmain{k}_Nm", figure="56", y_tex=y_tex, panel=f"шейка {k}",
+                     group="Набегающие моменты на коренные шейки")
             for k in range(2, shape.throws + 2)
         ),
         *(
             over_phi(f"fig57_{i}", "П4.5", f"Набегающий момент на шатунную шейку {i}", y,
-                     f"P4_5.Mpin{i}_Nm", figure="57")
+                     f"P4_5.Mpin{i}_Nm", figure="57", y_tex=y_tex, panel=f"шейка {i}",
+                     group="Набегающие моменты на шатунные шейки")
             for i in range(1, shape.throws + 1)
         ),
     )  # fmt: skip

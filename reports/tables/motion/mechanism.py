@@ -242,6 +242,9 @@ def acceleration(model: InputFile, phi: str, beta: str) -> str:
     return f'({exact}) if calculation_method == "{METHODS["exact"]}" else ({two_term})'
 
 
+NEARLY = " (со штрихом\u00a0— по приближённым формулам)"
+
+
 def kinematic_charts(shape: Shape) -> tuple[ChartSpec, ...]:
     """Figures 41-45; the report shows the offset's own terms in place of the harmonics."""
     captions = ("Перемещение поршня и его гармоники", "Скорость поршня и её гармоники",
@@ -274,8 +277,11 @@ def kinematic_charts(shape: Shape) -> tuple[ChartSpec, ...]:
     for letter, kind, title, y, tex in swing:
         exact, near = (f"P3_2.{kind.format(way)}" for way in ("exact", "approx"))
         approximate = only("workbook", near) if shape.offset else (near,)
+        dashed = letter == "b" and not shape.offset
         made.append(
             over_phi(f"fig45{letter}", "П3.2", f"{title} качания шатуна", y, exact, *approximate,
-                     figure="45", y_tex=rf"${tex}_{{\mathrm{{ш}}}}$, {y[3:]}")
+                     figure="45", y_tex=rf"${tex}_{{\mathrm{{ш}}}}$, {y[3:]}",
+                     group="Качание шатуна",
+                 panel=title.lower() + (NEARLY if dashed else ""))
         )  # fmt: skip
     return tuple(made)

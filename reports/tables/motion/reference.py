@@ -278,4 +278,6 @@ def _vector_chart(chart: str, figure: str, word: str, order: str, vector: str) -
         Series(x.format("rose"), y.format("rose"), f"Pj{order}"),
         figure=figure,
         caption=f"Сила инерции {word} порядка в полярных координатах",
+        x_tex="кН",
+        y_tex="кН",
     )

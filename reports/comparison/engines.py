@@ -1,0 +1,250 @@
+"""The engines that are compared and what is read off their solutions."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from kshm.nomenclature.quantity import Quantity, quantity
+from reports.inputs.fields import Field, iter_fields
+from reports.inputs.sections.input_file import InputFile
+from reports.shared.errors import InputError, Problem
+from reports.shared.russian import capital
+from reports.spec.charts import PHI
+
+if TYPE_CHECKING:
+    from kshm.results.solution import Solution
+
+FEWEST, MOST = 2, 6
+_ROUNDING = 1e-9  # kN, N·m: forces that cancel
+_NOUGHT = 1e-6  # of the greatest: no base for a difference in per cent
+_NOT_COMPARED = ("report", "reference", "checks")
+
+
+@dataclass(frozen=True, slots=True)
+class Compared:
+    """An engine with a short name that no other one has."""
+
+    label: str
+    source: Path
+    model: InputFile
+    solution: Solution
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A result of all engines; None where an engine has no such result."""
+
+    group: str
+    key: str
+    title: str
+    symbol: str
+    about: Quantity
+    values: tuple[float | None, ...]
+
+    @property
+    def unit(self) -> str:
+        """Russian label of the unit."""
+        return self.about.unit_label
+
+    def change(self, number: int) -> float | None:
+        """Difference of an engine from the first one [%], if the first has a base for it."""
+        base, value = self.values[0], self.values[number]
+        largest = max(abs(known) for known in self.values if known is not None)
+        if base is None or value is None or abs(base) <= _NOUGHT * largest:
+            return None
+        return (value / base - 1) * 100
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """A field of the data whose values are not all the same."""
+
+    title: str
+    symbol: str
+    unit: str
+    values: tuple[str | int | float | None, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Chart:
+    """A column over φ of every engine that has it."""
+
+    key: str
+    title: str
+    y_title: str
+    curves: tuple[tuple[int, list[float], list[float]], ...]  # engine, φ, values
+
+
+# Groups of results: keys of scalars, or a pattern of them and the title of its greatest.
+_MAIN, _PIN = "по коренным шейкам", "по шатунным шейкам"
+RESULTS: tuple[tuple[str, tuple[str | tuple[str, str], ...]], ...] = (
+    ("Размеры и массы", (
+        "S_stroke", "L_rod", "lam", "F_piston", "V_engine", "c_m", "m_j", "m_2", "m_r",
+    )),
+    ("Крутящий момент и мощность", (
+        "M_mean", "M_max", "M_min", "M_e", "N_i_calc", "p_i_calc",
+    )),
+    ("Нагрузки", (
+        "Rpin_max_kN", "Rpin_max", "Rpin_mean", "q_pin_max", "q_pin_mean",
+        (r"Rmain\d+_max_kN", f"Наибольшая нагрузка {_MAIN}"),
+        (r"q_main\d+_max", f"Наибольшее удельное давление {_MAIN}"),
+    )),
+    ("Набегающие моменты", (
+        (r"dM_main\d+", f"Наибольший размах набегающего момента {_MAIN}"),
+        (r"dM_pin\d+", f"Наибольший размах набегающего момента {_PIN}"),
+    )),
+    ("Уравновешенность и маховик", (
+        "F1_before_max", "F1_after_max", "Frot", "L1_before_max", "L1_after_max", "Lrot",
+        "I_engine_mean", "I_flywheel", "delta_speed",
+    )),
+)  # fmt: skip
+X_TITLE = PHI
+CHARTS = (
+    ("gas.p_MPa", "Давление газов в цилиндре", "p, МПа"),
+    ("P4_2.Msum_Nm", "Крутящий момент двигателя", "ΣM, Н·м"),
+    ("crankpin.Rpin_MPa", "Нагрузка на шатунную шейку", "R_шш, МПа"),
+    ("P4_4.", "Набегающий момент шейки с наибольшим размахом", "M, Н·м"),
+    ("balance.Fup_kN", "Свободная сила инерции по оси первого цилиндра", "F, кН"),
+)
+
+
+def read_engines(sources: Sequence[Path], models: Sequence[InputFile]) -> tuple[Compared, ...]:
+    """Solve the engines.
+
+    Raises:
+        InputError: an engine gives no finite result.
+    """
+    from kshm import solve
+    from reports.inputs.to_si.engine import engine_and_cycle
+
+    found = []
+    for label, source, model in zip(labels(sources), sources, models, strict=True):
+        found.append(Compared(label, source, model, solve(*engine_and_cycle(model))))
+    return tuple(found)
+
+
+def check_sources(sources: Sequence[Path], target: Path) -> None:
+    """Refuse what cannot be compared, before anything is read.
+
+    Raises:
+        InputError: too few or too many files, a file twice, an output over an input.
+    """
+    count = len(sources)
+    if not FEWEST <= count <= MOST:
+        hint = f"сравниваются от {FEWEST} до {MOST} двигателей"
+        raise InputError(Problem("compare", f"файлов {count}", hint))
+    places = [source.resolve() for source in sources]
+    for number, place in enumerate(places):
+        if place in places[:number]:
+            what, hint = "файл назван дважды", "уберите повтор или сделайте копию с правками"
+            raise InputError(Problem(str(sources[number]), what, hint))
+    if target.resolve() in places:
+        what = "результат записался бы поверх исходного файла"
+        raise InputError(Problem(str(target), what, "укажите другое имя ключом -o"))
+
+
+def labels(sources: Sequence[Path]) -> list[str]:
+    """Names of the files without their endings, told apart by their folders' order."""
+    stems = [source.stem for source in sources]
+    return [
+        stem if stems.count(stem) == 1 else f"{stem} ({stems[: number + 1].count(stem)})"
+        for number, stem in enumerate(stems)
+    ]
+
+
+def differences(engines: Sequence[Compared]) -> tuple[Difference, ...]:
+    """Fields whose values differ, in the order of the file; lists as one text."""
+    columns = [dict(_gathered(engine.model)) for engine in engines]
+    keys = list(dict.fromkeys(key for column in columns for key in column))
+    rows = []
+    for key in keys:
+        found = [column.get(key) for column in columns]
+        values = tuple(None if item is None else item[1] for item in found)
+        if len(set(values)) > 1:
+            field = next(item[0] for item in found if item is not None)
+            title = re.sub(r"(?<=\D) 1(?=:)", "", field.title)  # a list is told at once
+            rows.append(Difference(title, field.symbol, field.unit, values))
+    return tuple(rows)
+
+
+def _gathered(model: InputFile) -> Iterator[tuple[str, tuple[Field, str | int | float]]]:
+    lists: dict[str, list[Field]] = {}
+    for field in iter_fields(model):
+        path = field.path
+        if path[0] in _NOT_COMPARED or path == ("engine", "name"):
+            continue
+        if not any(isinstance(part, int) for part in path):
+            label = (field.choices or {}).get(str(field.value), field.value)
+            yield field.name, (field, label)
+        else:
+            key = ".".join(str(part) for part in path if not isinstance(part, int))
+            key += f".{path[1]}" if path[0] == "regimes" else ""
+            lists.setdefault(key, []).append(field)
+    for key, fields in lists.items():
+        values = [f"{f.value:g}" if isinstance(f.value, float) else str(f.value) for f in fields]
+        alike = len(set(values)) == 1 and len(values) > 1
+        text = f"{len(values)} × {values[0]}" if alike else "; ".join(values)
+        yield key, (fields[0], text.replace(".", ","))
+
+
+def results(engines: Sequence[Compared]) -> tuple[Row, ...]:
+    """Key results of all engines, groups one after the other."""
+    rows = []
+    for group, entries in RESULTS:
+        for entry in entries:
+            row = _result(engines, group, entry)
+            if row is not None:
+                rows.append(row)
+    return tuple(rows)
+
+
+def _result(engines: Sequence[Compared], group: str, entry: str | tuple[str, str]) -> Row | None:
+    pattern, title = (re.escape(entry), "") if isinstance(entry, str) else entry
+    values: list[float | None] = []
+    known = ""
+    for engine in engines:
+        scalars = engine.solution.scalars
+        names = [name for name in scalars if re.fullmatch(pattern, name)]
+        known = known or (names[0] if names else "")
+        largest = max((float(scalars[name]) for name in names), default=None)
+        values.append(0.0 if largest is not None and abs(largest) < _ROUNDING else largest)
+    if not known:
+        return None
+    about = quantity(known)
+    symbol = "" if title else about.symbol
+    key = entry if isinstance(entry, str) else pattern
+    found = tuple(values)
+    return Row(group, key, capital(title or about.title), symbol, about, found)
+
+
+def charts(engines: Sequence[Compared]) -> tuple[Chart, ...]:
+    """Curves of all engines over the crank angle."""
+    made = []
+    for key, title, y_title in CHARTS:
+        table, column = key.split(".")
+        curves = []
+        for number, engine in enumerate(engines):
+            columns = engine.solution.columns.get(table)
+            if columns is None:
+                continue
+            name = column or _widest(columns)
+            if name in columns:
+                phi, values = columns["phi_deg"], columns[name]
+                curves.append((number, [float(v) for v in phi], [float(v) for v in values]))
+        if curves:
+            made.append(Chart(key, title, y_title, tuple(curves)))
+    return tuple(made)
+
+
+def _widest(columns: object) -> str:
+    """The main journal whose running-on torque swings most."""
+    found = {
+        name: max(values) - min(values)
+        for name, values in columns.items()  # type: ignore[attr-defined]
+        if name.startswith("Mmain")
+    }
+    return max(found, key=lambda name: found[name], default="")

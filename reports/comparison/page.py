@@ -1,0 +1,144 @@
+"""The comparison as a page: HTML for a browser, the same set on paper as PDF."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from markupsafe import Markup
+
+from kshm.nomenclature.quantity import quantity
+from reports.comparison.conclusions import conclusions
+from reports.comparison.engines import X_TITLE, Chart, Compared, Row, charts, differences, results
+from reports.document.page.blocks import Column, DocumentInfo, TableBlock, table_block
+from reports.document.page.numbering import Label, Numbering
+from reports.document.text.texts import spaces_inside
+from reports.shared.russian import comma, fixed, written
+
+_TITLE = "Сравнение двигателей"
+_FEW = 4  # engines that fit beside the words at the usual size
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """A table or a figure with its number."""
+
+    body: TableBlock | Markup
+    label: Label
+    caption: str
+
+
+def comparison_page(engines: Sequence[Compared], *, media: Literal["print", "screen"]) -> str:
+    """The whole page with style sheet and fonts inside."""
+    from reports.document.page.render import environment
+
+    numbering = Numbering()
+
+    def place(kind: Literal["table", "figure"], key: str, body: TableBlock | Markup,
+              caption: str) -> Placed:  # fmt: skip
+        numbering.declare(kind, key)
+        return Placed(body, numbering.place(kind, key), caption)
+
+    labels = [engine.label for engine in engines]
+    rows = results(engines)
+    data = numbering.section(1, "Чем отличаются исходные данные")
+    data_table = place("table", "data", _data(engines), "Исходные данные, которые не совпадают")
+    shown = numbering.section(1, "Результаты")
+    tables = []
+    for group in dict.fromkeys(row.group for row in rows):
+        block = _group(labels, [row for row in rows if row.group == group])
+        tables.append(place("table", group, block, group))
+    drawn = numbering.section(1, "Диаграммы")
+    figures = [
+        place("figure", chart.key, Markup(_figure(labels, chart)), chart.title)
+        for chart in charts(engines)
+    ]
+    ending = numbering.section(1, "Выводы")
+    page = environment(media=media).get_template("comparison/page.html.j2").render(
+        doc=DocumentInfo(_TITLE, subject=", ".join(labels)),
+        title=_TITLE,
+        engines=[(engine.label, engine.model.engine.name, engine.source.name)
+                 for engine in engines],
+        headings=(data, shown, drawn, ending),
+        data=data_table,
+        tables=tables,
+        figures=figures,
+        sentences=conclusions(labels, rows),
+        size="dense" if len(labels) <= _FEW else "tiny",
+    )  # fmt: skip
+    return spaces_inside(page)
+
+
+def comparison_pdf(engines: Sequence[Compared]) -> bytes:
+    """The page as PDF.
+
+    Raises:
+        SystemPartMissing: pango is not on this machine.
+        RenderError: the page could not be set as the template says.
+    """
+    from reports.document.page.render import render_pdf
+    from reports.shared.doctor import need_pango
+
+    need_pango()
+    return render_pdf(comparison_page(engines, media="print"))
+
+
+def _data(engines: Sequence[Compared]) -> TableBlock:
+    columns = [Column("Величина", 2.6, text=True)]
+    columns += [Column(engine.label, 1.3, text=True) for engine in engines]
+    rows = [
+        [_titled(row.title, row.unit), *(Markup("{}").format(_text(v)) for v in row.values)]
+        for row in differences(engines)
+    ]
+    return table_block(columns, rows or [["различий нет", *[""] * len(engines)]])
+
+
+def _text(value: str | int | float | None) -> str:
+    if value is None:
+        return "—"
+    return value if isinstance(value, str) else comma(f"{value:g}")
+
+
+def _group(labels: Sequence[str], rows: Sequence[Row]) -> TableBlock:
+    """Values side by side, with the difference from the first engine below each."""
+    columns = [Column("Величина", 2.6, text=True), *(Column(label, 1.2) for label in labels)]
+    cells = []
+    for row in rows:
+        values = row.values
+        line = []
+        for number, value in enumerate(values):
+            text = "—" if value is None else written(value, row.about.digits)
+            change = row.change(number) if number else None
+            more = ""
+            if change is not None:
+                percent = fixed(change, 1)
+                more = f"({percent} %)" if percent.startswith("−") else f"(+{percent} %)"
+            line.append(Markup("{}<br>{}").format(text, more) if more else Markup(text))
+        cells.append([_titled(row.title, row.unit), *line])
+    return table_block(columns, cells)
+
+
+def _titled(title: str, unit: str) -> str:
+    return f"{title}, {unit}" if unit else title
+
+
+def _figure(labels: Sequence[str], chart: Chart) -> str:
+    """Curves of all engines; a shorter cycle is repeated to the length of the longest."""
+    import numpy as np
+
+    from reports.document.figures.curves import Curve, Panel, curves_figure
+
+    grid = np.array(max((x for _, x, _ in chart.curves), key=lambda x: (x[-1], len(x))))
+    curves = [
+        Curve(labels[engine], np.interp(grid, x, y, period=x[-1])) for engine, x, y in chart.curves
+    ]
+    return curves_figure(grid, [Panel(curves, _with_symbol(chart))], X_TITLE)
+
+
+def _with_symbol(chart: Chart) -> str:
+    """Symbol and unit of the ordinate, the symbol in TeX."""
+    column = chart.key.partition(".")[2]
+    _, _, unit = chart.y_title.rpartition(", ")
+    tex = quantity(column).tex if column else "M"
+    return f"${tex}$, {unit}"

@@ -1,0 +1,172 @@
+"""Figures of the report from the chart specifications: what the workbook draws too."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from reports.document.figures.curves import LETTERS, Curve, Level, Mark, Panel, curves_figure
+from reports.document.figures.polar import Pole, polar_path
+from reports.document.figures.wear import wear_diagram
+from reports.document.page.writer import Figure
+from reports.document.text import numbers
+from reports.document.text.mathsvg import plain
+from reports.document.text.terms import Terms
+from reports.document.text.tex import GREEK
+from reports.formula.numeric import evaluate
+from reports.shared.russian import NBSP, fixed
+from reports.spec.charts import ChartSpec, Series
+
+HEIGHT = 76.0  # mm
+_LETTER = "A-Za-zΑ-Ωα-ω"
+_SYMBOL = re.compile(rf"[{_LETTER}(]*[{_LETTER}][{_LETTER}′²()/0-9]*")
+_COMMANDS = {letter: rf"\{name} " for name, letter in reversed(GREEK.items())}
+
+Row = tuple[str, int]  # name of a point of the first curve and its row
+
+
+def chart_figure(
+    terms: Terms,
+    chart: ChartSpec,
+    size: float = HEIGHT,
+    *,
+    caption: str = "",
+    **more: Any,  # noqa: ANN401
+) -> Figure:
+    """A chart as a figure.
+
+    Args:
+        terms: symbols and values.
+        chart: what is drawn.
+        size: height of curves, greatest side of a path, width of a wear diagram [mm].
+        caption: what to say instead of the specification's words.
+        more: ``rows`` and ``closed`` of curves, ``least_step`` of a path, ``top`` of a wear
+            diagram.
+    """
+    draw = _KINDS[chart.kind](terms, chart, size, **more)
+    words = caption or chart.words
+    return Figure(draw, words, _spoken(terms, words, [chart]))
+
+
+def panels_figure(
+    terms: Terms,
+    charts: Sequence[ChartSpec],
+    size: float,
+    **more: Any,  # noqa: ANN401
+) -> Figure:
+    """Charts of one group as panels one above the other, ``size`` of a panel [mm]."""
+    first = charts[0]
+    if len(charts) == 1:
+        return chart_figure(terms, first, size, caption=f"{first.group}: {first.panel}")
+    words = "; ".join(
+        f"{letter}{NBSP}—{NBSP}{chart.panel}"
+        for letter, chart in zip(LETTERS, charts, strict=False)
+    )
+    x = first.drawn_by("report")[0].x
+    draw = partial(
+        curves_figure, terms.column(x), tuple(_panel(terms, chart) for chart in charts),
+        _axis(terms, x), height=size, **more,
+    )  # fmt: skip
+    caption = f"{first.group}: {words}"
+    return Figure(draw, caption, _spoken(terms, caption, charts))
+
+
+def _curves(
+    terms: Terms, chart: ChartSpec, size: float, *, rows: Sequence[Row] = (), closed: bool = False
+) -> Callable[[], str]:
+    name = chart.drawn_by("report")[0].x
+    x, panel = terms.column(name), _panel(terms, chart, rows)
+    if closed:
+        x = np.append(x, x[0])
+        curves = (Curve(c.name, np.append(c.y, np.asarray(c.y)[0])) for c in panel.curves)
+        panel = Panel(tuple(curves), panel.y_title, panel.levels, panel.marks, panel.zero)
+    return partial(
+        curves_figure, x, (panel,), _axis(terms, name), height=size, angle=chart.x_is_angle
+    )
+
+
+def _panel(terms: Terms, chart: ChartSpec, rows: Sequence[Row] = ()) -> Panel:
+    drawn = chart.drawn_by("report")
+    x, y = terms.column(drawn[0].x), terms.column(drawn[0].y)
+    if chart.extremes:
+        rows = (*rows, ("max", int(np.argmax(y))), ("min", int(np.argmin(y))))
+    title = chart.y_tex or (_axis(terms, drawn[0].y) if len(drawn) == 1 else _tex(chart.y_title))
+    return Panel(
+        tuple(Curve(_name(terms, series), terms.column(series.y)) for series in drawn),
+        title,
+        tuple(Level(f"${terms.tex(level)}$", terms.value(level)) for level in chart.levels),
+        tuple(Mark(name, float(x[row]), float(y[row])) for name, row in rows),
+        chart.from_zero,
+    )
+
+
+def _path(
+    terms: Terms, chart: ChartSpec, size: float, *, least_step: float = 10.0
+) -> Callable[[], str]:
+    (drawn,) = chart.drawn_by("report")
+    table = drawn.x.partition(".")[0]
+    titles = (chart.x_tex or _axis(terms, drawn.x), chart.y_tex or _axis(terms, drawn.y))
+    poles = (Pole(f"${tex}$", 0.0, float(evaluate(expr, terms.value))) for tex, expr in chart.poles)
+    return partial(
+        polar_path, terms.column(drawn.x), terms.column(drawn.y), terms.model.tables[table].rows,
+        titles, reverse=(chart.x_reversed, chart.y_reversed), poles=(Pole("$O$"), *poles),
+        most=size, least_step=least_step,
+    )  # fmt: skip
+
+
+def _wear(terms: Terms, chart: ChartSpec, size: float, *, top: str = "") -> Callable[[], str]:
+    """Each sum lies where its forces press on the surface, half a turn from its ray."""
+    grid = chart.series[0].x.partition(".")[0]
+    sums, rays = (
+        np.array([terms.value(key) for key in terms.model.grid_runs[f"{grid}.{of}"][:-1]])
+        for of in ("ray_sum", "ray_deg")
+    )
+    return partial(wear_diagram, sums, rays + 180.0, terms.value(chart.hole), size=size, top=top)
+
+
+_KINDS: dict[str, Callable[..., Callable[[], str]]] = {
+    "line": _curves,
+    "polar": _path,
+    "wear": _wear,
+}
+
+
+def _axis(terms: Terms, name: str) -> str:
+    """Symbol and unit of a column."""
+    unit = terms.unit(name)
+    return f"${terms.tex(name)}${', ' if unit else ''}{unit}"
+
+
+def _name(terms: Terms, series: Series) -> str:
+    return _tex(series.name) if series.name else f"${terms.tex(series.y)}$"
+
+
+def _tex(title: str) -> str:
+    """A plain title with its symbols, «p′, МПа», as TeX between dollars."""
+
+    def symbol(match: re.Match[str]) -> str:
+        text = match.group().replace("′", "'").replace("²", "^2")
+        text = "".join(_COMMANDS.get(sign, sign) for sign in text)
+        return "$" + re.sub(r"(?<!\^)([0-9]+)", r"_{\1}", text).strip() + "$"
+
+    return _SYMBOL.sub(symbol, title)
+
+
+def _spoken(terms: Terms, caption: str, charts: Sequence[ChartSpec]) -> str:
+    """Alternative text: the caption and the extremes of each curve over an angle."""
+    said = []
+    for chart in charts:
+        for series in chart.drawn_by("report") if chart.x_is_angle else ():
+            x, y = terms.column(series.x), terms.column(series.y)
+            unit, angle = terms.unit(series.y), plain(terms.tex(series.x))
+            parts = (
+                f"{word} {numbers.significant(float(y[row]), 4)}{' ' if unit else ''}{unit}"
+                f" при {angle} = {fixed(x[row], 0)}°"
+                for word, row in (("наибольшее", y.argmax()), ("наименьшее", y.argmin()))
+            )
+            said.append(f"{plain(terms.tex(series.y))}: {', '.join(parts)}")
+    return f"{caption}. {'; '.join(said)}" if said else caption

@@ -1,0 +1,156 @@
+"""An alternative of an engine with another number of cylinders, by the similarity rules.
+
+The same total displacement: D, S, L × (n₁/n)^⅓ and journals × (n₁/n)^½, n₁ the cylinders of
+the given engine and n those of the new one.  A wanted power changes the displacement: then
+all sizes take its cube root besides.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from reports.inputs.fields import to_mapping
+from reports.inputs.own_engine import (
+    Made,
+    ShaftSizes,
+    shaft,
+    table_masses,
+    throws_of,
+    timing_notes,
+    usual_shaft,
+)
+from reports.inputs.own_phases import phases
+from reports.inputs.sections.input_file import InputFile
+from reports.inputs.to_si.engine import engine_and_cycle
+from reports.inputs.to_si.masses import ROD_SHARE
+from reports.inputs.units import MM, number_text
+
+DIGITS = 6  # of a millimetre
+_DIESEL_RATIO = 14.0
+_OFFSETS = ("crank_offset_mm", "pin_offset_mm")
+_SIZING = ("power_kw", "stroke_bore", "size_step_mm", "rounding")
+_SINGLE = ("pin_diameter_mm", "pin_length_mm", "main_diameter_mm")
+
+
+def alternative(
+    model: InputFile,
+    cylinders: int,
+    *,
+    layout: str | None = None,
+    speed_rpm: float | None = None,
+    displacement: float = 1.0,
+    cause: str = "",
+) -> Made:
+    """The engine of ``model`` with another number of cylinders.
+
+    Args:
+        model: The engine to start from.
+        cylinders: How many the new one has.
+        layout: Its layout, by default the old one.
+        speed_rpm: Its speed, by default the old one.
+        displacement: New total displacement over the old one.
+        cause: Why it changes, for the head of the file.
+
+    Raises:
+        InputError: there is no such engine.
+    """
+    old = model.engine
+    layout = layout or old.layout
+    timing = phases(cylinders, layout, old.strokes)
+    share, larger = old.cylinders / cylinders, displacement ** (1 / 3)
+    linear, journal = share ** (1 / 3) * larger, share ** (1 / 2) * larger
+    found_sizes = engine_and_cycle(model)[0].geometry
+    bore, stroke, rod = (
+        round(MM.from_si(size) * linear, DIGITS)
+        for size in (found_sizes.bore, 2 * found_sizes.crank_radius, found_sizes.rod_length)
+    )
+    kind = kind_of(model)
+    data = to_mapping(model)
+    data["engine"] |= {
+        "name": f"{old.name}: вариант, цилиндров {cylinders}",
+        "cylinders": cylinders,
+        "layout": layout,
+    }
+    data["geometry"] = {
+        "bore_mm": bore, "stroke_mm": stroke, "rod_length_mm": rod,
+        "compression_ratio": data["geometry"]["compression_ratio"],
+        **{key: round(data["geometry"][key] * linear, DIGITS)
+           for key in _OFFSETS if key in data["geometry"]},
+    }  # fmt: skip
+    faster = 1.0 if speed_rpm is None else speed_rpm / model.regime.speed_rpm
+    if speed_rpm is not None:
+        data["regime"]["speed_rpm"] = speed_rpm
+    for regime in (data["regime"], *data.get("regimes", ())):
+        if "indicated_power_kw" in regime:
+            power = regime["indicated_power_kw"] * displacement * faster
+            regime["indicated_power_kw"] = round(power, DIGITS)
+    for key in _SIZING:
+        data.get("cycle", {}).pop(key, None)
+    sizes = _shaft(model, layout, kind, bore, journal, throws_of(cylinders, layout))
+    part = model.masses.rod_small_end_share or ROD_SHARE
+    data["masses"], found = table_masses(layout, kind, bore, stroke, part)
+    data["crankshaft"] = shaft(layout, timing, sizes, found)
+    for name in ("articulated", "variants", "checks"):
+        data.pop(name, None)
+    linear_words = f"× ({old.cylinders}/{cylinders})^⅓"
+    more = f" × {number_text(round(displacement, 6))}^⅓" if displacement != 1 else ""
+    notes = {
+        **{f"geometry.{key}": f"{linear_words}{more}"
+           for key in ("bore_mm", "stroke_mm", "rod_length_mm")},
+        **found.notes, **sizes.notes, **timing_notes(timing),
+    }  # fmt: skip
+    head = [
+        f"Вариант двигателя «{old.name}»: цилиндров {cylinders} вместо {old.cylinders}.",
+        f"По подобию: D, S, L {linear_words}{more}; шейки × ({old.cylinders}/{cylinders})^½{more};",
+        "массы по таблице 4; фазы, щеки и плечи нового вала составлены заново.",
+        *([f"{cause}: рабочий объем × {number_text(round(displacement, 6))}."] if cause else
+          ["Рабочий объем, частота вращения и давления прежние." if speed_rpm is None else
+           "Рабочий объем и давления прежние, частота вращения новая."]),
+    ]  # fmt: skip
+    if model.articulated is not None:
+        head.append("Прицепные шатуны не перенесены: шатуны стоят рядом на шейке.")
+    return Made(data, notes, tuple(head))
+
+
+def kind_of(model: InputFile) -> str:
+    """Diesel or petrol as the file says it, else by the compression ratio."""
+    if model.cycle is not None:
+        return model.cycle.kind
+    known = getattr(model.gas, "kind", None) or model.masses.estimate_fuel
+    if known is not None:
+        return str(known)
+    return "diesel" if model.geometry.compression_ratio >= _DIESEL_RATIO else "petrol"
+
+
+def _shaft(
+    model: InputFile, layout: str, kind: str, bore: float, factor: float, throws: int
+) -> ShaftSizes:
+    """Journals of the old shaft by the rule; lists of other length by their mean."""
+    old = model.crankshaft
+    usual = usual_shaft(layout, kind, bore, throws)
+    pin, length, main = (
+        round(_one(old, key) * factor, DIGITS)
+        for key in ("pin_diameter_mm", "pin_length_mm", "main_diameter_mm")
+    )
+    before = old.main_lengths_mm
+    if len(before) != throws + 1:
+        before = (sum(before) / len(before),) * (throws + 1)
+    thick = [web for arms in old.arms for web in (arms.left_web_mm, arms.right_web_mm) if web]
+    web = round(sum(thick) / len(thick) * factor, DIGITS) if thick else usual.web
+    rule = "по правилу (n₁/n)^½"
+    notes = {f"crankshaft.{key}": rule for key in _SINGLE}
+    notes["crankshaft.main_lengths_mm"] = rule + (
+        "" if len(old.main_lengths_mm) == throws + 1 else ", средняя длина прежних"
+    )
+    notes["crankshaft.arms.left_web_mm"] = rule if thick else "обычная"
+    lengths = tuple(round(value * factor, DIGITS) for value in before)
+    return ShaftSizes(pin, length, main, lengths, web, notes)
+
+
+def _one(shaft_data: Any, key: str) -> float:  # noqa: ANN401
+    """A size of all journals, or the mean where each has its own."""
+    found = getattr(shaft_data, key)
+    values = getattr(shaft_data, key.replace("_mm", "s_mm")) if found is None else found
+    if isinstance(values, tuple | list):
+        return float(sum(values) / len(values))
+    return float(values)

@@ -1,0 +1,48 @@
+import math
+import re
+from xml.etree import ElementTree as ET
+
+import numpy as np
+import pytest
+from figure_samples import FIGURES, PHI, K, T
+
+from reports.document.figures.polar import polar_path
+
+DRAWN = FIGURES["polar"]()
+
+
+def test_polar_scales_are_equal_and_path_is_not_smoothed():
+    width, height = map(float, ET.fromstring(DRAWN).attrib["viewBox"].split()[2:])
+    assert height > width
+    paths = [p for p in re.findall(r' d="([^"]*)"', DRAWN) if p.count("L") >= PHI.size - 1]
+    assert len(paths) == 1 and "C" not in paths[0]
+    points = np.array(re.findall(r"[ML] ?(-?[\d.]+) (-?[\d.]+)", paths[0]), dtype=float)
+    dx, dy = np.ptp(points[:, 0]) / np.ptp(T), np.ptp(points[:, 1]) / np.ptp(K)
+    assert dx == pytest.approx(dy, rel=1e-3)
+    assert points[0, 1] != points[36, 1]
+    down = points[:, 1][int(K.argmax())]
+    assert down == points[:, 1].max()  # K positive downwards: SVG's y grows downwards
+
+
+def test_polar_angle_labels_do_not_collide():
+    tree = ET.fromstring(DRAWN)
+    boxes = []
+    for node in tree.iter():
+        text = "".join(node.itertext())
+        if node.tag.endswith("}text") and node.attrib.get("font-size") == "8.5":
+            x, y = float(node.attrib["x"].split()[0]), float(node.attrib["y"].split()[0])
+            half = len(text) * 8.5 * 0.25
+            boxes.append((x - half, y - 6, x + half, y, text))
+    assert len(boxes) >= 12
+    assert any(box[4].startswith("0,") for box in boxes)
+    for i, a in enumerate(boxes):
+        for b in boxes[i + 1 :]:
+            apart = a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1]
+            assert apart, (a, b)
+
+
+def test_bad_components_are_refused():
+    with pytest.raises(ValueError, match="не равны"):
+        polar_path(T, K[:-1], PHI, ("x", "y"))
+    with pytest.raises(ValueError, match="не число"):
+        polar_path(np.full(73, math.nan), K, PHI, ("x", "y"))

@@ -1,0 +1,97 @@
+import logging
+import re
+
+import pytest
+
+from reports.document.text.mathsvg import Formula, FormulaError, formula, formula_lines, plain
+
+LONG = (
+    r"j_{\mathrm{п}}=r\omega^2\left(\cos\varphi+\lambda\cos2\varphi\right)"
+    r"=0{,}047\cdot460{,}77^2\left(\cos30^{\circ}+0{,}3176\cdot\cos60^{\circ}\right)"
+    r"=10\,213\,\mathrm{м/с^2}"
+)
+
+
+def text_of(result: Formula) -> str:
+    return "".join(re.findall(r"<text[^>]*>([^<]*)</text>", result.svg))
+
+
+def test_glyphs_are_text_in_stix():
+    result = formula(r"P_{\mathrm{г}}=-1{,}5")
+    families = set(re.findall(r'font-family="([^"]*)"', result.svg))
+    assert families == {"STIXGeneral"}
+    assert set(text_of(result)) == set("Pг=−1,5")
+    assert "<path" not in result.svg
+
+
+def test_box_sits_on_the_baseline():
+    flat, deep = formula("a"), formula("y_{y}")
+    assert flat.depth_em < 0.05 < deep.depth_em
+    assert f"vertical-align:{-deep.depth_em:.3f}em" in deep.svg
+    assert flat.height_em == pytest.approx(0.47, abs=0.05)
+    fraction = formula(r"\dfrac{a}{b}")
+    assert fraction.height_em > 1.5 and fraction.svg.count("<rect") == 1
+
+
+def test_indices_stand_above_and_below_the_baseline():
+    result = formula("x_a^b")
+    places = {
+        chars: [float(y) for y in ys.split()]
+        for ys, chars in re.findall(r'y="([^"]*)">([^<]*)</text>', result.svg)
+    }
+    (base,), ends = places["x"], dict(zip("ba", places["ba"], strict=True))
+    assert base == pytest.approx(1000 * (result.height_em - result.depth_em), abs=2)
+    assert ends["b"] < base - 200 and ends["a"] > base + 100
+
+
+def test_width_scales_with_the_text_not_with_pixels():
+    assert formula("11").width_em == pytest.approx(1.0 + 0.08, abs=0.06)
+
+
+def test_decimal_comma_takes_no_space_and_dot_neither():
+    assert formula("1{,}5").width_em < formula("1,5").width_em - 0.05
+    tight = formula(r"R_{\mathrm{ш.ш}}").width_em - formula(r"R_{\mathrm{шш}}").width_em
+    assert tight == pytest.approx(0.25 * 0.7, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    "tex",
+    ["", "  ", "a$b", "{a", "a}", r"\nonsense{x}", r"x^2^3", "1.5", "漢", r"\frac{a}"],
+)
+def test_wrong_tex_is_refused_quietly(tex, caplog):
+    with caplog.at_level(logging.WARNING), pytest.raises(FormulaError, match="Формула"):
+        formula(tex)
+    assert not caplog.records
+
+
+def test_equal_formulas_are_set_once():
+    assert formula(r"a+b") is formula(r"a+b")
+
+
+def test_same_bytes_in_a_fresh_cache():
+    first = formula(LONG).svg
+    formula.cache_clear()
+    assert formula(LONG).svg == first
+
+
+def test_long_formula_breaks_at_relations_and_repeats_the_sign():
+    lines = formula_lines(LONG, 24)
+    assert len(lines) >= 2
+    assert all(line.width_em <= 24 for line in lines)
+    assert text_of(lines[0]).endswith("=") or "=" in text_of(lines[0])
+    assert lines[0].tex.rstrip().endswith("=")
+    assert lines[1].tex.startswith("{}=")
+    assert formula_lines(LONG, 100) == (formula(LONG),)
+
+
+def test_forced_lines():
+    assert len(formula_lines(r"a=b\\c=d")) == 2
+
+
+def test_label_for_readers():
+    assert plain(r"P_{\mathrm{г}}=\dfrac{a}{b}\cdot 10^{-6}") == "P_г=(a)/(b)· 10^−6"
+    assert "<title>a &lt; b</title>" in formula("a < b").svg
+
+
+def test_nested_fractions_are_said_whole():
+    assert plain(r"\dfrac{1-\dfrac{a}{b}}{c}+\sqrt{\varphi}") == "(1−(a)/(b))/(c)+√(φ)"

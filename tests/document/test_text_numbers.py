@@ -1,0 +1,98 @@
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from kshm.nomenclature.digits import Digits, scientific
+from reports.document.text import numbers
+from reports.shared.russian import MINUS, NBSP, fixed
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "text"),
+    [
+        (0.047, 3, "0,047"),
+        (-4.2419, 3, f"{MINUS}4,242"),
+        (-0.0004, 3, "0,000"),
+        (0.0, 0, "0"),
+        (9968, 0, "9968"),
+        (13128.4, 0, f"13{NBSP}128"),
+        (-1234567.891, 2, f"{MINUS}1{NBSP}234{NBSP}567,89"),
+        (99999.5, 0, f"100{NBSP}000"),
+        (np.float64(2.5), 1, "2,5"),
+    ],
+)
+def test_fixed(value, digits, text):
+    assert fixed(value, digits) == text
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_not_finite_is_refused(value):
+    for digits in (Digits(2), scientific(2)):
+        with pytest.raises(ValueError, match="не конечно"):
+            numbers.of_digits(value, digits)
+    with pytest.raises(ValueError, match="не конечно"):
+        numbers.significant(value, 4)
+
+
+def test_negative_digits_are_refused():
+    with pytest.raises(ValueError, match="отрицательно"):
+        fixed(1.0, -1)
+
+
+def test_significant():
+    assert numbers.significant(0.31757, 3) == "0,318"
+    assert numbers.significant(460.767, 5) == "460,77"
+    assert numbers.significant(9.9996, 4) == "10,00"
+    assert numbers.significant(0, 3) == "0,00"
+
+
+@pytest.mark.parametrize(
+    ("value", "html", "tex"),
+    [
+        (1.25e-6, "1,25·10<sup>−6</sup>", r"1{,}25\cdot 10^{-6}"),
+        (-2.1e11, "−2,10·10<sup>11</sup>", r"-2{,}10\cdot 10^{11}"),
+        (9.999e-5, "1,00·10<sup>−4</sup>", r"1{,}00\cdot 10^{-4}"),
+        (3.14159, "3,14", "3{,}14"),
+        (0, "0,00", "0{,}00"),
+    ],
+)
+def test_powers_of_ten(value, html, tex):
+    assert numbers.of_digits(value, scientific(2)) == html
+    assert numbers.of_digits_tex(value, scientific(2)) == tex
+
+
+def test_tex_of_groups_and_minus():
+    assert numbers.of_digits_tex(-12345.6, Digits(1)) == r"-12\,345{,}6"
+
+
+def test_zeros_that_are_left_blank():
+    assert numbers.of_digits(0.0, Digits(2, hides="zeros")) == ""
+
+
+def test_aligned_fills_with_digit_halves():
+    shown = numbers.aligned(["1,5", "12,5", f"{MINUS}2,5"])
+    assert shown == [NBSP * 3 + "1,5", NBSP + "12,5", f"{MINUS}2,5"]
+    assert numbers.aligned([]) == []
+
+
+def _value(text: str) -> float:
+    return float(text.replace(NBSP, "").replace(MINUS, "-").replace(",", "."))
+
+
+@given(st.floats(-1e12, 1e12), st.integers(0, 6))
+def test_fixed_says_the_number(value, digits):
+    text = fixed(value, digits)
+    assert "." not in text and "-" not in text
+    assert _value(text) == pytest.approx(value, abs=0.5000001 * 10**-digits, rel=1e-12)
+
+
+@given(st.floats(1e-30, 1e30), st.integers(1, 8))
+def test_power_says_the_number(value, decimals):
+    tex = numbers.of_digits_tex(value, scientific(decimals)).replace("{,}", ",")
+    mantissa, _, exponent = tex.partition(r"\cdot 10^{")
+    assert 1 <= _value(mantissa) < 10 and len(mantissa) == decimals + 2
+    shown = _value(mantissa) * 10.0 ** int(exponent.rstrip("}") or 0)
+    assert shown == pytest.approx(value, rel=0.51 * 10**-decimals)

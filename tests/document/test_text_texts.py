@@ -1,0 +1,78 @@
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from markupsafe import Markup
+from pdftools import pages_of
+
+from reports.document.page.render import render
+from reports.document.text import fonts, texts
+from reports.document.text.fonts import fonts_css
+
+
+def test_foreign_signs_become_a_box_and_controls_go():
+    assert fonts.printable("Имя 🚗\x00\x07 ok\u202e") == "Имя □ ok"
+    assert fonts.printable("тонкий\u2009пробел\u202f!") == "тонкий\u00a0пробел\u00a0!"
+    assert fonts.printable("e\u0301") == "é"
+
+
+@given(st.text())
+def test_nothing_outside_the_font_remains(text):
+    shown = fonts.printable(text)
+    assert all(ord(char) in fonts.coverage() or char in "\n\t\u00ad" for char in shown)
+
+
+def test_raised_signs_become_superscripts():
+    assert texts.rich("мин⁻¹ & с²") == "мин<sup>−1</sup> &amp; с<sup>2</sup>"
+    assert texts.rich("<b>м²") == "&lt;b&gt;м<sup>2</sup>"
+    assert not isinstance(texts.rich("<b>"), Markup)
+    assert texts.raised("мин⁻¹") == "мин$^{-1}$"
+
+
+def test_attribute_text():
+    assert texts.plain('мин⁻¹ "x"') == "мин−¹ &#34;x&#34;"
+    assert texts.plain(Markup("<i>R</i><sub>ш</sub>")) == "Rш"
+
+
+def test_font_files_are_a_closed_list():
+    assert fonts.font_bytes("STIXGeneral.ttf")[:4] == b"\x00\x01\x00\x00"
+    try:
+        fonts.font_bytes("../../../../etc/passwd")
+    except ValueError as error:
+        assert "Шрифт" in str(error)
+    else:
+        raise AssertionError
+
+
+def test_css_names_every_face_and_embeds_on_demand():
+    css = fonts.fonts_css()
+    assert css.count("@font-face") == 15 and "kshm-font:STIXGeneralItalic.ttf" in css
+    assert "/" not in css.replace("kshm-font", "")
+    embedded = fonts.fonts_css(embedded=True)
+    assert "kshm-font" not in embedded and "data:font/ttf;base64," in embedded
+
+
+def test_spaces_move_into_the_element_behind_them():
+    text = 'дан на рисунке\u00a0<a class="ref" href="#r">12</a>, масс <i>m<sub>j</sub></i> при '
+    assert texts.spaces_inside(text + '<span class="nb">φ = 0</span>') == (
+        'дан на рисунке<a class="ref" href="#r">\u00a012</a>, масс<i> m<sub>j</sub></i> при'
+        '<span> </span><span class="nb">φ = 0</span>'
+    )
+
+
+BEGINNING = "Моменты даны в таблице, суммарный момент показан на рисунке"
+
+
+@pytest.mark.parametrize(
+    "end",
+    ["\u00a0<a>12</a>.", " <i>m</i>, остальное ниже.", ' <span class="nb">φ = 0</span>, а далее.'],
+)
+def test_lines_are_filled_whatever_follows_a_space(end, tmp_path):
+    # All widths at which the text fits without its last space, but not with it.
+    css = "html{font:14pt STIXGeneral;hyphens:auto}p{margin:0;width:%dpx}@page{size:A4;margin:0}"
+    body = "".join(f'<p style="width:{width}px">{BEGINNING}{end}</p>' for width in range(478, 560))
+    style = f"<style>{fonts_css()}{css % 500}</style>"
+    page = f'<html lang="ru"><head>{style}</head><body>{body}</body></html>'
+    text = "".join(pages_of(render(texts.spaces_inside(page)).pdf, tmp_path))
+    firsts = [line for line in text.splitlines() if line.strip().startswith("Моменты")]
+    assert len(firsts) == 82
+    assert min(len(line.strip()) for line in firsts) > 45

@@ -1,0 +1,1 @@
+"""Two spreadsheet engines that recalculate our own workbooks whole, as checks of each other."""

@@ -116,9 +116,12 @@ class Chapter:
         value = self.terms.val(name)
         for error in self.grid_errors:
             if error.key == name:
-                fine = with_unit(of_digits(error.fine, error.quantity.digits), self.terms.unit(name))
-                return Markup("{} (при шаге 1° — {})").format(value, fine)
+                return Markup("{} (при шаге 1° — {})").format(value, self.fine(error))
         return value
+
+    def fine(self, error: GridError) -> Markup:
+        """The value by the fine step with its unit."""
+        return with_unit(of_digits(error.fine, error.quantity.digits), self.terms.unit(error.key))
 
     def worst(self, key: str) -> int:
         """Number of the most loaded journal by a scalar that holds it."""

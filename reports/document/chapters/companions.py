@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
@@ -9,15 +10,15 @@ from markupsafe import Markup
 
 from kshm.chain.firing_orders import rank_firing_orders
 from kshm.nomenclature.digits import scientific
+from reports.document.chapters import facts
 from reports.document.chapters.chapter import Chapter
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.page.writer import TablePlan
 from reports.document.text.terms import Terms
 from reports.inputs.to_si.engine import to_engine
-from reports.shared.russian import fixed, written
+from reports.shared.russian import fixed, joined, written
 
 _MOST_ORDERS = 8
-_NOTHING = 1e-6  # N·m: rounding noise of balanced moments
 
 # Definitions that no single formula of the sheets states.
 _FORMULAS = {
@@ -25,24 +26,12 @@ _FORMULAS = {
     r" + I_{\mathrm{ш}}\dfrac{\omega_{\mathrm{ш}}^2}{\omega^2}"
     r" + m_{\mathrm{п}}\dfrac{v_{\mathrm{п}}^2}{\omega^2}",
     "harmonic": r"t_k = t_k^a \sin\left(k\varphi + \gamma_k\right)",
-    "series": r"\dfrac{s}{R} = 1 + k - \cos\alpha - p_2\cos 2\alpha + p_4\cos 4\alpha"
-    r" - p_6\cos 6\alpha + p_8\cos 8\alpha",
-    "exact": r"j = \dfrac{\cos(\alpha+\beta)}{\cos\beta}"
-    r" + \lambda\dfrac{\cos^2\alpha}{\cos^3\beta}",
+    "series": r"\dfrac{s}{r} = 1 + k - \cos\varphi - p_2\cos 2\varphi + p_4\cos 4\varphi"
+    r" - p_6\cos 6\varphi + p_8\cos 8\varphi",
+    "exact": r"j = \dfrac{\cos(\varphi+\beta)}{\cos\beta}"
+    r" + \lambda\dfrac{\cos^2\varphi}{\cos^3\beta}",
 }
 _LISTS = {
-    "vectors": (
-        "Вращающиеся массы и векторы первого порядка",
-        ("Frot_bare", "Frot", "Lrot_bare", "Lrot",
-         *(f"{key}1_{name}_{part}" for key in "FL" for name in ("before", "after")
-           for part in ("max", "min", "deg"))),
-    ),
-    "devices": (
-        "Противовесы и балансирные валы",
-        ("counterweight_needed", "counterweight_web", "shaft1_moment", "shaft1_mass",
-         "shaft1_back_moment", "shaft1_back_mass", "shaft2_moment", "shaft2_mass",
-         "shaft2_back_moment", "shaft2_back_mass"),
-    ),
     "inertia": (
         "Момент инерции и неравномерность хода",
         ("I_crank", "rod_mass", "rod_x", "I_rod", "piston_mass", "I_max", "I_min", "I_mean",
@@ -55,7 +44,7 @@ _LISTS = {
     ),
     "second": (
         "Второй порядок крутящего момента",
-        ("d_j", "d_j_technical", "t_gas2", "gamma_gas2_deg", "t_inertia2", "t_j2", "t_gas2_idle",
+        ("d_j", "t_gas2", "gamma_gas2_deg", "t_inertia2", "t_j2", "t_gas2_idle",
          "n_zone1", "n_zone2", "psi_best_nominal", "h_shafts", "h_shafts_best", "P_shafts"),
     ),
     "segal": (
@@ -69,6 +58,11 @@ _LISTS = {
         ("neiman_k", *(f"neiman_p{n}" for n in (2, 4, 6, 8))),
     ),
 }  # fmt: skip
+_DEVICES = {
+    "counterweight": "противовесов",
+    "first_shafts": "грузов валов первого порядка",
+    "second_shafts": "грузов валов второго порядка",
+}
 _ORDERS = ["order", "order_amplitude", "order_cos", "order_sin", "F_order_kN", "M_order_Nm",
            "F_left_kN", "M_left_Nm"]  # fmt: skip
 _ORDERS_OF_BANKS = ["order", "order_amplitude", "F_order_kN", "F_order_min_kN", "F_order_dir_deg",
@@ -87,7 +81,9 @@ def companions(chapter: Chapter) -> Markup:
         name: chapter.scalars(caption, keys, size="dense", keep=True)
         for name, (caption, keys) in _LISTS.items()
     }
-    tables |= {
+    asked = _asked(chapter)
+    tables |= _vectors(chapter, after=bool(asked)) | {
+        "devices": _devices(chapter, asked),
         "orders": chapter.columns(
             "balance_orders", _ORDERS_OF_BANKS if banks else _ORDERS,
             "Свободные силы и моменты инерции по порядкам", keep=True,
@@ -109,13 +105,79 @@ def companions(chapter: Chapter) -> Markup:
         banks=banks,
         zone=round(terms.value("zone")) if terms.has("zone") else 0,
         series_error=written(terms.value("j_series_error"), scientific(1)),
-        moves=_is_there(terms, "balance.Lup_Nm"),
-        pulls=_is_there(terms, "balance.Fup_kN"),
+        moves=not _is_balanced(terms, "L", ("",)),
+        pulls=not _is_balanced(terms, "F", ("",)),
+        counterweights="counterweight" in asked,
+        shafts=bool({"first_shafts", "second_shafts"} & asked),
+        shafts_second="second_shafts" in asked,
+        devices=joined([word for key, word in _DEVICES.items() if key in asked] or [""]),
+        over_turn=_over_turn(terms, after=bool(asked)),
+        flywheel=_fine_flywheel(chapter),
+        rod_given=chapter.input.masses.rod_kg is not None,
     )
 
 
-def _is_there(terms: Terms, name: str) -> bool:
-    return bool(np.abs(terms.column(name)).max() > _NOTHING)
+def _asked(chapter: Chapter) -> set[str]:
+    """Devices of balancing that the input itself asks for."""
+    given = chapter.input.balance
+    return {
+        name
+        for key in ("counterweight_share", "first_shafts_share", "second_shafts_share")
+        if key in given.model_fields_set and getattr(given, key) > 0
+        for name in (key.removesuffix("_share"),)
+    }
+
+
+def _is_balanced(terms: Terms, letter: str, ends: Sequence[str]) -> bool:
+    """Whether the forces (F) or the moments (L) are nothing beside those of one cylinder."""
+    unit = "kN" if letter == "F" else "Nm"
+    force = terms.value("Pj_unit_kN")
+    scale = force if letter == "F" else 1000 * force * terms.value("S_stroke")
+    names = [f"balance.{letter}{side}{end}_{unit}" for side in ("up", "right") for end in ends]
+    return facts.are_nothing(terms, [name for name in names if terms.has(name)], scale)
+
+
+def _over_turn(terms: Terms, *, after: bool) -> list[str]:
+    """Diagrams over a turn that show something: after balancing, or by orders without it."""
+    end, ends = ("_after", ("", "_after")) if after else ("", ("",))
+    return [f"balance_{x}{end}" for x in "FL" if not _is_balanced(terms, x, ends)]
+
+
+def _vectors(chapter: Chapter, *, after: bool) -> dict[str, TablePlan | None]:
+    """Rotating masses and first orders of what is not balanced; after balancing if asked for."""
+    keys = [
+        key
+        for letter in "FL"
+        if not _is_balanced(chapter.terms, letter, ("",))
+        for key in (
+            f"{letter}rot_bare", f"{letter}rot",
+            *(f"{letter}1_{name}_{part}" for name in ("before", *(("after",) if after else ()))
+              for part in ("max", "min", "deg")),
+        )
+    ]  # fmt: skip
+    caption = "Вращающиеся массы и векторы первого порядка"
+    return {"vectors": chapter.scalars(caption, keys, size="dense", keep=True) if keys else None}
+
+
+def _devices(chapter: Chapter, asked: set[str]) -> TablePlan | None:
+    """Masses of the counterweights and of the shafts that are asked for."""
+    keys = ["counterweight_needed", "counterweight_web"] if "counterweight" in asked else []
+    for number, name in enumerate(("first_shafts", "second_shafts"), 1):
+        if name in asked:
+            keys += [f"shaft{number}{side}_{of}" for side in ("", "_back")
+                     for of in ("moment", "mass")]  # fmt: skip
+    if not keys:
+        return None
+    return chapter.scalars("Противовесы и балансирные валы", keys, size="dense", keep=True)
+
+
+def _fine_flywheel(chapter: Chapter) -> Markup | str:
+    """Inertia of the flywheel by the fine step where the table's own cannot carry it."""
+    off = {error.key: error for error in chapter.grid_errors}
+    if not {"I_flywheel", "W_range", "delta_speed"} & off.keys():
+        return ""
+    error = off.get("I_flywheel")
+    return chapter.terms.val("I_flywheel") if error is None else chapter.fine(error)
 
 
 def _firing(chapter: Chapter) -> TableBlock:

@@ -73,7 +73,7 @@ def _table(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
                 I_piston_kgm2 = {piston} | Ильченко (13), (15)
                 I_exact_kgm2 = I_crank + I_rod_kgm2 + I_piston_kgm2 | Ильченко (18)
                 I_approx_kgm2 = {near} | Ильченко (19), последняя масса — поршня
-                I_error = (I_approx_kgm2/I_exact_kgm2 - 1)*100 | погрешность (19)
+                I_error = (I_approx_kgm2/I_exact_kgm2 - 1)*100 | погрешность приближения
             """),
             Column(
                 "I_engine_kgm2",
@@ -205,7 +205,7 @@ def _results() -> ScalarTable:
         (
             *extremes("I", "I_exact_kgm2", "delta_I", "один цилиндр"),
             *scalar_list(f"""
-                I_error_max = max(col_max({t}.I_error), -col_min({t}.I_error)) | приближение (19)
+                I_error_max = max(col_max({t}.I_error), -col_min({t}.I_error)) | приближённая формула
             """),
             *extremes("I_engine", "I_engine_kgm2", "delta_I_engine", "двигатель без маховика"),
             *scalar_list(f"""

@@ -14,7 +14,7 @@ ORDERS = (2, 4, 6, 8, 10, 12)
 
 
 def _sign(order: int) -> int:
-    """Sign of the harmonic in cos β/λ = 1/λ − k + p₂cos2α − p₄cos4α and so on."""
+    """Sign of the harmonic in cos β/λ = 1/λ − k + p₂cos2φ − p₄cos4φ and so on."""
     return 1 if order % 4 == 2 else -1
 
 
@@ -65,7 +65,7 @@ def _motion() -> TableSpec:
         tuple(columns),
         stepped(0, 360, 5),
         note=(
-            "Перемещение отнесено к R, скорость к ωR, ускорение к ω²R; λ — двигателя. "
+            "Перемещение отнесено к r, скорость к ωr, ускорение к ω²r; λ — двигателя. "
             "Знаки гармоник 4 и 8 в напечатанной формуле (28) пропущены."
         ),
         step=5.0,

@@ -14,7 +14,7 @@ _BETA = "asin({lam}*sin(rad(alpha_deg)))"
 S = "1 - cos(rad(alpha_deg)) + (1 - cos({beta}))/{lam}"
 V = "sin(rad(alpha_deg) + {beta})/cos({beta})"
 J = "cos(rad(alpha_deg) + {beta})/cos({beta}) + {lam}*cos(rad(alpha_deg))**2/cos({beta})**3"
-ALPHA = ("alpha_deg", "α, °")
+ALPHA = ("alpha_deg", "φ, °")
 TITLES = {"s": "Перемещение", "v": "Скорость", "j": "Ускорение"}
 _INDEX = Column("alpha_deg", None)
 _NEVER = "9999"
@@ -55,7 +55,7 @@ def _errors() -> TableSpec:
         SHEET,
         (*columns, *helpers),
         stepped(0, 180, 2),
-        note="Перемещение отнесено к R, скорость к ωR, ускорение к ω²R; λ — двигателя.",
+        note="Перемещение отнесено к r, скорость к ωr, ускорение к ω²r; λ — двигателя.",
         step=2.0,
     )
 
@@ -106,10 +106,10 @@ def _error_scalars() -> ScalarTable:
 def _extremes() -> ScalarTable:
     scalars = [
         *scalar_list("""
-            j_rel_tdc = 1 + lam | Сегаль, с. 13: α = 0
-            j_rel_bdc = -(1 - lam) | Сегаль, с. 13: α = 180°, со знаком
-            j_rel_quarter = -(lam/sqrt(1 - lam**2)) | Сегаль (1.16), α = 90°
-            alpha_j_two_term_min_deg = deg(acos(max(-1, -1/(4*lam)))) | dj′/dα = 0
+            j_rel_tdc = 1 + lam | Сегаль, с. 13: φ = 0
+            j_rel_bdc = -(1 - lam) | Сегаль, с. 13: φ = 180°, со знаком
+            j_rel_quarter = -(lam/sqrt(1 - lam**2)) | Сегаль (1.16), φ = 90°
+            alpha_j_two_term_min_deg = deg(acos(max(-1, -1/(4*lam)))) | dj′/dφ = 0
             j_two_term_min = cos(rad(alpha_j_two_term_min_deg))
                 + lam*cos(2*rad(alpha_j_two_term_min_deg)) | Сегаль (1.19)
             cos_j_min_0 of cos_j_min = max(-1, -1/(4*lam)) | начальное приближение
@@ -128,7 +128,7 @@ def _extremes() -> ScalarTable:
     root = f"sqrt(1/lam**2 - 1 + {last}**2)"
     scalars += [
         *scalar_list(f"""
-            alpha_j_exact_min_deg = deg(acos({last})) | dj/dα = 0
+            alpha_j_exact_min_deg = deg(acos({last})) | dj/dφ = 0
             j_exact_min = {last} + (2*{last}**2 - 1)/{root} + {last}**2*(1 - {last}**2)/{root}**3
                 | Сегаль (1.16)
         """),
@@ -156,8 +156,8 @@ def _charts() -> tuple[ChartSpec, ...]:
                      f"{t}.{letter}_exact", f"{t}.{letter}_two_term", x=ALPHA)
             for letter, title in TITLES.items()
         ),
-        over_phi("segal_errors", SHEET, "Погрешности приближённых формул", "доля R, ωR, ω²R",
+        over_phi("segal_errors", SHEET, "Погрешности приближённых формул", "доля r, ωr, ω²r",
                  *columns_of(t, "ds", "dv", "dj"), x=ALPHA),
-        line("segal_inverse", SHEET, "Угол кривошипа по положению поршня", ("s/R", "α, °"),
+        line("segal_inverse", SHEET, "Угол кривошипа по положению поршня", ("s/r", "φ, °"),
              *inverse),
     )  # fmt: skip

@@ -142,8 +142,7 @@ def _whole(env: Environment, chapter: Chapter, body: Markup) -> str:
         block=front.title_block(chapter.input),
         exact=chapter.exact,
         load=chapter.worst("worst_main_load"),
-        failed=len(closing.failed(terms)),
-        checks=len(closing.check_keys(terms)),
+        verdict=closing.verdict(terms),
         toc=chapter.writer.contents(),
         content=body,
     )

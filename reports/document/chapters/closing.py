@@ -6,6 +6,7 @@ from functools import partial
 
 from markupsafe import Markup
 
+from reports.document.chapters import facts
 from reports.document.chapters.chapter import BOOK, Chapter
 from reports.document.chapters.journals import least_ray
 from reports.document.page.blocks import Column, TableBlock, table_block
@@ -13,7 +14,7 @@ from reports.document.page.spec_tables import angle_table
 from reports.document.page.writer import TablePlan
 from reports.document.text.terms import Terms
 from reports.shared.russian import fixed
-from reports.spec.shape import Shape, rods_table
+from reports.spec.shape import Shape, pin_name, rods_table
 from reports.tables.overview.summary import NO, YES
 
 SOURCES = (
@@ -37,6 +38,8 @@ SOURCES = (
     ),
 )  # fmt: skip
 
+_PEAK_MPA = 0.005  # half a unit of the last digit that the conclusion prints
+
 SHORT_EVERY = 3  # rows of the tables over the crank angle in a short report
 
 
@@ -49,7 +52,7 @@ def checks(chapter: Chapter) -> Markup:
         "checks",
         plan=plan,
         failed=failed(terms),
-        count=len(keys),
+        verdict=verdict(terms),
         remarks=terms.model.remarks,
     )
 
@@ -89,23 +92,45 @@ def _check_table(terms: Terms, keys: list[str]) -> TableBlock:
 
 def conclusion(chapter: Chapter) -> Markup:
     """Conclusions, each from numbers."""
-    terms = chapter.terms
+    terms, throws = chapter.terms, chapter.shape.throws
     pressure = terms.column("gas.p_MPa")
     row = int(pressure.argmax())
+    names = [f"pin{pin_name(n)}" for n in range(1, len(chapter.shape.pins) + 1)]
+    worst = facts.leaders(terms, [f"R{name}_max" for name in names])
     return chapter.page(
         "conclusion",
         count=chapter.input.engine.cylinders,
         failed=failed(terms),
-        checks=len(check_keys(terms)),
+        verdict=verdict(terms),
         load=chapter.worst("worst_main_load"),
-        main=chapter.worst("worst_main_torque"),
-        pin=chapter.worst("worst_pin_torque"),
+        loads=facts.leaders(terms, [f"Rmain{k}_max" for k in range(1, throws + 2)]),
+        mains=[k + 1 for k in facts.leaders(terms, [f"dM_main{k}" for k in range(2, throws + 2)])],
+        pins_count=len(names),
+        worst_pins=worst,
+        pin=names[worst[0] - 1],
+        pins=facts.leaders(terms, [f"dM_pin{i}" for i in range(1, throws + 1)]),
         ray=least_ray(terms),
         has_power=terms.has("T_ref"),
         step=chapter.input.calculation.step_deg,
         forced=chapter.input.crankshaft.force_offsets_deg is not None,
+        peak=_peak(terms, float(pressure[row])),
         pz=(fixed(float(pressure[row]), 2), fixed(terms.model.tables["gas"].rows[row], 0)),
     )
+
+
+def verdict(terms: Terms) -> str:
+    """How many checks passed, in words."""
+    count, bad = len(check_keys(terms)), len(failed(terms))
+    if not bad:
+        return f"Все проверки расчёта выполнены ({count} из {count})."
+    return f"Проверок расчёта выполнено {count - bad} из {count}."
+
+
+def _peak(terms: Terms, shown: float) -> Markup | str:
+    """The greatest pressure of the diagram where no row of the table has it."""
+    names = [name for name in ("cyc_p_z", "gas_max_pressure_mpa") if terms.has(name)]
+    off = names and terms.value(names[0]) > shown + _PEAK_MPA
+    return terms.val(names[0]) if off else ""
 
 
 def sources(chapter: Chapter) -> Markup:

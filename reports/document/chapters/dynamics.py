@@ -18,6 +18,7 @@ from reports.shared.russian import fixed
 from reports.spec.blocks import ScalarTable
 from reports.tables.gas.diagram import NODES, is_smooth
 from reports.tables.motion.rod_masses import SHEET
+from reports.tables.overview.summary import NO
 
 _POINTS = (
     "phi_c_deg", "p_start", "p_c_end", "gas_max_pressure_mpa", "cyc_p_z",
@@ -62,7 +63,7 @@ def _mass_notes(chapter: Chapter) -> Markup:
         for block in lists
         if block.id == "specific_masses"
         for scalar in block.scalars
-        if scalar.of == "verdict"
+        if scalar.of == "verdict" and scalars[scalar.key] == NO
     ]
     return chapter.page(
         "masses",
@@ -70,8 +71,15 @@ def _mass_notes(chapter: Chapter) -> Markup:
         estimated=given.estimate_fuel is not None,
         weighed=given.rod_weighed_small_end_kg is not None,
         swung=given.swing_edges_mm is not None,
-        outside=[verdict.note for verdict in verdicts if scalars[verdict.key] == "НЕТ"],
+        outside=[_outside(chapter.terms, verdict.key, verdict.note) for verdict in verdicts],
     )
+
+
+def _outside(terms: Terms, verdict: str, limits: str) -> Markup:
+    """What lies outside the limits of table 4, with its value."""
+    name = verdict.removesuffix("_fits")
+    said = limits.partition(": ")[2] or limits.rpartition(" ")[2]
+    return Markup("{} {} ({})").format(terms.title(name), terms.val(name), said)
 
 
 def _rounded_text(chapter: Chapter) -> Markup:

@@ -39,15 +39,22 @@ def title_page(model: InputFile) -> Words:
         "subtitle": model.engine.name,
         "kind": "Расчётно-пояснительная записка к курсовому проекту",
         "ministry": "",
-        "department": f"Кафедра: {department}" if department else "",
+        "department": _department(department),
         "year": str(model.report.year),
     }
+
+
+def _department(name: str) -> str:
+    """«Кафедра …» whether or not the input says the word itself."""
+    return name if not name or name.lower().startswith("кафедра") else f"Кафедра: {name}"
 
 
 def assignment(chapter: Chapter) -> Words:
     """The assignment from the report's data and from what the report holds."""
     n, present = chapter.writer.n, chapter.model.fields
-    return _words(chapter.input) | {
+    words = _words(chapter.input)
+    return words | {
+        "department": _department(words["department"]),
         "engine": chapter.input.engine.name,
         "data": [(present[k].title, chapter.terms.val(k)) for k in _TASK if k in present],
         "chapters": [item.title for item in n.contents if item.level == 1 and item.number],

@@ -24,14 +24,6 @@ from reports.tables.gas.diagram import is_smooth
 _LISTS = ("firing_offset_", "throw_angle_", "force_offset_", "web_", "gas_point_")
 _ARMS = ("l1", "l2", "l3", "l4", "l5", "l6", "left_web", "right_web")
 _LEFT_OUT = {"engine_name", "engine_layout", "engine_strokes"}
-_TITLES = {
-    "crankshaft_pin_diameter_mm": r"d_{\mathrm{ш.ш}}",
-    "crankshaft_pin_length_mm": r"l_{\mathrm{ш.ш}}",
-    "crankshaft_main_diameter_mm": r"d_{\mathrm{к.ш}}",
-    "crankshaft_pin_mass_kg": r"m_{\mathrm{ш.ш}}",
-}
-
-
 def introduction(chapter: Chapter) -> Markup:
     """Introduction: what is computed and how."""
     return chapter.page("introduction")
@@ -66,8 +58,7 @@ def _general(fields: Sequence[Field]) -> TableBlock:
     for field in fields:
         if field.path[0] in ("report", "regimes") or field.name in _LEFT_OUT or _is_listed(field):
             continue
-        tex = _TITLES.get(field.name) or input_symbol_tex(field.symbol)
-        symbol = inline_html(tex) if field.symbol else "—"
+        symbol = inline_html(input_symbol_tex(field.symbol)) if field.symbol else "—"
         unit = "—" if field.choices is not None else unit_cell(field.unit)
         rows.append([field.title, symbol, input_text(field), unit])
     return list_block(rows)
@@ -154,4 +145,4 @@ def _points(model: InputFile) -> TableBlock:
 
 
 def _at(texts: Sequence[tuple[str, str]], index: int) -> tuple[str, str]:
-    return texts[index] if index < len(texts) else ("", "")
+    return texts[index] if index < len(texts) else ("—", "—")

@@ -76,7 +76,7 @@ BANDS: tuple[Band, ...] = (
     _mass("masses.rod_kg", "m_ш", 130, 500, TABLE_4, kind="diesel"),
     _mass("masses.reciprocating_kg", "m_j", 80, 650, TABLE_4),
     _mass("masses.rod_big_end_kg", "m_2", 46, 400, TABLE_4),
-    _mass("crankshaft.pin_mass_kg", "m_шш", 35, 340),
+    _mass("crankshaft.pin_mass_kg", "m_ш.ш", 35, 340),
     _mass("crankshaft.webs.mass_kg", "m_щ", 26, 255, zero=True),
     _mass("crankshaft.webs.counterweight_kg", "m_пр", 48, 470, zero=True),
     _mass("crankshaft.nose_mass_kg", "m_вп1", 18, 175, zero=True),
@@ -160,7 +160,7 @@ LARGE_BORE_MM = 250.0
 SPEED = Band("regime.speed_rpm", "", "средняя скорость поршня Sn/30", 2.8, 26, unit="м/с")
 LOWER_SPEED = Band("regimes.speed_rpm", "", "частота вращения к номинальной", 0.12, 1.19)
 PIN_LENGTH = Band("crankshaft.pin_length_mm", "", "l_шш/d_шш", 0.25, 1.2)
-MAIN_LENGTH = Band("crankshaft.main_lengths_mm", "", "l_кш/d_кш", 0.2, 1.6)
+MAIN_LENGTH = Band("crankshaft.main_lengths_mm", "", "l_к.ш/d_к.ш", 0.2, 1.6)
 MAIN_TO_PIN = Band("crankshaft.main_diameter_mm", "", "d_кш/d_шш", 0.97, 1.75)
 REDUCED_WEB = Band("crankshaft.webs.centre_mm", "F", "m_щ·ρ/r/F_п", 26, 255, unit="кг/м²")
 EFFICIENCY = Band("regime.mechanical_efficiency", "", "η_м", 0.5, 0.96)

@@ -87,7 +87,7 @@ class CrankshaftSection(Strictly):
         Strict(False),
     ]
     pin_diameter_mm: Annotated[
-        float | None, number("Диаметр шатунной шейки", "d_шш", MM, 2, 2000)
+        float | None, number("Диаметр шатунной шейки", "d_ш.ш", MM, 2, 2000)
     ] = None
     pin_diameters_mm: Annotated[
         tuple[Annotated[float, number("Шатунная шейка {n}: диаметр", "d_шш{n}", MM, 2, 2000)], ...]
@@ -95,7 +95,7 @@ class CrankshaftSection(Strictly):
         Strict(False),
     ] = None
     pin_length_mm: Annotated[
-        float | None, number("Рабочая длина шатунной шейки", "l_шш", MM, 1, 2000)
+        float | None, number("Рабочая длина шатунной шейки", "l_ш.ш", MM, 1, 2000)
     ] = None
     pin_lengths_mm: Annotated[
         tuple[
@@ -106,7 +106,7 @@ class CrankshaftSection(Strictly):
         Strict(False),
     ] = None
     main_diameter_mm: Annotated[
-        float | None, number("Диаметр коренных шеек", "d_кш", MM, 2, 2000)
+        float | None, number("Диаметр коренных шеек", "d_к.ш", MM, 2, 2000)
     ] = None
     main_diameters_mm: Annotated[
         tuple[Annotated[float, number("Коренная шейка {n}: диаметр", "d_кш{n}", MM, 2, 2000)], ...]
@@ -115,13 +115,13 @@ class CrankshaftSection(Strictly):
     ] = None
     main_lengths_mm: Annotated[
         tuple[
-            Annotated[float, number("Коренная шейка {n}: рабочая длина", "l_кш{n}", MM, 1, 2000)],
+            Annotated[float, number("Коренная шейка {n}: рабочая длина", "l_к.ш{n}", MM, 1, 2000)],
             ...,
         ],
         Strict(False),
     ]
     pin_mass_kg: Annotated[
-        float | None, number("Приведенная масса шатунной шейки", "m_шш", KG, 0, 5000)
+        float | None, number("Приведенная масса шатунной шейки", "m_ш.ш", KG, 0, 5000)
     ] = None
     oil_hole_deg: Annotated[
         float | None,

@@ -126,7 +126,7 @@ def _page(model: Model, values: Values, env: Environment) -> str:
     body = _write(chapter)
     chapter.writer.n.check()
     store.store().save()
-    return texts.spaces_inside(_whole(env, chapter, body))
+    return texts.unbroken_initials(texts.spaces_inside(_whole(env, chapter, body)))
 
 
 def _whole(env: Environment, chapter: Chapter, body: Markup) -> str:

@@ -17,26 +17,33 @@ from reports.shared.russian import fixed
 from reports.spec.shape import Shape, pin_name, rods_table
 from reports.tables.overview.summary import NO, YES
 
-SOURCES = (
-    (
-        BOOK,
+_TEXT = "— Текст : непосредственный"
+SOURCES = {
+    BOOK:
         "Гоц, А. Н. Кинематика и динамика кривошипно-шатунного механизма поршневых двигателей : "
         "учебное пособие / А. Н. Гоц. — Владимир : Изд-во Владим. гос. ун-та, 2006. — 104 с. — "
-        "ISBN 5-89368-664-0. — Текст : непосредственный.",
-    ),
-    (
-        "vikhert",
+        f"ISBN 5-89368-664-0. {_TEXT}.",
+    "vikhert":
         "Вихерт, М. М. Конструкция и расчет автотракторных двигателей / М. М. Вихерт [и др.] ; "
         "под редакцией Ю. А. Степанова. — 2-е изд., перераб. и доп. — Москва : Машиностроение, "
-        "1964. — 552 с. — Текст : непосредственный.",
-    ),
-    (
-        "gots_polar",
-        "Гоц, А. Н. Построение полярной диаграммы нагрузки на коренные шейки / А. Н. Гоц. — "
-        "Текст : непосредственный // Тракторы и сельскохозяйственные машины. — 2000. — № 6. — "
-        "С. 16–18.",
-    ),
-)  # fmt: skip
+        f"1964. — 552 с. {_TEXT}.",
+    "gots_polar":
+        "Гоц, А. Н. Построение полярной диаграммы нагрузки на коренные шейки / А. Н. Гоц. "
+        f"{_TEXT} // Тракторы и сельскохозяйственные машины. — 2000. — № 6. — С. 16–18.",
+    "ilchenko":
+        "Ильченко, А. В. Приведённый момент инерции кривошипно-шатунного механизма "
+        "одноцилиндрового поршневого двигателя внутреннего сгорания / А. В. Ильченко, "
+        f"Ю. О. Кубрак, В. О. Ломакин. — [2011]. {_TEXT}. — На украинском языке.",
+    "chudakov":
+        "Чудаков, Д. А. Об уравновешивании тракторных четырёхцилиндровых дизелей / "
+        f"Д. А. Чудаков, Э. М. Жарнов. {_TEXT}.",
+    "segal":
+        "Сегаль, В. Ф. Динамические расчёты двигателей внутреннего сгорания / В. Ф. Сегаль. "
+        f"{_TEXT}.",
+    "neiman":
+        "Нейман, И. Ш. Динамика авиационных двигателей / И. Ш. Нейман. — Москва : Оборонгиз, "
+        f"1940. {_TEXT}.",
+}  # fmt: skip
 
 _PEAK_MPA = 0.005  # half a unit of the last digit that the conclusion prints
 
@@ -135,8 +142,9 @@ def _peak(terms: Terms, shown: float) -> Markup | str:
 
 def sources(chapter: Chapter) -> Markup:
     """Bibliography."""
-    heading = chapter.writer.heading(1, "Библиографический список", numbered=False)
-    return heading + chapter.writer.sources(SOURCES)
+    heading = chapter.writer.heading(1, "Список использованных источников", numbered=False)
+    cited = [(key, text) for key, text in SOURCES.items() if chapter.writer.n.is_cited(key)]
+    return heading + chapter.writer.sources(cited)
 
 
 def appendices(chapter: Chapter) -> Markup:

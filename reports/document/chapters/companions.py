@@ -77,12 +77,13 @@ def companions(chapter: Chapter) -> Markup:
     if "balance_orders" not in terms.model.tables:  # no series: an offset or articulated rods
         return Markup("")
     banks = terms.has("balance_orders.order_right_cos")
-    tables = {
+    tables: dict[str, TablePlan | None] = {
         name: chapter.scalars(caption, keys, size="dense", keep=True)
         for name, (caption, keys) in _LISTS.items()
     }
     asked = _asked(chapter)
-    tables |= _vectors(chapter, after=bool(asked)) | {
+    after = bool(asked - {"suppression"})
+    tables |= _vectors(chapter, after=after) | {
         "devices": _devices(chapter, asked),
         "orders": chapter.columns(
             "balance_orders", _ORDERS_OF_BANKS if banks else _ORDERS,
@@ -103,7 +104,7 @@ def companions(chapter: Chapter) -> Markup:
         tables=tables,
         ranked="firing_orders" in terms.model.tables,
         banks=banks,
-        zone=round(terms.value("zone")) if terms.has("zone") else 0,
+        zone=round(terms.value("zone")) if terms.has("zone") and "suppression" in asked else 0,
         series_error=written(terms.value("j_series_error"), scientific(1)),
         moves=not _is_balanced(terms, "L", ("",)),
         pulls=not _is_balanced(terms, "F", ("",)),
@@ -111,7 +112,7 @@ def companions(chapter: Chapter) -> Markup:
         shafts=bool({"first_shafts", "second_shafts"} & asked),
         shafts_second="second_shafts" in asked,
         devices=joined([word for key, word in _DEVICES.items() if key in asked] or [""]),
-        over_turn=_over_turn(terms, after=bool(asked)),
+        over_turn=_over_turn(terms, after=after),
         flywheel=_fine_flywheel(chapter),
         rod_given=chapter.input.masses.rod_kg is not None,
     )
@@ -122,7 +123,12 @@ def _asked(chapter: Chapter) -> set[str]:
     given = chapter.input.balance
     return {
         name
-        for key in ("counterweight_share", "first_shafts_share", "second_shafts_share")
+        for key in (
+            "counterweight_share",
+            "first_shafts_share",
+            "second_shafts_share",
+            "suppression",
+        )
         if key in given.model_fields_set and getattr(given, key) > 0
         for name in (key.removesuffix("_share"),)
     }

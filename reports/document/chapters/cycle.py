@@ -16,7 +16,7 @@ from reports.document.text.symbols import inline_html
 from reports.document.text.terms import Terms
 from reports.shared.russian import MINUS, capital, fixed
 from reports.tables.gas.cycle_names import friction_by_speed, is_boosted, section_of
-from reports.tables.gas.cycle_speed import INSIDE
+from reports.tables.gas.cycle_speed import INSIDE, UNCHECKED
 
 _MOST_DECIMALS = 8  # of values in passes
 
@@ -65,6 +65,7 @@ def cycle(chapter: Chapter) -> Markup:
         tables=_tables(chapter),
         corners=[("$a$", 0), ("$z'$", terms.row("cycle_diagram", 360.0)), ("$b$", last)],
         speed_step=500.0 if float(terms.column("speed.speed_n")[-1]) <= 5000 else 1000.0,
+        sourced=_are_sourced(terms),
         inside=(verdicts.count(INSIDE), len(verdicts)),
         turbine_enough=is_boosted(section) and terms.value("cyc_N_t") >= terms.value("cyc_N_k"),
         residual_gap=fixed(terms.value("value_cycle_Tr"), 1),
@@ -153,8 +154,10 @@ def _ranges(terms: Terms) -> TableBlock:
         Column("Значение", 1.3),
         Column("Обычно", 1.5),
         Column("Вывод", 1.6),
-        Column("Откуда предел", 2.8, text=True),
     ]
+    sourced = _are_sourced(terms)
+    if sourced:
+        columns.append(Column("Откуда предел", 2.8, text=True))
     rows = []
     for key in _range_keys(terms):
         scalar = terms.model.scalars[f"range_value_{key}"]
@@ -162,5 +165,12 @@ def _ranges(terms: Terms) -> TableBlock:
         value = terms.value(f"range_value_{key}")
         shown = fixed(value, 0 if abs(value) >= 100 else 2 if abs(value) >= 1 else 3)
         verdict = str(terms.values.scalars[f"range_{key}"])
-        rows.append([title, shown, usual.replace("-", MINUS), verdict, scalar.source])
+        place = ("—" if scalar.source == UNCHECKED else scalar.source,) if sourced else ()
+        rows.append([title, shown, usual.replace("-", MINUS), verdict, *place])
     return table_block(columns, rows)
+
+
+def _are_sourced(terms: Terms) -> bool:
+    """Whether any usual limit comes from a printed source."""
+    keys = (f"range_value_{key}" for key in _range_keys(terms))
+    return any(terms.model.scalars[key].source != UNCHECKED for key in keys)

@@ -151,6 +151,10 @@ class Numbering:
         self._headings.append(heading)
         return heading
 
+    def is_cited(self, source: str) -> bool:
+        """Whether the text so far refers to a source of the bibliography."""
+        return ("source", source) in self._referred
+
     @property
     def contents(self) -> tuple[Heading, ...]:
         """Headings in the order in which they came."""
@@ -198,6 +202,7 @@ class Draft(Numbering):
 
     def refer(self, kind: Kind, key: str) -> Markup:
         """No number yet."""
+        self._referred.add((kind, key))
         return Markup("?")
 
     def place(self, kind: Kind, key: str, *, number: str | None = None) -> Label:

@@ -8,7 +8,7 @@ import re
 from markupsafe import Markup, escape
 
 from reports.document.text.fonts import printable
-from reports.shared.russian import MINUS
+from reports.shared.russian import MINUS, NBSP
 
 _RAISED = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079\u207a\u207b"
 _LEVEL = f"0123456789+{MINUS}"
@@ -45,6 +45,15 @@ def titled(svg: str, title: object) -> Markup:
 
 _SPACE_BEFORE = re.compile("([ \u00a0])(<(?:a|i)\\b[^<>]*>)")
 _SPACE_BEFORE_UNBROKEN = re.compile('([ \u00a0])(<span class="nb">)')
+
+
+# A lone capital with a point before another capital: initials, «А. Н. Гоц».
+_INITIAL = re.compile(r"(?<![А-ЯЁа-яёA-Za-z])([А-ЯЁ]\.) (?=[А-ЯЁ])")
+
+
+def unbroken_initials(page: str) -> str:
+    """Keep initials on the line of their surname."""
+    return _INITIAL.sub(rf"\1{NBSP}", page)
 
 
 def spaces_inside(page: str) -> str:

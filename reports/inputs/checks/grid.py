@@ -29,7 +29,6 @@ _KINDS = tuple(
 )  # fmt: skip
 
 
-
 @dataclass(frozen=True, slots=True)
 class GridError:
     """A result on the grid and with the fine step, in the quantity's unit."""

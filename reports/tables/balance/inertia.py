@@ -205,7 +205,7 @@ def _results() -> ScalarTable:
         (
             *extremes("I", "I_exact_kgm2", "delta_I", "один цилиндр"),
             *scalar_list(f"""
-                I_error_max = max(col_max({t}.I_error), -col_min({t}.I_error)) | приближённая формула
+                I_error_max = max(col_max({t}.I_error), -col_min({t}.I_error)) | приближение
             """),
             *extremes("I_engine", "I_engine_kgm2", "delta_I_engine", "двигатель без маховика"),
             *scalar_list(f"""

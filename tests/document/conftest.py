@@ -1,12 +1,14 @@
 """Finished reports for one worker; a local listener that writes down what is asked of it."""
 
 import http.server
+import json
 import threading
 
 import pytest
 
-from reports.document import report
+from reports.document import report, store
 from reports.document.chapters import closing, opening
+from reports.document.text.mathsvg import formula, formula_lines
 
 
 def pytest_collection_modifyitems(items):
@@ -14,6 +16,20 @@ def pytest_collection_modifyitems(items):
     for item in items:
         if item.path.name in ("test_report_pdf.py", "test_report_sheets.py"):
             item.add_marker(pytest.mark.xdist_group("reports"))
+
+
+EMPTY = {"figure": "<svg></svg>", "formula": json.dumps(["<svg></svg>", 1.0, 1.0, 0.0])}
+
+
+@pytest.fixture
+def nothing_is_drawn(monkeypatch):
+    """Reports without figures and formulas: a second instead of ten."""
+    for cached in (formula, formula_lines):
+        cached.cache_clear()
+    monkeypatch.setattr(store, "kept", lambda kind, content, make: EMPTY[kind])
+    yield
+    for cached in (formula, formula_lines):
+        cached.cache_clear()
 
 
 @pytest.fixture

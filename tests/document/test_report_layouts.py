@@ -3,14 +3,10 @@
 Formulas and figures are left out here: what they look like is tested elsewhere.
 """
 
-import json
-
 import pytest
 from report_samples import terms, terms_of, text_of
 
-from reports.document import store
 from reports.document.report import report_page
-from reports.document.text.mathsvg import formula, formula_lines
 from reports.document.text.terms import Terms
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
@@ -19,17 +15,7 @@ from reports.tables.registry import build_model
 from tests import layouts
 from tests.conftest import sample
 
-EMPTY = {"figure": "<svg></svg>", "formula": json.dumps(["<svg></svg>", 1.0, 1.0, 0.0])}
-
-
-@pytest.fixture(autouse=True)
-def nothing_is_drawn(monkeypatch):
-    for cached in (formula, formula_lines):
-        cached.cache_clear()
-    monkeypatch.setattr(store, "kept", lambda kind, content, make: EMPTY[kind])
-    yield
-    for cached in (formula, formula_lines):
-        cached.cache_clear()
+pytestmark = pytest.mark.usefixtures("nothing_is_drawn")
 
 
 def of_layout(change) -> Terms:

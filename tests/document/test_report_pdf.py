@@ -130,7 +130,7 @@ def test_a_failed_check_is_said_plainly(texts):
     failed = " ".join("\n".join(texts("gots-diesel")).split())
     assert terms("gots-diesel").values.scalars["check_power"] == "НЕТ"
     assert "Расхождение выходит за допустимые" in failed
-    assert "не сходится с мощностью" in failed and "не выполнена: получено" in failed
+    assert "не сходится с мощностью" in failed and "Не выполнена проверка" in failed
     for name in NAMES:
         verdicts = [v for k, v in terms(name).values.scalars.items() if k.startswith("check_")]
         said = "Все проверки расчёта выполнены" in " ".join("\n".join(texts(name)).split())

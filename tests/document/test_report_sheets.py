@@ -46,12 +46,12 @@ def flat(text: str) -> str:
 def test_abstract_counts_what_is_there(tmp_path):
     result = rendered("one")
     text = "\n".join(pages_of(result.pdf, tmp_path))
-    said = re.search(r"Отчёт\s(\d+)\sс\.,\s(\d+)\sрис\.,\s(\d+)\sтабл\.,\s(\d+)\sисточн\.", text)
+    said = re.search(r"Пояснительная\sзаписка\s(\d+)\sс\.,\s(\d+)\sрис\.,\s(\d+)\sтабл\.,\s(\d+)\sисточн\.", text)
     pages, figures, tables, sources = map(int, said.groups())
     assert pages == result.pages
     assert figures == len(re.findall(r"Рисунок\s\d+\s—", text))
     assert tables == len(re.findall(r"Таблица\s\S+\s—", text))
-    listed = text[text.index("БИБЛИОГРАФИЧЕСКИЙ СПИСОК", text.index("Основные результаты")) :]
+    listed = text[text.index("СПИСОК ИСПОЛЬЗОВАННЫХ ИСТОЧНИКОВ", text.index("Основные результаты")) :]
     assert sources == len(re.findall(r"(?m)^\s*\d+\.\s+[А-Я]", listed[: listed.index("ПРИЛОЖ")]))
 
 
@@ -220,7 +220,7 @@ def test_outline_language_and_metadata_are_in_the_file(framed):
     assert b"/Lang (ru)" in data
     titles = [bytes.fromhex(hex_[4:].decode()).decode("utf-16-be")
               for hex_ in re.findall(rb"/Title\s*<(feff[0-9a-f]+)>", data)]  # fmt: skip
-    for title in ("Введение", "Заключение", "Библиографический список"):
+    for title in ("Введение", "Заключение", "Список использованных источников"):
         assert title in titles
     assert len([t for t in titles if re.match(r"\d+(\.\d+)*\s", t)]) > 15
     info = poppler("pdfinfo", str(framed[2] / "text.pdf"))

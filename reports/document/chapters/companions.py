@@ -106,8 +106,8 @@ def companions(chapter: Chapter) -> Markup:
         banks=banks,
         zone=round(terms.value("zone")) if terms.has("zone") and "suppression" in asked else 0,
         series_error=written(terms.value("j_series_error"), scientific(1)),
-        moves=not _is_balanced(terms, "L", ("",)),
-        pulls=not _is_balanced(terms, "F", ("",)),
+        moves=not _is_balanced(terms, "L"),
+        pulls=not _is_balanced(terms, "F"),
         counterweights="counterweight" in asked,
         shafts=bool({"first_shafts", "second_shafts"} & asked),
         shafts_second="second_shafts" in asked,
@@ -129,24 +129,29 @@ def _asked(chapter: Chapter) -> set[str]:
             "second_shafts_share",
             "suppression",
         )
-        if key in given.model_fields_set and getattr(given, key) > 0
+        if key in given.asked and getattr(given, key) > 0
         for name in (key.removesuffix("_share"),)
     }
 
 
-def _is_balanced(terms: Terms, letter: str, ends: Sequence[str]) -> bool:
+def _is_balanced(
+    terms: Terms, letter: str, ends: Sequence[str] = ("",), sums: Sequence[str] = ("up", "right")
+) -> bool:
     """Whether the forces (F) or the moments (L) are nothing beside those of one cylinder."""
     unit = "kN" if letter == "F" else "Nm"
     force = terms.value("Pj_unit_kN")
     scale = force if letter == "F" else 1000 * force * terms.value("S_stroke")
-    names = [f"balance.{letter}{side}{end}_{unit}" for side in ("up", "right") for end in ends]
+    names = [f"balance.{letter}{side}{end}_{unit}" for side in sums for end in ends]
     return facts.are_nothing(terms, [name for name in names if terms.has(name)], scale)
 
 
 def _over_turn(terms: Terms, *, after: bool) -> list[str]:
     """Diagrams over a turn that show something: after balancing, or by orders without it."""
-    end, ends = ("_after", ("", "_after")) if after else ("", ("",))
-    return [f"balance_{x}{end}" for x in "FL" if not _is_balanced(terms, x, ends)]
+    if after:
+        shown = [x for x in "FL" if not _is_balanced(terms, x, ("", "_after"), ("up",))]
+        return [f"balance_{x}_after" for x in shown]
+    orders = ("1", "2", "4")
+    return [f"balance_{x}" for x in "FL" if not _is_balanced(terms, x, sums=orders)]
 
 
 def _vectors(chapter: Chapter, *, after: bool) -> dict[str, TablePlan | None]:
@@ -154,7 +159,7 @@ def _vectors(chapter: Chapter, *, after: bool) -> dict[str, TablePlan | None]:
     keys = [
         key
         for letter in "FL"
-        if not _is_balanced(chapter.terms, letter, ("",))
+        if not _is_balanced(chapter.terms, letter)
         for key in (
             f"{letter}rot_bare", f"{letter}rot",
             *(f"{letter}1_{name}_{part}" for name in ("before", *(("after",) if after else ()))

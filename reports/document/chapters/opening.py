@@ -70,7 +70,7 @@ def _unused(model: InputFile) -> set[str]:
                "shaft_radius_mm"}  # fmt: skip
     if model.masses.rod_kg is not None:
         devices.add("rod_small_end_share")
-    return names | {f"balance_{key}" for key in devices - model.balance.model_fields_set}
+    return names | {f"balance_{key}" for key in devices - model.balance.asked}
 
 
 def _general(fields: Sequence[Field], unused: set[str]) -> TableBlock:

@@ -52,8 +52,9 @@ _INITIAL = re.compile(r"(?<![А-ЯЁа-яёA-Za-z])([А-ЯЁ]\.) (?=[А-ЯЁ])")
 
 
 def unbroken_initials(page: str) -> str:
-    """Keep initials on the line of their surname."""
-    return _INITIAL.sub(rf"\1{NBSP}", page)
+    """Keep initials on the line of their surname, not in the data of the head."""
+    head, body, text = page.partition("<body>")
+    return head + body + _INITIAL.sub(rf"\1{NBSP}", text)
 
 
 def spaces_inside(page: str) -> str:

@@ -49,3 +49,14 @@ class BalanceSection(Strictly):
     web_thickness_share: Annotated[
         float, number("Толщина щеки к диаметру цилиндра", "h/D", NONE, 0.03, 1)
     ] = 0.175
+
+    @property
+    def asked(self) -> set[str]:
+        """Keys that a person chose: given one by one, or other than the defaults.
+
+        A file that a program wrote out gives them all.
+        """
+        fields = type(self).model_fields
+        if self.model_fields_set < fields.keys():
+            return set(self.model_fields_set)
+        return {key for key, field in fields.items() if getattr(self, key) != field.default}

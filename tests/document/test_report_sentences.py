@@ -1,0 +1,251 @@
+"""Sentences of the report against the numbers that they speak of, on random engines too.
+
+What a sentence claims is judged here from the solver's arrays and from the printed tables,
+not by the functions that the chapters ask.
+"""
+
+import copy
+import html
+import re
+from collections import defaultdict
+
+import numpy as np
+import pytest
+from bare_pages import bare_page, plain
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from kshm import solve
+from reports.inputs.fields import to_mapping
+from reports.inputs.load import load_mapping
+from reports.inputs.to_si.engine import engine_and_cycle
+from tests import layouts
+from tests.conftest import sample, sample_names
+
+pytestmark = pytest.mark.usefixtures("nothing_is_drawn")
+
+
+def text_of(model):
+    return plain(bare_page(model))
+
+
+def engine(layout="basic", source="gots-diesel", **changes):
+    """A sample or a layout with keys «section__key» changed."""
+    raw = copy.deepcopy(to_mapping(sample(source)))
+    if source == "gots-diesel":
+        raw = layouts.MAKERS[layout](raw)
+    for path, value in changes.items():
+        section, _, key = path.partition("__")
+        if isinstance(value, float) and key.startswith("times_"):
+            raw[section][key.removeprefix("times_")] *= value
+        else:
+            raw.setdefault(section, {})[key] = value
+    return load_mapping(raw, source="t.toml").model
+
+
+def printed_rows(page, caption):
+    """Rows of the table with that caption, as texts of cells."""
+    found = re.search(re.escape(caption) + r"</div>.*?<tbody>(.*?)</tbody>", page, re.DOTALL)
+    if found is None:
+        return None
+    rows = re.findall(r"<tr.*?</tr>", found.group(1), re.DOTALL)
+    return [
+        [
+            html.unescape(re.sub("<[^>]+>", "", cell)).strip()
+            for cell in re.findall(r"<td.*?</td>", row, re.DOTALL)
+        ]
+        for row in rows
+    ]
+
+
+def numbers_in(rows):
+    text = " ".join(cell for row in rows for cell in row)
+    return [float(n.replace("−", "-").replace(",", ".").replace("\xa0", ""))
+            for n in re.findall(r"−?\d[\d\xa0]*(?:,\d+)?", text)]  # fmt: skip
+
+
+# --- pins ---
+
+
+def pins_differ(model):
+    """By the solver: whether the sorted loads of the crankpins are not the same."""
+    columns = solve(*engine_and_cycle(model)).columns
+    names = [name for name in columns if re.fullmatch("crankpin(_[0-9]+)?", name)]
+    loads = [np.sort(columns[name]["Rpin_MPa"][:-1]) for name in names]
+    return len(loads) > 1 and any(
+        not np.allclose(other, loads[0], atol=1e-6 * loads[0].max()) for other in loads[1:]
+    )
+
+
+@pytest.mark.parametrize("source", ["yamz-236", "yamz-238", "gots-diesel"])
+def test_pins_are_called_alike_only_if_they_are(source):
+    model = engine(source=source)
+    text = text_of(model)
+    assert ("нагружены по-разному" in text) == pins_differ(model)
+    assert ("такие же нагрузки" in text) == (
+        len(layouts_pins(model)) > 1 and not pins_differ(model)
+    )
+
+
+def layouts_pins(model):
+    return [
+        name
+        for name in solve(*engine_and_cycle(model)).columns
+        if re.fullmatch("crankpin(_[0-9]+)?", name)
+    ]
+
+
+def test_the_reason_that_is_given_is_the_one():
+    text = text_of(engine("v_apart"))
+    assert "через разные интервалы" not in text or "по-разному" in text
+
+
+# --- journals and torques ---
+
+
+def claimed(text, before):
+    """Numbers of journals after the words of a claim."""
+    found = re.search(before + r" ([0-9][0-9, и]*)", text)
+    assert found, before
+    return [int(n) for n in re.findall("[0-9]+", found.group(1))]
+
+
+def leaders(scalars, pattern, digits):
+    found = {}
+    for key, value in scalars.items():
+        match = re.fullmatch(pattern, key)
+        if match:
+            found[int(match.group(1))] = value
+    most = f"{max(found.values()):.{digits}f}"
+    return sorted(n for n, value in found.items() if f"{value:.{digits}f}" == most)
+
+
+def assert_claims_hold(model, page):
+    """Every conditional sentence of the loads against the solver."""
+    text = plain(page)
+    scalars = solve(*engine_and_cycle(model)).scalars
+    if "Наибольшая нагрузка приходится" in text:
+        said = claimed(text, "Наибольшая нагрузка приходится на шейк[уи]")
+        assert said == leaders(scalars, "Rmain([0-9]+)_max", 3)
+    main = claimed(text, "Наибольший размах среди коренных шеек — у ше(?:йки|ек)")
+    assert main == leaders(scalars, "dM_main([0-9]+)", 0)
+    if len(layouts_pins(model)) > 1:
+        assert ("нагружены по-разному" in text) == pins_differ(model)
+    order = re.search(r"чередуются через ([0-9]+)°", text)
+    offsets = sorted(np.mod(model.crankshaft.firing_offsets_deg, 180 * model.engine.strokes))
+    gaps = np.diff([*offsets, offsets[0] + 180 * model.engine.strokes])
+    if order:
+        assert np.allclose(gaps, float(order.group(1)), atol=0.5)
+    assert ("чередование неравномерное" in text) == (not np.allclose(gaps, gaps[0], atol=1e-2))
+    assert ("проверок" not in text) or "Из 7 проверок" not in text
+
+
+def assert_nothing_is_empty(page, drawn):
+    """No table of zeros only, no rows all alike, no curve of nothing."""
+    for caption, body in re.findall(
+        r'class="tcap"[^>]*>(.*?)</div>.*?<tbody>(.*?)</tbody>', page, re.DOTALL
+    ):
+        if re.search(r"Таблица.[А-Я]?П?4|Центробежные силы|Щёки|Точки|Фазы|Размеры колен", caption):
+            continue
+        rows = [[html.unescape(re.sub("<[^>]+>", "", cell)).strip()
+                 for cell in re.findall(r"<td.*?</td>", row, re.DOTALL)]
+                for row in re.findall(r"<tr.*?</tr>", body, re.DOTALL)]  # fmt: skip
+        values = [number for row in rows for number in numbers_in([row[1:]])]
+        assert not values or any(values), f"only zeros: {plain(caption)}"
+    for name, most in drawn:
+        assert most > 0, f"nothing is drawn: {name}"
+
+
+def assert_symbols_mean_one_number(page):
+    """A symbol with a value in running text has the same value wherever it stands."""
+    said = defaultdict(set)
+    for symbol, value in re.findall(r'<span class="nb">(.*?)\xa0=\xa0(.*?)</span>', page):
+        unit = re.sub(r"[−\d,\xa0·]+", "", html.unescape(re.sub("<[^>]+>", "", value)))
+        said[symbol, unit].add(value)
+    assert not {key: found for key, found in said.items() if len(found) > 1}
+
+
+@pytest.mark.parametrize("name", sample_names())
+def test_no_sentence_of_a_sample_is_denied(name):
+    model = engine(source=name)
+    drawn = []
+    page = bare_page(model, drawn)
+    assert_claims_hold(model, page)
+    assert_nothing_is_empty(page, drawn)
+    assert_symbols_mean_one_number(page)
+
+
+@settings(max_examples=10)
+@given(
+    layout=st.sampled_from(sorted(layouts.MAKERS)),
+    step=st.sampled_from([10.0, 15.0, 30.0]),
+    speed=st.floats(0.3, 1.2),
+    method=st.sampled_from(["textbook", "exact"]),
+)
+def test_no_sentence_of_a_random_engine_is_denied(layout, step, speed, method):
+    model = engine(
+        layout, calculation__step_deg=step, calculation__method=method,
+        regime__times_speed_rpm=speed,
+    )  # fmt: skip
+    drawn = []
+    page = bare_page(model, drawn)
+    assert_claims_hold(model, page)
+    assert_nothing_is_empty(page, drawn)
+    assert_symbols_mean_one_number(page)
+
+
+# --- what was wrong, by name ---
+
+
+def test_the_masses_outside_the_limits_are_named():
+    text = text_of(engine(source="yamz-236"))
+    assert "удельная масса колена 647,9 кг/м2 (100…400 кг/м²)" in text
+    assert "Вне пределов" not in text_of(engine(crankshaft__pin_mass_kg=0.8))
+
+
+def test_the_pressure_between_the_rows_is_told_beside_that_of_the_table():
+    assert "между строками таблицы оно достигает 7,27" in text_of(engine(source="cycle-petrol"))
+    assert "между строками таблицы" not in text_of(engine(source="yamz-236"))
+
+
+def test_data_that_the_cycle_does_not_take_stand_in_no_table():
+    text = bare_page(engine(source="cycle-petrol"))
+    rows = printed_rows(text, "Исходные данные для расчёта")
+    assert not [row for row in rows if row[0] == "Механический КПД"]
+
+
+def test_a_rod_is_modelled_only_if_its_mass_is_not_given():
+    assert "оценивает модель по диаметру" not in text_of(engine(source="yamz-236"))
+    assert "оценивает модель по диаметру" in text_of(engine())
+
+
+def test_shafts_are_told_only_if_asked_for():
+    assert "Балансирные валы" not in text_of(engine())
+    asked = text_of(engine(source="vw-1600", balance__first_shafts_share=0.5))
+    assert "Балансирные валы снимают доли" in asked
+
+
+def test_a_department_is_called_so_once():
+    for said in ("Двигатели", "Кафедра тепловых двигателей"):
+        text = text_of(engine(report__department=said))
+        assert "Кафедра: Кафедра" not in text and "Кафедра" in text
+
+
+def test_failed_checks_stand_in_a_sentence():
+    text = text_of(engine(source="gots-diesel"))
+    assert re.search(r"Проверок расчёта выполнено \d+ из \d+\.", text)
+    assert "Все проверки расчёта выполнены (7 из 7)." in text_of(engine(source="yamz-236"))
+
+
+def test_directions_are_from_the_axis_of_the_first_cylinder():
+    assert "вертикал" not in text_of(engine(source="yamz-236")).lower()
+
+
+def test_initials_do_not_leave_their_surname():
+    page = bare_page(engine())
+    assert "А.\xa0Н.\xa0Гоц" in page and not re.search(r"\b[А-Я]\. [А-Я]\.", page)
+
+
+def test_only_cited_sources_are_listed():
+    offset = text_of(engine("offset"))
+    assert "Сегаль" not in offset and "Сегаль, В. Ф." in text_of(engine())

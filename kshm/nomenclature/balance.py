@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from kshm.nomenclature.digits import Row
 
+_ORDERS = "порядки 1, 2, 4 и вращающиеся массы"
 _SIDES = (("F", "kN", "силы", "F", 3), ("L", "Nm", "момента", "M", 1))
 
 ROWS: tuple[Row, ...] = (
@@ -34,12 +35,12 @@ ROWS: tuple[Row, ...] = (
     *(row for key, unit, what, sign, fmt in _SIDES for row in (
         *((f"{key}{n}_{unit}", f"{sign}{n}", f"{sign}_{n}", unit, f"{n}-й порядок свободной {what}".replace("свободной мом", "свободного мом"), fmt) for n in (1, 2, 4)),
         *((f"{key}{n}_right_{unit}", f"{sign}{n} вправо", rf"{sign}_{{{n}\,x}}", unit, f"{n}-й порядок {what} вправо", fmt) for n in (1, 2, 4)),
-        (f"{key}right_{unit}", f"Σ{sign} вправо", rf"\Sigma {sign}_x", unit, f"сумма горизонтальных составляющих {what}", fmt),
+        (f"{key}right_{unit}", f"Σ{sign} вправо", rf"\Sigma {sign}_x", unit, f"горизонтальная составляющая {what}: {_ORDERS}", fmt),
         (f"{key}rot_up_{unit}", f"{sign}r верх", rf"{sign}_{{r\,y}}", unit, f"вертикальная составляющая {what} вращающихся масс", fmt),
         (f"{key}rot_right_{unit}", f"{sign}r вправо", rf"{sign}_{{r\,x}}", unit, f"горизонтальная составляющая {what} вращающихся масс", fmt),
-        (f"{key}up_{unit}", f"Σ{sign} верх", rf"\Sigma {sign}_y", unit, f"сумма вертикальных составляющих {what}", fmt),
-        (f"{key}up_after_{unit}", f"Σ{sign} верх ост", rf"\Sigma {sign}'_y", unit, f"вертикальная составляющая {what} после уравновешивания", fmt),
-        (f"{key}right_after_{unit}", f"Σ{sign} вправо ост", rf"\Sigma {sign}'_x", unit, f"горизонтальная составляющая {what} после уравновешивания", fmt),
+        (f"{key}up_{unit}", f"Σ{sign} верх", rf"\Sigma {sign}_y", unit, f"вертикальная составляющая {what}: {_ORDERS}", fmt),
+        (f"{key}up_after_{unit}", f"Σ{sign} верх ост", rf"\Sigma {sign}'_y", unit, f"вертикальная составляющая {what} после уравновешивания: {_ORDERS}", fmt),
+        (f"{key}right_after_{unit}", f"Σ{sign} вправо ост", rf"\Sigma {sign}'_x", unit, f"горизонтальная составляющая {what} после уравновешивания: {_ORDERS}", fmt),
         (f"{key}rot_bare", f"{sign}r без противовесов", rf"{sign}_{{r0}}", unit, f"величина {what} вращающихся масс без противовесов", fmt),
         (f"{key}rot", f"{sign}r", f"{sign}_r", unit, f"величина {what} вращающихся масс с противовесами", fmt),
         *(row for name, when in (("before", "до уравновешивания"), ("after", "после уравновешивания")) for row in (

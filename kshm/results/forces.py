@@ -12,6 +12,7 @@ from kshm.arrays import Array, Columns, Tables
 from kshm.chain.result import ChainArrays
 from kshm.engine.arrangement import pins, throws
 from kshm.mechanics.journals import in_throw_frame
+from kshm.mechanics.wear import ray_angles
 from kshm.nomenclature.quantity import ray_key
 from kshm.results.case import Case
 from kshm.results.layout import (
@@ -184,3 +185,12 @@ def direction(side: Array, along: Array) -> Array:
     """
     clean = np.where(np.abs(side) < 1e-3, 0.0, side)
     return np.arctan2(clean, along)
+
+
+def wear_sums(case: Case) -> Tables:
+    """Sums of the forces at the rays over the cycle, what the wear diagrams are drawn from."""
+    raw, index = case.raw, case.index
+    sums = {wear_table(n): raw.pin_wear[index, n] for n in range(len(shown_pins(case.engine)))}
+    sums |= {f"table_14_main_{k + 1}": row for k, row in enumerate(raw.journal_wear[index])}
+    angles = ray_angles(raw.batch.rays)
+    return {f"{name}_sums": {"ray_deg": angles, "ray_sum": row} for name, row in sums.items()}

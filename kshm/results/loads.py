@@ -67,7 +67,7 @@ def geometry_scalars(of: Engines) -> Numbers:
         "omega": of.omega,
         "c_m": kinematics.mean_velocity(of.stroke / 2, of.omega),
     }
-    central = of.first.geometry.is_central
+    central = all(engine.geometry.is_central for engine in of.engines)
     return scalars | (central_scalars(of.r, of.lam, of.omega) if central else {})
 
 

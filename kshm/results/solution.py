@@ -44,7 +44,7 @@ ALWAYS: tuple[Subject, ...] = (
 BY_ORDERS: tuple[Subject, ...] = (
     segal_results, neiman_results, balance_results, inertia_results, torque_order_results,
 )  # fmt: skip
-_GRIDS = ("phi_deg", "alpha_deg")
+_GRIDS = ("phi_deg", "alpha_deg", "ray_deg")
 
 
 def solve(engine: Engine, cycle: CycleRun | None = None) -> Solution:
@@ -102,6 +102,11 @@ class Solution:
         further = regimes.regime_tables(each.chain_tables for each in self.regimes)
         tables = self.chain_tables | self._subjects[0] | further
         return {table: in_units(columns) for table, columns in tables.items()}
+
+    @cached_property
+    def wear_sums(self) -> Tables:
+        """Sums by rays of every journal, ``table_14_sums`` and the like, in units of tables."""
+        return {table: in_units(columns) for table, columns in forces.wear_sums(self._case).items()}
 
     @cached_property
     def scalars(self) -> Scalars:

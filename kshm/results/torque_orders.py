@@ -13,10 +13,17 @@ from kshm.results.case import Case
 
 LAST_ORDER = 8.0
 SECOND = np.array([2.0])
+_NOTHING = 1e-6  # of a vector sum of unit vectors
+# Results for an engine whose torque has a second order.
+_OF_SHAFTS = frozenset(
+    ("n_zone1", "n_zone2", "zone", "psi_best_nominal", "h_shafts", "h_shafts_best", "P_shafts")
+)
 
 
 def torque_order_results(case: Case) -> Results:
     """Tangential forces, their orders and, of four-stroke engines, what shafts suppress; SI.
+
+    Shafts are for engines whose torque has a second order: four cylinders have, three not.
 
     Chudakov's zones compare with a cycle of compression alone, which ports do not give.
     """
@@ -28,7 +35,15 @@ def torque_order_results(case: Case) -> Results:
     if case.engine.strokes != 4:
         return tables, {}
     scalars = _coefficients(case, curves)
+    if not _has_second_order(case):
+        return tables, {key: value for key, value in scalars.items() if key not in _OF_SHAFTS}
     return tables | {"suppression": _suppression(case, scalars)}, scalars
+
+
+def _has_second_order(case: Case) -> bool:
+    """Whether the torque of the engine has a second order that shafts could take away."""
+    together = np.exp(-2j * np.array(case.engine.firing_offsets)).sum()
+    return bool(np.abs(together) > _NOTHING)
 
 
 def _tangential(case: Case) -> Columns:

@@ -48,5 +48,15 @@ def tell(loaded: Loaded) -> None:
     """What is odd about an input, and what it explains itself."""
     from reports.exports.build import remarks_of
 
-    for line in remarks_of(loaded):
+    for line in (*remarks_of(loaded), *notes_of(loaded)):
         click.echo(line, err=True)
+
+
+def notes_of(loaded: Loaded) -> tuple[str, ...]:
+    """What is not calculated for an input and why."""
+    geometry = loaded.model.geometry
+    if not getattr(geometry, "is_offset", False) and loaded.model.articulated is None:
+        return ()  # without loading the tables
+    from reports.tables.overview.left_out import left_out_note
+
+    return (left_out_note(loaded.model),)

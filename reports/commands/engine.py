@@ -16,6 +16,7 @@ from reports.commands.common import (
     dask_option,
     file_argument,
     load,
+    notes_of,
     path_option,
     tell,
     verbose_option,
@@ -101,6 +102,9 @@ def check(source: Path, as_json: bool, verbose: bool) -> int:
             "errors": [_as_dict(problem) for problem in problems],
             "warnings": [_as_dict(problem) for problem in warnings],
         }
+        notes = () if problems else notes_of(loaded)
+        if notes:
+            data["notes"] = list(notes)
         if accepted:
             data["accepted"] = [
                 _as_dict(item.problem) | {"reason": item.reason} for item in accepted
@@ -140,10 +144,12 @@ def solve(source: Path, folder: Path | None, target: str | None, verbose: bool) 
         for path, columns in tables.items():
             write_text(path, csv_text(columns))
     if target == "-":
-        click.echo(json_text(loaded.model, solution), nl=False)
+        click.echo(json_text(loaded.model, solution, notes_of(loaded)), nl=False)
     elif target is not None:
         with atomic_path(Path(target)) as temporary:
-            temporary.write_text(json_text(loaded.model, solution), encoding="utf-8")
+            temporary.write_text(
+                json_text(loaded.model, solution, notes_of(loaded)), encoding="utf-8"
+            )
     if folder is None and target is None:
         _print_summary(solution.scalars)
     return DONE

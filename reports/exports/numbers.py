@@ -6,25 +6,28 @@ import csv
 import io
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from kshm.nomenclature.quantity import quantity
+from kshm.nomenclature.quantity import quantity, ray_key
 from kshm.results.reference import reference_tables
 from kshm.results.solution import Solution
 from reports.inputs.fields import iter_fields
 from reports.inputs.sections.input_file import InputFile
 
+_BLANK = {ray_key(number) for number in range(1, 19)}  # a force that a ray does not count
 _FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
 
 
 def export_tables(solution: Solution) -> dict[str, dict[str, list[float | str | None]]]:
     """All tables by id, columns by key; cells that the table leaves blank are None."""
     tables: dict[str, dict[str, list[float | str | None]]] = {}
-    found: dict[str, Mapping[str, Any]] = {**solution.columns, **reference_tables()}
+    found: dict[str, Mapping[str, Any]] = {
+        **solution.columns, **solution.wear_sums, **reference_tables(),
+    }  # fmt: skip
     for name, columns in found.items():
         tables[name] = {
-            key: [_plain(value, blank_zero=key.startswith("ray_")) for value in values]
+            key: [_plain(value, blank_zero=key in _BLANK) for value in values]
             for key, values in columns.items()
         }
     return tables
@@ -63,8 +66,8 @@ def neutralised(text: str) -> str:
     return "'" + text if text.startswith(_FORMULA_STARTS) else text
 
 
-def json_text(model: InputFile, solution: Solution) -> str:
-    """Engine, summary and tables as JSON with symbols, units and titles."""
+def json_text(model: InputFile, solution: Solution, notes: Sequence[str] = ()) -> str:
+    """Engine, summary, tables as JSON with symbols, units, titles; notes where there are any."""
     engine = {field.name: field.value for field in iter_fields(model)}
     summary = {
         key: {
@@ -82,7 +85,9 @@ def json_text(model: InputFile, solution: Solution) -> str:
         }
         for name, columns in export_tables(solution).items()
     }
-    data = {"engine": engine, "summary": summary, "tables": tables}
+    data: dict[str, Any] = {"engine": engine, "summary": summary, "tables": tables}
+    if notes:
+        data["notes"] = list(notes)
     return json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1) + "\n"
 
 

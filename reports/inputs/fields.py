@@ -38,6 +38,7 @@ from reports.inputs.sections.input_file import InputFile, RegimeSection, RegimeV
 Path = tuple[str | int, ...]
 Value = str | int | float
 
+_OFFSETS = ("crank_offset_mm", "pin_offset_mm")
 POINT_KEYS = ("deg", "mpa")
 
 
@@ -201,6 +202,7 @@ def _field(path: Path, section: str, meta: Meta, value: Value, optional: bool) -
         minimum=meta.minimum,
         maximum=meta.maximum,
         choices=dict(meta.choices) if meta.choices is not None else None,
-        structural=meta.structural,
+        # An offset of zero is none: another value adds the tables of an offset.
+        structural=meta.structural or (path[-1] in _OFFSETS and value == 0),
         optional=optional,
     )

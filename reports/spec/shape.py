@@ -28,9 +28,7 @@ class Shape:
     def of(cls, model: InputFile) -> Shape:
         """Shape of a checked input."""
         given = model.geometry
-        offset = isinstance(given, GeometrySection) and (
-            given.crank_offset_mm is not None or given.pin_offset_mm is not None
-        )
+        offset = isinstance(given, GeometrySection) and given.is_offset
         shaft = model.crankshaft
         lists = (shaft.pin_diameters_mm, shaft.pin_lengths_mm)
         own_pins = any(len(set(sizes or ())) > 1 for sizes in lists)

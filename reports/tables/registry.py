@@ -33,6 +33,7 @@ from reports.tables.motion.reference import reference
 from reports.tables.motion.rod_masses import mass_stand_ins, masses
 from reports.tables.motion.segal import segal
 from reports.tables.motion.two_term import two_term
+from reports.tables.overview.left_out import left_out_note
 from reports.tables.overview.scheme import scheme
 from reports.tables.overview.summary import summary
 from reports.tables.overview.verdicts import accepted_checks
@@ -67,7 +68,8 @@ def build_model(model: InputFile, remarks: tuple[str, ...] = ()) -> Model:
     blocks = tuple(block for part in parts for block in part.blocks)
     charts = tuple(chart for part in parts for chart in part.charts)
     blocks = substituted(blocks, stand_ins(model))
-    remarks = (*remarks, *accepted_checks(model, blocks))
+    note = left_out_note(model)
+    remarks = (*remarks, *accepted_checks(model, blocks), *((note,) if note else ()))
     return Model(model, tuple(iter_fields(model)), blocks, charts, remarks)
 
 

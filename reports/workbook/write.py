@@ -24,6 +24,7 @@ from reports.spec.blocks import Grid, Model, ScalarTable, TableSpec
 from reports.spec.evaluation import Values, evaluate_model
 from reports.tables.gas.cycle_names import SHEET as CYCLE_SHEET
 from reports.tables.gas.cycle_speed import RANGE_SHEET
+from reports.tables.overview.left_out import left_out_note
 from reports.workbook import styles
 from reports.workbook.caches import finish
 from reports.workbook.charts import make_chart, ranges_of, size
@@ -205,6 +206,12 @@ def _contents(sheet: Worksheet, model: Model, legend: Sequence[tuple[str, str]])
         sheet.cell(row, 2, text).style = styles.TEXT
     sheet.column_dimensions["A"].width = 26
     sheet.column_dimensions["B"].width = 95
+    missing = left_out_note(model.input)
+    if missing:
+        cell = styles.as_text(sheet.cell(row + 2, 2, missing))
+        cell.style = styles.NOTE
+        cell.alignment = Alignment(wrap_text=True, vertical="top")
+        sheet.row_dimensions[row + 2].height = 15 * ceil(len(missing) / 90)
 
 
 def _charts(sheet: Worksheet, model: Model, writer: Writer) -> None:

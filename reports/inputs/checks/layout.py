@@ -188,7 +188,18 @@ def _offset(values: Values) -> Iterator[Finding]:
             f"{number_text(round(rod - radius, 6))} мм: механизм не провернется"
         )
         yield Finding(path, what, "уменьшите смещение или удлините шатун")
-    elif abs(offset) > USUAL_OFFSET * radius:
+        return
+    if offset and values.get("geometry", "stroke_mm") is not None:
+        way = math.sqrt((rod + radius) ** 2 - offset**2) - math.sqrt(
+            (rod - radius) ** 2 - offset**2
+        )
+        what = (
+            f"при смещении stroke_mm понимается как 2r, действительный ход поршня "
+            f"{number_text(round(way, 3))} мм"
+        )
+        hint = "задайте радиус кривошипа crank_radius_mm"
+        yield Finding(("geometry", "stroke_mm"), what, hint, warning=True)
+    if abs(offset) > USUAL_OFFSET * radius:
         what = f"относительное смещение k = e/r = {number_text(round(offset / radius, 4))} необычно"
         yield Finding(path, what, "обычно от 0.05 до 0.2", warning=True)
 

@@ -78,7 +78,10 @@ class Calculation(Strictly):
 
 
 class GeometrySection(Strictly):
-    """[geometry]: any two of r (or S = 2r), L and λ; three if they agree."""
+    """[geometry]: any two of r (or S = 2r), L and λ; three if they agree.
+
+    With an offset S is still twice the radius; the piston's way is a little longer.
+    """
 
     bore_mm: Annotated[float, number("Диаметр цилиндра", "D", MM, 10, 1500)]
     crank_radius_mm: Annotated[float | None, number("Радиус кривошипа", "r", MM, 5, 2000)] = None
@@ -102,6 +105,11 @@ class GeometrySection(Strictly):
             500,
         ),
     ] = None
+
+    @property
+    def is_offset(self) -> bool:
+        """Whether an offset other than zero is given."""
+        return bool(self.crank_offset_mm or self.pin_offset_mm)
 
 
 class DesignGeometrySection(Strictly):

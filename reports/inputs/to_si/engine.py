@@ -121,7 +121,7 @@ def _geometry(model: InputFile, run: CycleRun | None) -> Geometry:
     crank_offset = pin_offset = None
     if isinstance(given, GeometrySection):
         crank_offset, pin_offset = (
-            None if value is None else MM.to_si(value)
+            None if value is None or not given.is_offset else MM.to_si(value)
             for value in (given.crank_offset_mm, given.pin_offset_mm)
         )
         bore = MM.to_si(given.bore_mm)

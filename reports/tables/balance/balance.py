@@ -24,6 +24,7 @@ from reports.tables.balance.firing import MAX_CYLINDERS, firing_loads, firing_ta
 
 SHEET, ORDERS_SHEET = "Уравновешивание", "Порядки сил"
 LAST_ORDER = 8
+SUM = "порядки 1, 2, 4 и вращающиеся массы"
 
 
 def _amplitude() -> str:
@@ -138,7 +139,8 @@ def _turn(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
         note=(
             "Вверх — к головке цилиндров, вправо — куда ведёт вращение, если смотреть с носка. "
             "После уравновешивания: к валу добавлены противовесы для доли масс mj на каждом "
-            "колене, балансирные валы снимают выбранные доли сил 1-го и 2-го порядка."
+            "колене, балансирные валы снимают выбранные доли сил 1-го и 2-го порядка. Сложены "
+            "порядки 1, 2, 4 и вращающиеся массы; 6-й и 8-й — на листе «Порядки сил»."
         ),
     )
 
@@ -170,12 +172,12 @@ def _turn_columns(shape: Shape, key: str, unit: str, across: str) -> Iterator[Co
 
     turned_up = f"{full_re}*cos({phi}) - {full_im}*sin({phi})"
     turned_right = f"{full_re}*sin({phi}) + {full_im}*cos({phi})"
-    yield Column(f"{key}up_{unit}", f"{orders('')} + {key}rot_up_{unit}", "сумма")
+    yield Column(f"{key}up_{unit}", f"{orders('')} + {key}rot_up_{unit}", SUM)
     if shape.banks:
-        yield Column(f"{key}right_{unit}", f"{orders('_right')} + {key}rot_right_{unit}", "сумма")
+        yield Column(f"{key}right_{unit}", f"{orders('_right')} + {key}rot_right_{unit}", SUM)
         turned_right = f"{left('_right')} + {turned_right}"
-    yield Column(f"{key}up_after_{unit}", f"{left('')} + {turned_up}", "сумма")
-    yield Column(f"{key}right_after_{unit}", turned_right, "сумма")
+    yield Column(f"{key}up_after_{unit}", f"{left('')} + {turned_up}", SUM)
+    yield Column(f"{key}right_after_{unit}", turned_right, SUM)
 
 
 def numbers(shape: Shape) -> range:

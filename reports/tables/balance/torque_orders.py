@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from reports.inputs.sections.gas import TableGasSection
 from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
@@ -15,6 +17,7 @@ from reports.tables.gas.diagram import is_smooth, smooth_pressure
 SHEET, SHAFTS, RESULTS = "Гармоники момента", "Гашение 2-го порядка", "Чудаков, итоги"
 LAST_ORDER = 8.0
 _NOISE = "0.000000001"
+_CANCELLED = 1e-6  # of a vector sum of unit vectors
 
 
 def _tangential(model: InputFile, cycle: tuple[float, ...]) -> TableSpec:
@@ -104,6 +107,13 @@ def _orders(model: InputFile, cylinders: int) -> TableSpec:
     )
 
 
+def has_second_order(model: InputFile) -> bool:
+    """Whether the second orders of the cylinders' torques do not cancel each other."""
+    turns = [math.radians(2 * offset) for offset in model.crankshaft.firing_offsets_deg]
+    together = math.hypot(sum(map(math.cos, turns)), sum(map(math.sin, turns)))
+    return together > _CANCELLED
+
+
 def _coefficients(model: InputFile) -> ScalarTable:
     efficiency = "regime_mechanical_efficiency" if section_of(model) is None else "cyc_eta_m"
     unit = "m_j*r_crank*omega**2/F_piston"
@@ -126,6 +136,16 @@ def _coefficients(model: InputFile) -> ScalarTable:
         shafts = ()
     t_gas, t_cold = "t_gas2", "t_motored2"
     speeds = [f"sqrt(2*of_MPa({t})/d_j)*30/pi" for t in ("t_gas2_idle", t_gas)]
+    zones = f"""
+        n_zone1 = min({speeds[0]}, {speeds[1]}) | Чудаков, рис. 2
+        n_zone2 = max({speeds[0]}, {speeds[1]}) | Чудаков, рис. 2
+        zone = 1 if regime_speed_rpm <= n_zone1 else 2 if regime_speed_rpm <= n_zone2 else 3
+            | Чудаков, рис. 2
+        psi_best_nominal = max(0, 1 - {t_gas}/t_j2) | Чудаков (6), (7)
+        h_shafts = to_mm(balance_suppression*L_rod) | Чудаков (8)
+        h_shafts_best = to_mm(psi_best_nominal*L_rod) | Чудаков (8)
+    """
+    of_shafts = (*scalar_list(zones), *shafts) if has_second_order(model) else ()
     return ScalarTable(
         "torque_coefficients",
         "Гармонические коэффициенты 2-го порядка",
@@ -145,15 +165,8 @@ def _coefficients(model: InputFile) -> ScalarTable:
                 t_j2 = to_MPa(d_j*omega**2/2) | Чудаков (5)
                 {t_cold} = {size("t_motored_MPa")} | Чудаков (1)
                 t_gas2_idle = {t_cold} + ({t_gas} - {t_cold})*(1 - {efficiency}) | линейно по pi
-                n_zone1 = min({speeds[0]}, {speeds[1]}) | Чудаков, рис. 2
-                n_zone2 = max({speeds[0]}, {speeds[1]}) | Чудаков, рис. 2
-                zone = 1 if regime_speed_rpm <= n_zone1 else 2 if regime_speed_rpm <= n_zone2 else 3
-                    | Чудаков, рис. 2
-                psi_best_nominal = max(0, 1 - {t_gas}/t_j2) | Чудаков (6), (7)
-                h_shafts = to_mm(balance_suppression*L_rod) | Чудаков (8)
-                h_shafts_best = to_mm(psi_best_nominal*L_rod) | Чудаков (8)
             """),
-            *shafts,
+            *of_shafts,
         ),
         note=(
             "На холостом ходу коэффициент газов взят линейно по среднему индикаторному давлению "
@@ -194,16 +207,19 @@ def torque_orders(scope: Scope) -> Part:
     if not scope.shape.by_orders:
         return Part()
     blocks = (_tangential(model, scope.cycle), _orders(model, model.engine.cylinders))
-    if strokes == 4:
-        return Part((*blocks, _suppression(), _coefficients(model)), _charts(strokes))
-    return Part(blocks, _charts(strokes))
+    if strokes != 4:
+        return Part(blocks, _charts(strokes))
+    if not has_second_order(model):
+        return Part((*blocks, _coefficients(model)), _charts(strokes))
+    charts = (*_charts(strokes), *_shaft_charts())
+    return Part((*blocks, _suppression(), _coefficients(model)), charts)
 
 
 def _charts(strokes: int) -> tuple[ChartSpec, ...]:
-    """Tangential forces, amplitudes by order, suppression over speed."""
+    """Tangential forces, amplitudes by order."""
     curves = ("gas", "inertia", "motored") if strokes == 4 else ("gas", "inertia")
     o, k = "torque_orders", "порядок k"
-    general = (
+    return (
         over_phi("torque_tangential", SHEET, "Удельные тангенциальные силы", "t, МПа",
                  *columns_of("tangential", *(f"t_{curve}_MPa" for curve in curves))),
         line("torque_amplitudes", SHEET, "Амплитуды гармоник цилиндра по порядкам", (k, "t, МПа"),
@@ -215,7 +231,6 @@ def _charts(strokes: int) -> tuple[ChartSpec, ...]:
         line("torque_engine", SHEET, "Амплитуды гармоник момента двигателя", (k, "M, Н·м"),
              Series(f"{o}.order", f"{o}.M_engine_order_Nm")),
     )  # fmt: skip
-    return (*general, *_shaft_charts()) if strokes == 4 else general
 
 
 def _shaft_charts() -> tuple[ChartSpec, ...]:

@@ -1,0 +1,46 @@
+"""Tables that an engine with an offset or with articulated rods does without, and why."""
+
+from __future__ import annotations
+
+from reports.inputs.sections.input_file import GeometrySection, InputFile
+from reports.spec.blocks import Block
+from reports.spec.parts import PartOf, Scope, joined
+from reports.spec.shape import Shape
+from reports.tables.balance.balance import balance
+from reports.tables.balance.inertia import inertia
+from reports.tables.balance.torque_orders import torque_orders
+from reports.tables.motion.neiman import neiman
+from reports.tables.motion.segal import segal
+
+_OF_CHARTS = ("_sizes", "_box")  # what only keeps the axes of charts equal
+_BY_ORDERS: tuple[PartOf, ...] = (segal, neiman, balance, inertia, torque_orders)
+
+
+def left_out(model: InputFile) -> tuple[Block, ...]:
+    """Blocks that the same engine would have without offset and articulated rods."""
+    if Shape.of(model).by_orders:
+        return ()
+    geometry = model.geometry
+    if isinstance(geometry, GeometrySection):
+        none = {"crank_offset_mm": None, "pin_offset_mm": None}
+        geometry = geometry.model_copy(update=none)
+    plain = model.model_copy(update={"geometry": geometry, "articulated": None})
+    blocks = joined(Scope(plain), _BY_ORDERS).blocks
+    return tuple(block for block in blocks if not block.id.endswith(_OF_CHARTS))
+
+
+def left_out_note(model: InputFile) -> str:
+    """What is not calculated and why, in a line; empty where all is."""
+    blocks = left_out(model)
+    if not blocks:
+        return ""
+    shape = Shape.of(model)
+    reasons = [
+        *(["смещения оси цилиндра или пальца"] if shape.offset else []),
+        *(["прицепных шатунов"] if shape.articulated else []),
+    ]
+    tables = "; ".join(f"{block.id} «{block.title}»" for block in blocks)
+    return (
+        f"Не рассчитано из-за {' и '.join(reasons)} (ряды по порядкам описывают центральный "
+        f"механизм с одинаковыми шатунами): {tables}"
+    )

@@ -141,12 +141,12 @@ def _shaft(
     thick = [web for arms in old.arms for web in (arms.left_web_mm, arms.right_web_mm) if web]
     web = round(sum(thick) / len(thick) * factor, DIGITS) if thick else usual.web
     rule = "по правилу (n₁/n)^½"
-    notes = {
-        f"crankshaft.{key}": rule if kept[key] == found[key] else
-        f"{rule} вышло бы {number_text(found[key])}; принято {number_text(round(kept[key] / bore, 4))} D, "
-        "край обычного"
-        for key in _SINGLE
-    }  # fmt: skip
+    notes = {f"crankshaft.{key}": rule for key in _SINGLE}
+    for key in _SINGLE:
+        if kept[key] != found[key]:
+            share = number_text(round(kept[key] / bore, 4))
+            would = f"{rule} вышло бы {number_text(found[key])}"
+            notes[f"crankshaft.{key}"] = f"{would}; принято {share} D, край обычного"
     notes["crankshaft.main_lengths_mm"] = rule + (
         "" if len(old.main_lengths_mm) == throws + 1 else ", средняя длина прежних"
     )
@@ -162,7 +162,7 @@ def _bounded(key: str, size: float, bore: float) -> float:
         if band.key == f"crankshaft.{key}" and not band.low <= size / bore <= band.high:
             near = band.low if size < band.low * bore else band.high
             up = math.ceil if near == band.low else math.floor
-            return up(near * bore * 10**DIGITS) / 10**DIGITS
+            return float(up(near * bore * 10**DIGITS) / 10**DIGITS)
     return size
 
 

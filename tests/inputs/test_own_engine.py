@@ -211,7 +211,7 @@ def test_every_sample_has_an_alternative_that_passes(path):
 def test_journals_of_an_alternative_stay_within_their_bounds(cylinders, words):
     """Journals by ½ and the bore by ⅓: from 1 to 12 cylinders the rule alone leaves d = 0.275 D."""
     base = made(12) if cylinders == 1 else load_toml(samples_dir() / "two-stroke.toml")
-    text = file_text(alternative(base.model, cylinders, speed_rpm=2000))
+    text = file_text(alternative(base.model, cylinders, speed_rpm=2000 if cylinders == 1 else None))
     assert load_text(text, source="alt.toml").warnings == ()
     (line,) = (row for row in text.splitlines() if row.startswith("pin_diameter_mm ="))
     assert words in line

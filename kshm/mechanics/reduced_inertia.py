@@ -37,6 +37,7 @@ class Parts:
     rod_centre: float  # x_L, from the piston pin
     rod_inertia: float  # about the rod's own centre of mass
     piston_mass: float
+    offset: float = 0.0  # k = e/r of Gots 1.4
 
     @property
     def lam(self) -> float:
@@ -65,6 +66,7 @@ def parts_of(engine: Engine) -> Parts:
         rod_centre=centre,
         rod_inertia=inertia if known is None else known,
         piston_mass=piston,
+        offset=geometry.relative_offset,
     )
 
 
@@ -92,17 +94,27 @@ def cylinder_inertia(diameter: Array, length: Array) -> Array:
     return STEEL * np.pi * diameter**4 / 32 * length
 
 
-def centre_speed(phi: Array, lam: float, share: float) -> Array:
+def piston_speed(phi: Array, lam: float, k: float = 0.0) -> Array:
+    """Speed of the piston over ωR [-], elementwise, by the rod's direction; k is e/r."""
+    if k == 0:
+        return dimensionless.exact(phi, np.array(lam)).v
+    side = np.sin(phi) - k
+    speed: Array = np.sin(phi) + np.cos(phi) * side / np.sqrt(1 / lam**2 - side**2)
+    return speed
+
+
+def centre_speed(phi: Array, lam: float, share: float, k: float = 0.0) -> Array:
     """Speed of the rod's centre of mass over ωR [-], elementwise, Ilchenko (10).
 
     Args:
         phi: crank angle [rad].
         lam: λ [-].
         share: distance of the centre from the crankpin over the rod length, (L − x_L)/L.
+        k: relative offset e/r [-].
     """
     # Straight from the coordinates: the point divides pin and crankpin by ``share``.
     across = (1 - share) * np.cos(phi)
-    along = (1 - share) * np.sin(phi) + share * dimensionless.exact(phi, np.array(lam)).v
+    along = (1 - share) * np.sin(phi) + share * piston_speed(phi, lam, k)
     return np.hypot(along, across)
 
 
@@ -113,12 +125,12 @@ def centre_speed_approx(phi: Array, share: float) -> Array:
 
 def exact(phi: Array, parts: Parts) -> tuple[Array, Array]:
     """Reduced inertia of rod and piston 2T/ω² [kg·m²], elementwise, exact, Ilchenko (10)."""
-    lam = np.array(parts.lam)
+    lam, k = parts.lam, parts.offset
     share = 1 - parts.rod_centre / parts.rod_length
-    turning = np.cos(phi) / np.sqrt(1 / lam**2 - np.sin(phi) ** 2)  # ω_ш/ω
-    centre = parts.radius * centre_speed(phi, parts.lam, share)
+    turning = np.cos(phi) / np.sqrt(1 / lam**2 - (np.sin(phi) - k) ** 2)  # ω_ш/ω
+    centre = parts.radius * centre_speed(phi, lam, share, k)
     rod = parts.rod_mass * centre**2 + parts.rod_inertia * turning**2
-    piston = parts.piston_mass * (parts.radius * dimensionless.exact(phi, lam).v) ** 2
+    piston = parts.piston_mass * (parts.radius * piston_speed(phi, lam, k)) ** 2
     return rod, piston
 
 

@@ -46,8 +46,10 @@ def running_on_pin_statics(before: Array, tangential: Array, r: Array) -> Array:
     return before + r * tangential
 
 
-def gas_torque(p_gas: Array, phi: Array, r: Array, lam: Array, area: Array) -> Array:
-    """Torque of the gas on central mechanisms [N·m], elementwise, by virtual work, Gots (39).
+def gas_torque(
+    p_gas: Array, phi: Array, r: Array, lam: Array, area: Array, k: float = 0.0
+) -> Array:
+    """Torque of the gas [N·m], elementwise, by virtual work, Gots (39).
 
     Args:
         p_gas: gas pressure over the one under the piston [Pa].
@@ -55,7 +57,8 @@ def gas_torque(p_gas: Array, phi: Array, r: Array, lam: Array, area: Array) -> A
         r: crank radius [m].
         lam: λ [-].
         area: piston area [m²].
+        k: relative offset e/r [-].
     """
-    along = np.sqrt(1 / lam**2 - np.sin(phi) ** 2)
+    along = np.sqrt(1 / lam**2 - (np.sin(phi) - k) ** 2)
     torque: Array = p_gas * area * r * np.sin(phi) * (1 + np.cos(phi) / along)
-    return torque
+    return torque - p_gas * area * r * k * np.cos(phi) / along

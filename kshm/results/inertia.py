@@ -13,23 +13,30 @@ from kshm.results.case import Case
 
 
 def inertia_results(case: Case) -> Results:
-    """Table ``inertia`` over the cycle with its extremes, flywheel and rod model, SI units."""
+    """Table ``inertia`` over the cycle with its extremes, flywheel and rod model, SI units.
+
+    The approximation (19) is that of a central mechanism.
+    """
     engine, raw = case.engine, case.raw
     phi, parts, (r, lam, _) = raw.phi, reduced.parts_of(engine), case.sizes
+    central = parts.offset == 0
     rod, piston = reduced.exact(phi, parts)
-    exact, near = parts.crank_inertia + rod + piston, reduced.approximate(phi, parts)
+    exact = parts.crank_inertia + rod + piston
     whole = reduced.of_engine(phi, engine)
     local, p_gas = raw.local_phi[case.index], raw.p_gas[case.index]
-    gas = gas_torque(p_gas, local, r, lam, np.array(engine.geometry.piston_area)).sum(axis=0)
+    gas = gas_torque(p_gas, local, r, lam, np.array(engine.geometry.piston_area),
+                     parts.offset).sum(axis=0)  # fmt: skip
     work = speed_fluctuation.excess_work(raw.torque_sum[case.index], phi)
     gas_work = speed_fluctuation.excess_work(gas, phi)
     mean, delta = float(whole[:-1].mean()), engine.balancing.irregularity
     flywheel = speed_fluctuation.flywheel_inertia(work, mean, engine.omega, delta)
     omega = speed_fluctuation.speed(gas_work, whole + flywheel, engine.omega)
+    near = reduced.approximate(phi, parts)
     error = near / exact - 1
+    approximation = {"I_approx_kgm2": near, "I_error": error} if central else {}
     table = {
         "phi_deg": phi, "I_rod_kgm2": rod, "I_piston_kgm2": piston, "I_exact_kgm2": exact,
-        "I_approx_kgm2": near, "I_error": error, "I_engine_kgm2": whole,
+        **approximation, "I_engine_kgm2": whole,
         "Mgas_Nm": gas, "W_J": work, "Wgas_J": gas_work, "omega_1_s": omega,
     }  # fmt: skip
     scalars = {
@@ -40,7 +47,7 @@ def inertia_results(case: Case) -> Results:
         "piston_mass": parts.piston_mass,
         "I_counterweights": reduced.counterweight_inertia(engine),
         **_range("", exact),
-        "I_error_max": float(np.abs(error).max()),
+        **({"I_error_max": float(np.abs(error).max())} if central else {}),
         **_range("_engine", whole),
         "W_range": float(np.ptp(work)),
         "Wgas_range": float(np.ptp(gas_work)),

@@ -13,6 +13,7 @@ from kshm.chain.result import ChainArrays
 from kshm.chain.solve import solve_batch
 from kshm.chain.stack import structure
 from kshm.cycle.run import CycleRun
+from kshm.engine.arrangement import hung
 from kshm.engine.engine import Engine
 from kshm.mechanics.balance import is_balanced_by_orders
 from kshm.nomenclature.quantity import quantity
@@ -36,14 +37,13 @@ if TYPE_CHECKING:
 
 Subject = Callable[[Case], Results]
 
-# Subjects for engines of every layout, and those that follow the series of a central
-# mechanism and take no articulated rods.
+# Subjects for engines of every layout, those that follow the series of a central mechanism,
+# and those whose cylinders move alike: no articulated rods.
 ALWAYS: tuple[Subject, ...] = (
     reference_results, rod_bearing, pin_bending, continuous_results, two_term_errors,
 )  # fmt: skip
-BY_ORDERS: tuple[Subject, ...] = (
-    segal_results, neiman_results, balance_results, inertia_results, torque_order_results,
-)  # fmt: skip
+BY_ORDERS: tuple[Subject, ...] = (segal_results, neiman_results, balance_results)
+SAME_RODS: tuple[Subject, ...] = (inertia_results, torque_order_results)
 _GRIDS = ("phi_deg", "alpha_deg", "ray_deg")
 
 
@@ -160,8 +160,9 @@ class Solution:
     def _subjects(self) -> Results:
         """Tables and scalars beside the chain itself in SI units."""
         by_orders = BY_ORDERS if is_balanced_by_orders(self.engine) else ()
+        same_rods = () if hung(self.engine.arrangement) else SAME_RODS
         tables, scalars = Tables(), rod_mass_scalars(self.engine)
-        for subject in (*by_orders, *ALWAYS):
+        for subject in (*by_orders, *same_rods, *ALWAYS):
             more_tables, more_scalars = subject(self._case)
             tables |= more_tables
             scalars |= more_scalars

@@ -25,19 +25,25 @@ def torque_order_results(case: Case) -> Results:
 
     Shafts are for engines whose torque has a second order: four cylinders have, three not.
 
-    Chudakov's zones compare with a cycle of compression alone, which ports do not give.
+    Chudakov's zones compare with a cycle of compression alone, which ports do not give, and
+    with the inertia forces of a central mechanism.
     """
     curves = _tangential(case)
     tables = {
         "tangential": {"phi_deg": case.raw.phi, **curves},
         "torque_orders": _orders(case, curves),
     }
-    if case.engine.strokes != 4:
+    if not _has_motored(case):
         return tables, {}
     scalars = _coefficients(case, curves)
     if not _has_second_order(case):
         return tables, {key: value for key, value in scalars.items() if key not in _OF_SHAFTS}
     return tables | {"suppression": _suppression(case, scalars)}, scalars
+
+
+def _has_motored(case: Case) -> bool:
+    """Whether a cycle of compression alone is compared with."""
+    return case.engine.strokes == 4 and case.engine.geometry.offset == 0
 
 
 def _has_second_order(case: Case) -> bool:
@@ -49,10 +55,10 @@ def _has_second_order(case: Case) -> bool:
 def _tangential(case: Case) -> Columns:
     """Specific tangential force of cylinder 1 from gas, inertia and the motored cycle [Pa]."""
     raw, first = case.raw, (case.index, 0)
-    at = Position.at(raw.local_phi[first], case.sizes[1])
+    at = Position.at(raw.local_phi[first], *case.sizes[1:])
     shape = at.sin + at.sin_beta / at.cos_beta * at.cos
     curves = {"t_gas_MPa": raw.p_gas[first] * shape, "t_inertia_MPa": raw.p_inertia[first] * shape}
-    if case.engine.strokes == 4:
+    if _has_motored(case):
         curves["t_motored_MPa"] = (_motored(case) - case.engine.gas.p_ambient) * shape
     return curves
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -23,6 +24,9 @@ from reports.commands.common import (
 )
 from reports.commands.words import RussianCommand
 from reports.shared.errors import KshmError
+
+if TYPE_CHECKING:
+    from reports.inputs.load import Loaded
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)
@@ -76,6 +80,29 @@ def new(
     return DONE
 
 
+def _with_named(source: Path, loaded: Loaded) -> Loaded:
+    """An input whose report names files that are there: templates, engines to compare with."""
+    report = loaded.model.report
+    if report.templates:
+        from reports.exports.build import find_templates
+
+        find_templates(source, loaded)
+    if report.compare:
+        from reports.comparison.chapter import with_others
+
+        return with_others(source, loaded)
+    return loaded
+
+
+def _chapters(source: Path, loaded: Loaded) -> Sequence[Any]:
+    """Further chapters of an input's report."""
+    if not loaded.model.report.compare:
+        return ()
+    from reports.comparison.chapter import comparison_chapters
+
+    return comparison_chapters(source, loaded)
+
+
 @click.command(cls=RussianCommand, context_settings=HELP)
 @file_argument()
 @click.option("--json", "as_json", is_flag=True, help="Результат проверки в JSON.")
@@ -84,12 +111,11 @@ def check(source: Path, as_json: bool, verbose: bool) -> int:
     """Проверить исходные данные, ничего не считая."""
     import json
 
-    from reports.exports.build import find_templates, load_input
+    from reports.exports.build import load_input
     from reports.shared.errors import InputError
 
     try:
-        loaded = load_input(source)
-        find_templates(source, loaded)
+        loaded = _with_named(source, load_input(source))
         problems: tuple[Any, ...] = ()
         warnings, accepted = loaded.warnings, loaded.accepted
     except InputError as error:
@@ -188,15 +214,12 @@ def build(
     sources: tuple[Path, ...], folder: Path, only: str | None, dask: str | None, verbose: bool
 ) -> int:  # fmt: skip
     """Сделать книгу Excel и отчёт PDF по файлу .toml или по изменённой книге."""
-    from reports.exports.build import find_templates
     from reports.exports.builds import build_each
 
-    inputs = [(source, load(source)) for source in sources]
-    for source, loaded in inputs:
-        find_templates(source, loaded)
+    inputs = [(source, _with_named(source, load(source))) for source in sources]
     code = LOOK if any(loaded.warnings for _, loaded in inputs) else DONE
     kinds = (only,) if only else ("xlsx", "pdf")
-    for built in build_each(inputs, folder, kinds, dask):  # type: ignore[arg-type]
+    for built in build_each(inputs, folder, kinds, dask, _chapters):  # type: ignore[arg-type]
         for path in built.files:
             click.echo(f"{path}")
         for line in built.accepted:

@@ -127,7 +127,9 @@ def read_engines(sources: Sequence[Path], models: Sequence[InputFile]) -> tuple[
     return tuple(found)
 
 
-def check_sources(sources: Sequence[Path], target: Path) -> None:
+def check_sources(
+    sources: Sequence[Path], target: Path | None = None, where: str = "compare"
+) -> None:
     """Refuse what cannot be compared, before anything is read.
 
     Raises:
@@ -136,13 +138,13 @@ def check_sources(sources: Sequence[Path], target: Path) -> None:
     count = len(sources)
     if not FEWEST <= count <= MOST:
         hint = f"сравниваются от {FEWEST} до {MOST} двигателей"
-        raise InputError(Problem("compare", f"файлов {count}", hint))
+        raise InputError(Problem(where, f"файлов {count}", hint))
     places = [source.resolve() for source in sources]
     for number, place in enumerate(places):
         if place in places[:number]:
             what, hint = "файл назван дважды", "уберите повтор или сделайте копию с правками"
             raise InputError(Problem(str(sources[number]), what, hint))
-    if target.resolve() in places:
+    if target is not None and target.resolve() in places:
         what = "результат записался бы поверх исходного файла"
         raise InputError(Problem(str(target), what, "укажите другое имя ключом -o"))
 

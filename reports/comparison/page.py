@@ -10,7 +10,16 @@ from markupsafe import Markup
 
 from kshm.nomenclature.quantity import quantity
 from reports.comparison.conclusions import conclusions
-from reports.comparison.engines import X_TITLE, Chart, Compared, Row, charts, differences, results
+from reports.comparison.engines import (
+    X_TITLE,
+    Chart,
+    Compared,
+    Difference,
+    Row,
+    charts,
+    differences,
+    results,
+)
 from reports.document.page.blocks import Column, DocumentInfo, TableBlock, table_block
 from reports.document.page.numbering import Label, Numbering
 from reports.document.text.texts import spaces_inside
@@ -43,15 +52,16 @@ def comparison_page(engines: Sequence[Compared], *, media: Literal["print", "scr
     labels = [engine.label for engine in engines]
     rows = results(engines)
     data = numbering.section(1, "Чем отличаются исходные данные")
-    data_table = place("table", "data", _data(engines), "Исходные данные, которые не совпадают")
+    data_table = place("table", "data", data_block(labels, differences(engines)),
+                       "Исходные данные, которые не совпадают")  # fmt: skip
     shown = numbering.section(1, "Результаты")
     tables = []
     for group in dict.fromkeys(row.group for row in rows):
-        block = _group(labels, [row for row in rows if row.group == group])
+        block = results_block(labels, [row for row in rows if row.group == group])
         tables.append(place("table", group, block, group))
     drawn = numbering.section(1, "Диаграммы")
     figures = [
-        place("figure", chart.key, Markup(_figure(labels, chart)), chart.title)
+        place("figure", chart.key, Markup(curves_of(labels, chart)), chart.title)
         for chart in charts(engines)
     ]
     ending = numbering.section(1, "Выводы")
@@ -84,14 +94,15 @@ def comparison_pdf(engines: Sequence[Compared]) -> bytes:
     return render_pdf(comparison_page(engines, media="print"))
 
 
-def _data(engines: Sequence[Compared]) -> TableBlock:
+def data_block(labels: Sequence[str], found: Sequence[Difference]) -> TableBlock:
+    """What differs in the data."""
     columns = [Column("Величина", 2.6, text=True)]
-    columns += [Column(engine.label, 1.3, text=True) for engine in engines]
+    columns += [Column(label, 1.3, text=True) for label in labels]
     rows = [
         [_titled(row.title, row.unit), *(Markup("{}").format(_text(v)) for v in row.values)]
-        for row in differences(engines)
+        for row in found
     ]
-    return table_block(columns, rows or [["различий нет", *[""] * len(engines)]])
+    return table_block(columns, rows or [["различий нет", *[""] * len(labels)]])
 
 
 def _text(value: str | int | float | None) -> str:
@@ -100,7 +111,7 @@ def _text(value: str | int | float | None) -> str:
     return value if isinstance(value, str) else comma(f"{value:g}")
 
 
-def _group(labels: Sequence[str], rows: Sequence[Row]) -> TableBlock:
+def results_block(labels: Sequence[str], rows: Sequence[Row]) -> TableBlock:
     """Values side by side, with the difference from the first engine below each."""
     columns = [Column("Величина", 2.6, text=True), *(Column(label, 1.2) for label in labels)]
     cells = []
@@ -123,7 +134,7 @@ def _titled(title: str, unit: str) -> str:
     return f"{title}, {unit}" if unit else title
 
 
-def _figure(labels: Sequence[str], chart: Chart) -> str:
+def curves_of(labels: Sequence[str], chart: Chart) -> str:
     """Curves of all engines; a shorter cycle is repeated to the length of the longest."""
     import numpy as np
 

@@ -7,7 +7,7 @@ numbers known (see :mod:`reports.document.page.writer`).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -43,6 +43,7 @@ from reports.spec.evaluation import Values
 if TYPE_CHECKING:
     from jinja2 import Environment
 
+Further = Sequence[Callable[[Chapter], Markup]]
 CHAPTERS: tuple[Callable[[Chapter], Markup], ...] = (
     opening.introduction,
     opening.input_data,
@@ -64,8 +65,12 @@ CHAPTERS: tuple[Callable[[Chapter], Markup], ...] = (
 )
 
 
-def report_pdf(model: Model, values: Values, *, source: Path, workbook: bytes) -> bytes:
+def report_pdf(
+    model: Model, values: Values, *, source: Path, workbook: bytes, further: Further = ()
+) -> bytes:
     """The report as PDF with the input file and the workbook attached.
+
+    ``further`` are chapters from rooms above this one, before the checks.
 
     Raises:
         SystemPartMissing: pango is not on this machine.
@@ -80,7 +85,7 @@ def report_pdf(model: Model, values: Values, *, source: Path, workbook: bytes) -
         AttachedFile(f"{source.stem}.xlsx", workbook, "Книга Excel с формулами", "Supplement"),
     ]
     folder = overrides.find(model.input.report.templates, source.parent)
-    page = report_page(model, values, media="print", templates=folder)
+    page = report_page(model, values, media="print", templates=folder, further=further)
     try:
         return render_pdf(page, attachments=files)
     except RenderError as error:
@@ -89,14 +94,14 @@ def report_pdf(model: Model, values: Values, *, source: Path, workbook: bytes) -
         raise overrides.style_error(folder, str(error)) from error
 
 
-def report_html(model: Model, values: Values, *, source: Path) -> str:
+def report_html(model: Model, values: Values, *, source: Path, further: Further = ()) -> str:
     """The report as one self-contained page for the screen and for printing.
 
     Raises:
         InputError: the folder of own templates is missing or one of them is wrong.
     """
     folder = overrides.find(model.input.report.templates, source.parent)
-    return report_page(model, values, media="screen", templates=folder)
+    return report_page(model, values, media="screen", templates=folder, further=further)
 
 
 def report_page(
@@ -105,6 +110,7 @@ def report_page(
     *,
     media: Literal["print", "screen"],
     templates: Path | None = None,
+    further: Further = (),
 ) -> str:
     """The whole page as HTML with style sheet, formulas and figures inside.
 
@@ -113,17 +119,18 @@ def report_page(
         values: their values.
         media: "print" for WeasyPrint, "screen" for a browser.
         templates: a folder of own templates, see :mod:`reports.document.page.overrides`.
+        further: chapters from rooms above this one.
     """
     with overrides.told(templates):
-        return _page(model, values, environment(templates, media=media))
+        return _page(model, values, environment(templates, media=media), further)
 
 
-def _page(model: Model, values: Values, env: Environment) -> str:
+def _page(model: Model, values: Values, env: Environment, further: Further) -> str:
     terms = Terms(model, values)
     draft = Draft()
-    _write(Chapter(terms, Writer(env, draft), env))
+    _write(Chapter(terms, Writer(env, draft), env), further)
     chapter = Chapter(terms, Writer(env, draft.numbering()), env)
-    body = _write(chapter)
+    body = _write(chapter, further)
     chapter.writer.n.check()
     store.store().save()
     return texts.unbroken_initials(texts.spaces_inside(_whole(env, chapter, body)))
@@ -148,8 +155,10 @@ def _whole(env: Environment, chapter: Chapter, body: Markup) -> str:
     )
 
 
-def _write(chapter: Chapter) -> Markup:
-    return Markup("\n").join(write(chapter) for write in CHAPTERS)
+def _write(chapter: Chapter, further: Further) -> Markup:
+    before = CHAPTERS.index(closing.checks)
+    chapters = (*CHAPTERS[:before], *further, *CHAPTERS[before:])
+    return Markup("\n").join(write(chapter) for write in chapters)
 
 
 def _info(model: InputFile) -> DocumentInfo:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from reports.inputs.load import Loaded, load_toml
 from reports.shared.errors import SystemPartMissing
@@ -12,6 +13,7 @@ from reports.shared.files import make_dir, write_bytes, write_text
 from reports.shared.progress import Progress
 
 Kind = Literal["xlsx", "pdf", "html"]
+Further = Sequence[Callable[[Any], Any]]  # chapters, see `reports.document.report`
 KINDS: tuple[Kind, ...] = ("xlsx", "pdf", "html")
 
 
@@ -50,8 +52,10 @@ def find_templates(path: Path, loaded: Loaded) -> None:
         overrides.find(loaded.model.report.templates, path.parent)
 
 
-def build(path: Path, loaded: Loaded, folder: Path, kinds: tuple[Kind, ...]) -> Built:
-    """Write the workbook and the report of a checked input.
+def build(
+    path: Path, loaded: Loaded, folder: Path, kinds: tuple[Kind, ...], further: Further = ()
+) -> Built:
+    """Write the workbook and the report of a checked input, with further chapters.
 
     Without pango the report is written as print-ready HTML instead of a PDF.
 
@@ -86,7 +90,7 @@ def build(path: Path, loaded: Loaded, folder: Path, kinds: tuple[Kind, ...]) -> 
 
             progress.step("Отчёт PDF")
             try:
-                pdf = report_pdf(model, values, source=path, workbook=book)
+                pdf = report_pdf(model, values, source=path, workbook=book, further=further)
                 target = folder / f"{path.stem}.pdf"
                 write_bytes(target, pdf)
                 files.append(target)
@@ -97,7 +101,7 @@ def build(path: Path, loaded: Loaded, folder: Path, kinds: tuple[Kind, ...]) -> 
 
             progress.step("Отчёт HTML")
             target = folder / f"{path.stem}.html"
-            write_text(target, report_html(model, values, source=path))
+            write_text(target, report_html(model, values, source=path, further=further))
             files.append(target)
     failed = tuple(check.line() for check in checks if not check.reason)
     accepted = tuple(check.line() for check in checks if check.reason)

@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import tempfile
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from reports.exports.build import KINDS, Built, Kind, build
+from reports.exports.build import KINDS, Built, Further, Kind, build
 from reports.inputs.load import Loaded
 from reports.shared.errors import KshmError, SystemPartMissing
 from reports.shared.files import make_dir, refuse_own, write_bytes
 from reports.shared.ordered import in_order
 
 Input = tuple[Path, Loaded]
+Chapters = Callable[[Path, Loaded], Further]
+
+
+def _no_chapters(_path: Path, _loaded: Loaded) -> Further:
+    return ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +30,7 @@ class Order:
     data: bytes
     loaded: Loaded
     kinds: tuple[Kind, ...]
+    further: Further = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,9 +44,12 @@ class Delivery:
 
 
 def build_each(
-    inputs: Sequence[Input], folder: Path, kinds: tuple[Kind, ...], dask: str | None = None
-) -> Iterator[Built]:
+    inputs: Sequence[Input], folder: Path, kinds: tuple[Kind, ...], dask: str | None = None,
+    chapters: Chapters = _no_chapters,
+) -> Iterator[Built]:  # fmt: skip
     """What was built for each input, in order; the files are the same wherever it is done.
+
+    ``chapters`` gives the further chapters of an input's report.
 
     Raises:
         KshmError: results would fall on each other or on an input, or the cluster fails.
@@ -50,10 +59,10 @@ def build_each(
     refuse_own(results, [file for path, loaded in inputs for file in (path, *loaded.beside)])
     if dask is None:
         for path, loaded in inputs:
-            yield build(path, loaded, folder, kinds)
+            yield build(path, loaded, folder, kinds, chapters(path, loaded))
         return
     make_dir(folder)
-    orders = (_order(path, loaded, kinds) for path, loaded in inputs)
+    orders = (_order(path, loaded, kinds, chapters(path, loaded)) for path, loaded in inputs)
     for delivery in in_order(delivered, orders, dask=dask):
         for name, data in delivery.files:
             write_bytes(folder / name, data)
@@ -70,18 +79,18 @@ def delivered(order: Order) -> Delivery:
     with tempfile.TemporaryDirectory(prefix="kshm-build-") as name:
         source, out = Path(name) / order.name, Path(name) / "out"
         source.write_bytes(order.data)
-        built = build(source, order.loaded, out, order.kinds)
+        built = build(source, order.loaded, out, order.kinds, order.further)
         files = [(path.name, path.read_bytes()) for path in built.files]
         lacks = built.missing
         missing = (lacks.part, lacks.command, lacks.purpose) if lacks else None
         return Delivery(files, missing, built.failed, built.accepted)
 
 
-def _order(path: Path, loaded: Loaded, kinds: tuple[Kind, ...]) -> Order:
+def _order(path: Path, loaded: Loaded, kinds: tuple[Kind, ...], further: Further) -> Order:
     if loaded.model.report.templates:
         msg = f"{path}: свои шаблоны (report.templates) есть только на этом компьютере; без --dask"
         raise KshmError(msg)
-    return Order(path.name, path.read_bytes(), loaded, kinds)
+    return Order(path.name, path.read_bytes(), loaded, kinds, further)
 
 
 def _refuse_overlap(paths: Sequence[Path]) -> None:

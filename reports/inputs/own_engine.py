@@ -354,10 +354,11 @@ def _arms(layout: str, sizes: ShaftSizes, number: int) -> dict[str, float]:
 def timing_notes(timing: Phases) -> Notes:
     """What the file says of the phases."""
     bank = "угол из обычных для такого числа цилиндров; впишите свой вместе с фазами"
+    memory = "по памяти: сверьте со своим"
     return {
         "crankshaft.bank_angle_deg": bank,
-        "crankshaft.firing_order": "обычный для такого двигателя",
-        "crankshaft.firing_offsets_deg": f"порядок работы {timing.sequence}",
+        "crankshaft.firing_order": f"обычный для такого двигателя, {memory}",
+        "crankshaft.firing_offsets_deg": f"порядок работы {timing.sequence}, {memory}",
         "crankshaft.throw_angles_deg": "следуют из порядка работы",
         "crankshaft.arms.l1_mm": "половина коренной шейки",
         "crankshaft.arms.l2_mm": "половина шейки под шатуном",

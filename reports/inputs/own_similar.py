@@ -2,13 +2,16 @@
 
 The same total displacement: D, S, L × (n₁/n)^⅓ and journals × (n₁/n)^½, n₁ the cylinders of
 the given engine and n those of the new one.  A wanted power changes the displacement: then
-all sizes take its cube root besides.
+all sizes take its cube root besides.  As journals shrink faster than the bore, many cylinders
+from few would get a shaft that no engine has: d/D stays within its usual bounds, and says so.
 """
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
+from reports.inputs.checks.bands import BANDS
 from reports.inputs.fields import to_mapping
 from reports.inputs.own_engine import (
     Made,
@@ -71,11 +74,13 @@ def alternative(
         "cylinders": cylinders,
         "layout": layout,
     }
+    offsets = {key: round(data["geometry"][key] * linear, DIGITS)
+               for key in _OFFSETS if key in data["geometry"]}  # fmt: skip
+    # The piston of an engine with an offset goes further than 2r.
+    way = {"crank_radius_mm": stroke / 2} if any(offsets.values()) else {"stroke_mm": stroke}
     data["geometry"] = {
-        "bore_mm": bore, "stroke_mm": stroke, "rod_length_mm": rod,
-        "compression_ratio": data["geometry"]["compression_ratio"],
-        **{key: round(data["geometry"][key] * linear, DIGITS)
-           for key in _OFFSETS if key in data["geometry"]},
+        "bore_mm": bore, **way, "rod_length_mm": rod,
+        "compression_ratio": data["geometry"]["compression_ratio"], **offsets,
     }  # fmt: skip
     faster = 1.0 if speed_rpm is None else speed_rpm / model.regime.speed_rpm
     if speed_rpm is not None:
@@ -96,7 +101,7 @@ def alternative(
     more = f" × {number_text(round(displacement, 6))}^⅓" if displacement != 1 else ""
     notes = {
         **{f"geometry.{key}": f"{linear_words}{more}"
-           for key in ("bore_mm", "stroke_mm", "rod_length_mm")},
+           for key in ("bore_mm", *way, "rod_length_mm")},
         **found.notes, **sizes.notes, **timing_notes(timing),
     }  # fmt: skip
     head = [
@@ -128,10 +133,8 @@ def _shaft(
     """Journals of the old shaft by the rule; lists of other length by their mean."""
     old = model.crankshaft
     usual = usual_shaft(layout, kind, bore, throws)
-    pin, length, main = (
-        round(_one(old, key) * factor, DIGITS)
-        for key in ("pin_diameter_mm", "pin_length_mm", "main_diameter_mm")
-    )
+    found = {key: round(_one(old, key) * factor, DIGITS) for key in _SINGLE}
+    kept = {key: _bounded(key, found[key], bore) for key in _SINGLE}
     before = old.main_lengths_mm
     if len(before) != throws + 1:
         before = (sum(before) / len(before),) * (throws + 1)
@@ -139,12 +142,28 @@ def _shaft(
     web = round(sum(thick) / len(thick) * factor, DIGITS) if thick else usual.web
     rule = "по правилу (n₁/n)^½"
     notes = {f"crankshaft.{key}": rule for key in _SINGLE}
+    for key in _SINGLE:
+        if kept[key] != found[key]:
+            share = number_text(round(kept[key] / bore, 4))
+            would = f"{rule} вышло бы {number_text(found[key])}"
+            notes[f"crankshaft.{key}"] = f"{would}; принято {share} D, край обычного"
     notes["crankshaft.main_lengths_mm"] = rule + (
         "" if len(old.main_lengths_mm) == throws + 1 else ", средняя длина прежних"
     )
     notes["crankshaft.arms.left_web_mm"] = rule if thick else "обычная"
     lengths = tuple(round(value * factor, DIGITS) for value in before)
+    pin, length, main = (kept[key] for key in _SINGLE)
     return ShaftSizes(pin, length, main, lengths, web, notes)
+
+
+def _bounded(key: str, size: float, bore: float) -> float:
+    """A size of a journal within the usual bounds over the bore [mm], if it has any."""
+    for band in BANDS:
+        if band.key == f"crankshaft.{key}" and not band.low <= size / bore <= band.high:
+            near = band.low if size < band.low * bore else band.high
+            up = math.ceil if near == band.low else math.floor
+            return float(up(near * bore * 10**DIGITS) / 10**DIGITS)
+    return size
 
 
 def _one(shaft_data: Any, key: str) -> float:  # noqa: ANN401

@@ -15,13 +15,14 @@ from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.shared.errors import InputError, Problem
+from reports.shared.russian import capital
 from reports.studies.plan import Axis, Plan, span_text
 from reports.studies.points import Chunk
 from reports.studies.quantities import Wanted, described, format_of
 from reports.workbook.caches import finish
 from reports.workbook.charts import Curve, curves_chart
 from reports.workbook.layout import Cell, column_range
-from reports.workbook.sheets import CacheValues, capital
+from reports.workbook.sheets import CacheValues
 from reports.workbook.styles import FONT
 
 MOST_ROWS = 100_000

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
+from reports.shared.russian import capital
 from reports.validation import shown
 from reports.validation.book import Book, Checked
 from reports.validation.checks import Check
@@ -58,7 +59,7 @@ def _lines(book: Book) -> Iterator[str]:
 
 def _section(checked: Checked) -> Iterator[str]:
     table = checked.table
-    place = table.place[:1].upper() + table.place[1:]
+    place = capital(table.place)
     yield ""
     yield f"### {place}: {table.title}"
     yield ""

@@ -11,6 +11,7 @@ from markupsafe import Markup
 from reports.document.page.blocks import Column, DocumentInfo, TableBlock, table_block
 from reports.document.page.numbering import Heading, Label, Numbering
 from reports.document.text.texts import rich, spaces_inside
+from reports.shared.russian import capital
 from reports.validation import shown
 from reports.validation.book import WORDS, Book, Checked, Counts
 from reports.validation.checks import Check, Verdict
@@ -72,7 +73,7 @@ class _Setter:
 
     def section(self, checked: Checked) -> Section:
         table = checked.table
-        place = table.place[:1].upper() + table.place[1:]
+        place = capital(table.place)
         heading = self.numbering.section(2, f"{place}: {table.title}")
         tables = []
         if checked.is_text:

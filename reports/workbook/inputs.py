@@ -6,6 +6,7 @@ from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.inputs.fields import Field
+from reports.shared.russian import capital
 from reports.spec.blocks import Model
 from reports.workbook import styles
 from reports.workbook.layout import (
@@ -82,7 +83,7 @@ def _entry(sheet: Worksheet, item: Field, row: int, column: int, header_row: int
     if number == 1:
         unit = f", {item.unit}" if item.unit else ""
         title = item.title.replace(" 1:", ":").split(":")[-1].strip()
-        header = sheet.cell(header_row, column, title[:1].upper() + title[1:] + unit)
+        header = sheet.cell(header_row, column, capital(title) + unit)
         header.style = styles.HEADER
 
 

@@ -11,6 +11,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from kshm.nomenclature.quantity import Quantity
 from reports.formula.excel import compile_formula
+from reports.shared.russian import capital
 from reports.spec.blocks import Grid, Scalar, ScalarTable, TableSpec
 from reports.spec.evaluation import Values
 from reports.workbook import styles
@@ -195,11 +196,6 @@ def _raise_row(sheet: Worksheet, row: int, title: str, source: str = "") -> None
     lines = max(ceil(len(title) / _TITLE_CHARS), ceil(len(source) / _SOURCE_CHARS))
     if lines > 1:
         sheet.row_dimensions[row].height = _LINE_HEIGHT * lines
-
-
-def capital(text: str) -> str:
-    """First letter capital, the rest as it is."""
-    return text[:1].upper() + text[1:]
 
 
 def note(quantity: Quantity, source: str) -> Comment:

@@ -163,14 +163,17 @@ def test_the_similarity_rules_hold_to_the_last_digit(sample, cylinders):
     geometry = engine_and_cycle(old)[0].geometry
     third = (old.engine.cylinders / cylinders) ** (1 / 3)
     half = (old.engine.cylinders / cylinders) ** (1 / 2)
+    # The way of a piston with an offset is longer than 2r: the radius is told.
+    way, turns = ("crank_radius_mm", 1) if sample == "ecoboost-10" else ("stroke_mm", 2)
     for key, size in (
-        ("bore_mm", geometry.bore), ("stroke_mm", 2 * geometry.crank_radius),
+        ("bore_mm", geometry.bore), (way, turns * geometry.crank_radius),
         ("rod_length_mm", geometry.rod_length),
     ):  # fmt: skip
         assert data["geometry"][key] == pytest.approx(size * 1000 * third, abs=6e-7)
     for key in ("pin_diameter_mm", "pin_length_mm", "main_diameter_mm"):
         before = getattr(old.crankshaft, key)
-        assert data["crankshaft"][key] == pytest.approx(before * half, abs=6e-7)
+        least = 0 if key == "pin_length_mm" else 0.3 * data["geometry"]["bore_mm"]
+        assert data["crankshaft"][key] == pytest.approx(max(before * half, least), abs=1.1e-6)
     new = load_text(file_text(alternative(old, cylinders)), source="alt.toml").model
     other = engine_and_cycle(new)[0].geometry
     swept = [
@@ -202,6 +205,34 @@ def test_every_sample_has_an_alternative_that_passes(path):
     assert {problem.what for problem in found.warnings} <= {problem.what for problem in bare}
     masses = file_text(alternative(old.model, 6))
     assert "таблица 4: от " in masses
+
+
+@pytest.mark.parametrize(("cylinders", "words"), [(1, "принято 0.95 D"), (12, "принято 0.3 D")])
+def test_journals_of_an_alternative_stay_within_their_bounds(cylinders, words):
+    """Journals by ½ and the bore by ⅓: from 1 to 12 cylinders the rule alone leaves d = 0.275 D."""
+    base = made(12) if cylinders == 1 else load_toml(samples_dir() / "two-stroke.toml")
+    text = file_text(alternative(base.model, cylinders, speed_rpm=2000 if cylinders == 1 else None))
+    assert load_text(text, source="alt.toml").warnings == ()
+    (line,) = (row for row in text.splitlines() if row.startswith("pin_diameter_mm ="))
+    assert words in line
+
+
+@pytest.mark.parametrize(
+    ("layout", "strokes", "kind"), list(itertools.product(LAYOUTS, (4, 2), KINDS))
+)
+def test_every_alternative_of_made_engines_passes(layout, strokes, kind):
+    for first, last in ((2, 12), (12, 2), (4, 6), (6, 1 if layout == "inline" else 8)):
+        model = made(first, layout, strokes, kind).model
+        found = load_text(file_text(alternative(model, last)), source="alt.toml")
+        assert found.warnings == (), (first, last)
+
+
+def test_what_is_known_by_memory_says_so():
+    for case in ALL:
+        text = file_text(own_engine(case[0], layout=case[1], strokes=case[2], kind=case[3]))
+        keys = ("firing_order =", "firing_offsets_deg =")
+        (line,) = (row for row in text.splitlines() if row.startswith(keys))
+        assert "по памяти: сверьте со своим" in line
 
 
 def test_an_alternative_of_an_impossible_layout_is_refused():

@@ -14,7 +14,6 @@ from tools.manual.markdown import escaped, table
 from tools.manual.words import FILE_KEYS, INPUT_HEAD, SECTION_NOTES
 
 _HEADER = ("Ключ", "Что это", "Обозначение", "Единица", "Допустимо", "Если не задано")
-_PAIR = 2
 
 
 def input_page() -> str:

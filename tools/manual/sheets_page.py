@@ -10,6 +10,7 @@ from reports.formula.excel import compile_formula
 from reports.inputs.load import load_toml
 from reports.inputs.template import list_samples
 from reports.shared.resources import samples_dir
+from reports.shared.russian import capital
 from reports.spec.blocks import Block, Grid, Model, ScalarTable, TableSpec
 from reports.tables.registry import build_model
 from reports.workbook.layout import FIRST_ROW, Layout, RowReferences, at_row
@@ -121,7 +122,7 @@ def _row(title: str, symbol: str, unit: str, source: str, formula: str) -> tuple
     if len(formula) > _LONGEST:
         formula = formula[:_LONGEST] + "…"
     return (
-        escaped(title[:1].upper() + title[1:]),
+        escaped(capital(title)),
         escaped(symbol) or "—",
         escaped(unit) or "—",
         escaped(source) or "—",

@@ -68,6 +68,9 @@ def _mend(tokens: list[Token], page: Path, pages: Mapping[Path, str]) -> None:
             target = child.attrGet("href")
             if target is not None:
                 child.attrs = {"href": found} if (found := _href(str(target), page, pages)) else {}
+            source = str(child.attrGet("src") or "")
+            if "/images/" in source:  # of the README, which stands above the pages
+                child.attrSet("src", "images/" + Path(source).name)
 
 
 def _href(link: str, page: Path, pages: Mapping[Path, str]) -> str:

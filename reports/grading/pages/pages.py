@@ -14,8 +14,7 @@ from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.verdicts import WORDS
 from reports.grading.pages.chart import line_chart
 from reports.shared.resources import templates_dir
-from reports.shared.russian import short, written
-from reports.workbook.sheets import capital
+from reports.shared.russian import capital, short, written
 
 
 @lru_cache(maxsize=1)

@@ -32,6 +32,7 @@ class Report(Strictly):
     title: Annotated[str, text("Тема работы")] = (
         "Расчет кинематики и динамики кривошипно-шатунного механизма"
     )
+    compare: Annotated[str, text("Сравнить с двигателями: файлы через точку с запятой")] = ""
     discipline: Annotated[str, text("Дисциплина")] = ""
     issued: Annotated[str, text("Дата выдачи задания")] = ""
     due: Annotated[str, text("Срок сдачи работы")] = ""

@@ -10,14 +10,18 @@ from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape
 from reports.tables.loads.cylinder import cylinder_table_id
 
+_BOTH = ", точно и приближённо"
 SHEET, RESULTS, MODEL_SHEET = "Момент инерции", "Маховик", "Модель шатуна"
 _STEEL = "7800"
 
 
-def _moving(phi: str) -> tuple[str, str]:
-    """Reduced inertia of rod and piston at an angle, Ilchenko (6)-(10), (13), (15)."""
-    beta = f"asin(lam*sin({phi}))"
-    cos_b = f"sqrt(1 - lam**2*sin({phi})**2)"
+def _moving(shape: Shape, phi: str) -> tuple[str, str]:
+    """Reduced inertia of rod and piston at an angle, Ilchenko (6)-(10), (13), (15).
+
+    With an offset the same by the angle β of Gots (17).
+    """
+    side = f"(sin({phi}) - k_offset)" if shape.offset else f"sin({phi})"
+    beta, cos_b = f"asin(lam*{side})", f"sqrt(1 - lam**2*{side}**2)"
     share = "((L_rod - rod_x)/L_rod)"
     centre = (
         f"({share}**2*cos({phi})**2/{cos_b}**2 + 1"
@@ -25,12 +29,14 @@ def _moving(phi: str) -> tuple[str, str]:
     )
     rod = f"rod_mass*r_crank**2*{centre} + I_rod*(lam*cos({phi})/{cos_b})**2"
     piston = f"piston_mass*r_crank**2*sin({phi})**2*(1 + lam*cos({phi})/{cos_b})**2"
+    if shape.offset:
+        piston = f"piston_mass*r_crank**2*(sin({phi}) + cos({phi})*lam*{side}/{cos_b})**2"
     return rod, piston
 
 
 def _table(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
     phi, numbers = "rad(phi_deg)", range(1, shape.cylinders + 1)
-    rod, piston = _moving(phi)
+    rod, piston = _moving(shape, phi)
     share = "((L_rod - rod_x)*cos(rad(phi_deg))**2 - L_rod)"
     near = (
         f"I_crank + lam**2*(rod_mass*{share}**2 + I_rod*cos({phi})**2)"
@@ -44,7 +50,7 @@ def _table(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
     moving = [
         Column(
             f"moving{i}",
-            " + ".join(_moving(f"rad(phi_deg - firing_offset_{i}_deg)")),
+            " + ".join(_moving(shape, f"rad(phi_deg - firing_offset_{i}_deg)")),
             "вспомогательный",
             helper=True,
         )
@@ -72,9 +78,15 @@ def _table(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
                 I_rod_kgm2 = {rod} | Ильченко (5)–(10)
                 I_piston_kgm2 = {piston} | Ильченко (13), (15)
                 I_exact_kgm2 = I_crank + I_rod_kgm2 + I_piston_kgm2 | Ильченко (18)
+            """),
+            *(
+                ()
+                if shape.offset
+                else column_list(f"""
                 I_approx_kgm2 = {near} | Ильченко (19), последняя масса — поршня
                 I_error = (I_approx_kgm2/I_exact_kgm2 - 1)*100 | погрешность приближения
-            """),
+            """)
+            ),
             Column(
                 "I_engine_kgm2",
                 f"{_cranks(shape)} + I_counterweights + "
@@ -184,7 +196,7 @@ def _rod_inertia(model: InputFile) -> Scalar:
     return Scalar("I_rod", text, "две замещающие массы")
 
 
-def _results() -> ScalarTable:
+def _results(shape: Shape) -> ScalarTable:
     t = "inertia"
 
     def extremes(name: str, column: str, delta: str, source: str) -> list[Scalar]:
@@ -204,9 +216,13 @@ def _results() -> ScalarTable:
         RESULTS,
         (
             *extremes("I", "I_exact_kgm2", "delta_I", "один цилиндр"),
-            *scalar_list(f"""
+            *(
+                ()
+                if shape.offset
+                else scalar_list(f"""
                 I_error_max = max(col_max({t}.I_error), -col_min({t}.I_error)) | приближение
-            """),
+            """)
+            ),
             *extremes("I_engine", "I_engine_kgm2", "delta_I_engine", "двигатель без маховика"),
             *scalar_list(f"""
                 W_range = col_max({t}.W_J) - col_min({t}.W_J) | избыточная работа
@@ -275,20 +291,21 @@ def _rod_model() -> ScalarTable:
 
 
 def inertia(scope: Scope) -> Part:
-    """Sheets of the reduced inertia."""
-    if not scope.shape.by_orders:
+    """Sheets of the reduced inertia; articulated rods would need sums of their own."""
+    shape = scope.shape
+    if shape.articulated:
         return Part()
-    table = _table(scope.shape, scope.cycle)
-    return Part((table, _results(), _parts(scope.input, scope.shape), _rod_model()), _charts())
+    table, parts = _table(shape, scope.cycle), _parts(scope.input, shape)
+    return Part((table, _results(shape), parts, _rod_model()), _charts(shape))
 
 
-def _charts() -> tuple[ChartSpec, ...]:
-    """Reduced inertia exact and approximate, excess work, speed."""
+def _charts(shape: Shape) -> tuple[ChartSpec, ...]:
+    """Reduced inertia exact and, without an offset, approximate; excess work, speed."""
+    ways = ("I_exact_kgm2",) if shape.offset else ("I_exact_kgm2", "I_approx_kgm2")
     t, one = "inertia", "Приведённый момент инерции одного цилиндра"
     return (
         over_phi("inertia_one", SHEET, one, "I, кг·м²",
-                 *columns_of(t, "I_exact_kgm2", "I_approx_kgm2"),
-                 caption=f"{one}, точно и приближённо"),
+                 *columns_of(t, *ways), caption=one + ("" if shape.offset else _BOTH)),
         over_phi("inertia_engine", SHEET, "Приведённый момент инерции двигателя без маховика",
                  "I, кг·м²", f"{t}.I_engine_kgm2"),
         over_phi("inertia_work", SHEET, "Избыточная работа крутящего момента", "A, Дж",

@@ -20,7 +20,7 @@ _NOISE = "0.000000001"
 _CANCELLED = 1e-6  # of a vector sum of unit vectors
 
 
-def _tangential(model: InputFile, cycle: tuple[float, ...]) -> TableSpec:
+def _tangential(model: InputFile, cycle: tuple[float, ...], *, motored: bool) -> TableSpec:
     shape = "sin(rad(phi_deg) + P4_1.beta_rad)/cos(P4_1.beta_rad)"
     if isinstance(model.gas, TableGasSection):
         cold = (
@@ -50,7 +50,7 @@ def _tangential(model: InputFile, cycle: tuple[float, ...]) -> TableSpec:
                 t_gas_MPa = P4_1.Pg_MPa*{shape} | Чудаков, tг = Mг/(FпR)
                 t_inertia_MPa = P4_1.Pj_MPa*{shape} | Чудаков (3)
             """),
-            *(compressed if model.engine.strokes == 4 else ()),
+            *(compressed if motored else ()),
         ),
         cycle,
     )
@@ -203,21 +203,26 @@ def _suppression() -> TableSpec:
 
 def torque_orders(scope: Scope) -> Part:
     """Sheets of the torque's harmonics and of the balance shafts."""
-    model, strokes = scope.input, scope.shape.strokes
-    if not scope.shape.by_orders:
+    model, shape = scope.input, scope.shape
+    if shape.articulated:  # a hung cylinder's torque has a shape of its own
         return Part()
-    blocks = (_tangential(model, scope.cycle), _orders(model, model.engine.cylinders))
-    if strokes != 4:
-        return Part(blocks, _charts(strokes))
+    # The compression alone and Chudakov's coefficients are those of a central mechanism.
+    motored = shape.strokes == 4 and not shape.offset
+    blocks = (
+        _tangential(model, scope.cycle, motored=motored),
+        _orders(model, model.engine.cylinders),
+    )
+    if not motored:
+        return Part(blocks, _charts(motored=motored))
     if not has_second_order(model):
-        return Part((*blocks, _coefficients(model)), _charts(strokes))
-    charts = (*_charts(strokes), *_shaft_charts())
+        return Part((*blocks, _coefficients(model)), _charts(motored=motored))
+    charts = (*_charts(motored=motored), *_shaft_charts())
     return Part((*blocks, _suppression(), _coefficients(model)), charts)
 
 
-def _charts(strokes: int) -> tuple[ChartSpec, ...]:
+def _charts(*, motored: bool) -> tuple[ChartSpec, ...]:
     """Tangential forces, amplitudes by order."""
-    curves = ("gas", "inertia", "motored") if strokes == 4 else ("gas", "inertia")
+    curves = ("gas", "inertia", "motored") if motored else ("gas", "inertia")
     o, k = "torque_orders", "порядок k"
     return (
         over_phi("torque_tangential", SHEET, "Удельные тангенциальные силы", "t, МПа",

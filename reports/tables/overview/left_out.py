@@ -17,7 +17,7 @@ _BY_ORDERS: tuple[PartOf, ...] = (segal, neiman, balance, inertia, torque_orders
 
 
 def left_out(model: InputFile) -> tuple[Block, ...]:
-    """Blocks that the same engine would have without offset and articulated rods."""
+    """Blocks that the same engine would have without offset and articulated rods, but has not."""
     if Shape.of(model).by_orders:
         return ()
     geometry = model.geometry
@@ -26,7 +26,9 @@ def left_out(model: InputFile) -> tuple[Block, ...]:
         geometry = geometry.model_copy(update=none)
     plain = model.model_copy(update={"geometry": geometry, "articulated": None})
     blocks = joined(Scope(plain), _BY_ORDERS).blocks
-    return tuple(block for block in blocks if not block.id.endswith(_OF_CHARTS))
+    known = {block.id for block in joined(Scope(model), _BY_ORDERS).blocks}
+    known |= {block.id for block in blocks if block.id.endswith(_OF_CHARTS)}
+    return tuple(block for block in blocks if block.id not in known)
 
 
 def left_out_note(model: InputFile) -> str:

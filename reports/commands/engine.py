@@ -176,21 +176,27 @@ def _print_summary(scalars: dict[str, float]) -> None:
 @click.option(
     "--only", type=click.Choice(["xlsx", "pdf", "html"]), help="Только один вид документа."
 )
+@path_option("--style", metavar="FILE", help="Оформление отчёта: файл кафедры .toml.")
 @dask_option
 @verbose_option
 def build(
-    sources: tuple[Path, ...], folder: Path, only: str | None, dask: str | None, verbose: bool
-) -> int:  # fmt: skip
+    sources: tuple[Path, ...],
+    folder: Path,
+    only: str | None,
+    style: Path | None,
+    dask: str | None,
+    verbose: bool,
+) -> int:
     """Сделать книгу Excel и отчёт PDF по файлу .toml или по изменённой книге."""
     from reports.exports.build import find_templates
     from reports.exports.builds import build_each
 
     inputs = [(source, load(source)) for source in sources]
     for source, loaded in inputs:
-        find_templates(source, loaded)
+        find_templates(source, loaded, style)
     code = LOOK if any(loaded.warnings for _, loaded in inputs) else DONE
     kinds = (only,) if only else ("xlsx", "pdf")
-    for built in build_each(inputs, folder, kinds, dask):  # type: ignore[arg-type]
+    for built in build_each(inputs, folder, kinds, dask, style):  # type: ignore[arg-type]
         for path in built.files:
             click.echo(f"{path}")
         for line in built.accepted:

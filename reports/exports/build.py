@@ -38,19 +38,30 @@ def load_input(path: Path) -> Loaded:
     return load_toml(path)
 
 
-def find_templates(path: Path, loaded: Loaded) -> None:
-    """Look for the folder of own templates that an input names.
+def find_templates(path: Path, loaded: Loaded, style: Path | None = None) -> None:
+    """Look for the folder of own templates and the style file that an input or a person names.
 
     Raises:
-        InputError: there is none, or nothing in it replaces a template.
+        InputError: there is none, nothing in the folder replaces a template, or the style file
+            has a fault.
     """
+    if style is not None or loaded.model.report.style:
+        from reports.document.report import find_style
+
+        find_style(loaded.model.report, path.parent, style)
     if loaded.model.report.templates:
         from reports.document.page import overrides
 
         overrides.find(loaded.model.report.templates, path.parent)
 
 
-def build(path: Path, loaded: Loaded, folder: Path, kinds: tuple[Kind, ...]) -> Built:
+def build(
+    path: Path,
+    loaded: Loaded,
+    folder: Path,
+    kinds: tuple[Kind, ...],
+    style: Path | None = None,
+) -> Built:
     """Write the workbook and the report of a checked input.
 
     Without pango the report is written as print-ready HTML instead of a PDF.
@@ -86,7 +97,7 @@ def build(path: Path, loaded: Loaded, folder: Path, kinds: tuple[Kind, ...]) -> 
 
             progress.step("Отчёт PDF")
             try:
-                pdf = report_pdf(model, values, source=path, workbook=book)
+                pdf = report_pdf(model, values, source=path, workbook=book, style=style)
                 target = folder / f"{path.stem}.pdf"
                 write_bytes(target, pdf)
                 files.append(target)
@@ -97,9 +108,13 @@ def build(path: Path, loaded: Loaded, folder: Path, kinds: tuple[Kind, ...]) -> 
 
             progress.step("Отчёт HTML")
             target = folder / f"{path.stem}.html"
-            write_text(target, report_html(model, values, source=path))
+            write_text(target, report_html(model, values, source=path, style=style))
             files.append(target)
     failed = tuple(check.line() for check in checks if not check.reason)
+    if "pdf" in kinds or wants_html:
+        from reports.document.report import remarks_on
+
+        failed += remarks_on(loaded.model, path.parent, style)
     accepted = tuple(check.line() for check in checks if check.reason)
     return Built(tuple(files), missing, failed, accepted)
 

@@ -38,7 +38,11 @@ class Delivery:
 
 
 def build_each(
-    inputs: Sequence[Input], folder: Path, kinds: tuple[Kind, ...], dask: str | None = None
+    inputs: Sequence[Input],
+    folder: Path,
+    kinds: tuple[Kind, ...],
+    dask: str | None = None,
+    style: Path | None = None,
 ) -> Iterator[Built]:
     """What was built for each input, in order; the files are the same wherever it is done.
 
@@ -50,10 +54,10 @@ def build_each(
     refuse_own(results, [file for path, loaded in inputs for file in (path, *loaded.beside)])
     if dask is None:
         for path, loaded in inputs:
-            yield build(path, loaded, folder, kinds)
+            yield build(path, loaded, folder, kinds, style)
         return
     make_dir(folder)
-    orders = (_order(path, loaded, kinds) for path, loaded in inputs)
+    orders = (_order(path, loaded, kinds, style) for path, loaded in inputs)
     for delivery in in_order(delivered, orders, dask=dask):
         for name, data in delivery.files:
             write_bytes(folder / name, data)
@@ -77,7 +81,10 @@ def delivered(order: Order) -> Delivery:
         return Delivery(files, missing, built.failed, built.accepted)
 
 
-def _order(path: Path, loaded: Loaded, kinds: tuple[Kind, ...]) -> Order:
+def _order(path: Path, loaded: Loaded, kinds: tuple[Kind, ...], style: Path | None) -> Order:
+    if style is not None or loaded.model.report.style:
+        msg = f"{path}: файл оформления (report.style) есть только на этом компьютере; без --dask"
+        raise KshmError(msg)
     if loaded.model.report.templates:
         msg = f"{path}: свои шаблоны (report.templates) есть только на этом компьютере; без --dask"
         raise KshmError(msg)

@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reports.document.page.blocks import Column, symbol_head, table_block
-from reports.document.page.fitting import fitted, least_width
+from reports.document.page.fitting import fitted, least_width, type_pt
 from reports.document.page.style import PX, USUAL, Margins, Style
 from reports.document.text.fonts import text_em
 from reports.shared.russian import fixed
@@ -53,3 +53,12 @@ def test_a_table_that_fits_is_left_as_it_is():
 @pytest.mark.parametrize("columns", [3, 13])
 def test_least_width_grows_with_the_columns(columns):
     assert least_width(block(columns, 1e4)) > columns * 50
+
+
+def test_type_of_a_cell_shrinks_then_wraps_then_gives_up():
+    cell = (22.0, 4.6, 8.5)
+    assert type_pt("Иванов И. И.", *cell) == 8.5
+    assert 5 < type_pt("Преображенский А. А.", *cell) < 7
+    assert type_pt("Преображенский-Вознесенский А. А.", *cell) == 0
+    assert type_pt("слово " * 12, 48.0, 14.0, 8.5) == 8.5
+    assert 0 < type_pt("слово " * 40, 48.0, 14.0, 8.5) < 8.5

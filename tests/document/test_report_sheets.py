@@ -26,13 +26,14 @@ approver = "Утверждаев У. У."
 issued = "01.09.2026"
 due = "20.12.2026"
 frame = "eskd"
-detail = "short"
+detail = "course"
 """
 
 
 @pytest.fixture(scope="module")
 def framed(tmp_path_factory):
-    t = terms_of(ONE.replace("step_deg = 30", "step_deg = 15").replace("[report]\n", DATA))
+    text = ONE.replace("step_deg = 30", "step_deg = 10").replace('detail = "full"\n', "")
+    t = terms_of(text.replace("[report]\n", DATA))
     result = render(report_page(t.model, t.values, media="print"))
     assert result.warnings == ()
     folder = tmp_path_factory.mktemp("framed")
@@ -87,13 +88,13 @@ def test_without_frame_there_is_no_title_block(tmp_path):
     assert "докум" not in text
 
 
-def test_short_report_prints_every_third_row(framed):
+def test_a_course_report_prints_rows_at_thirty_degrees(framed):
     text = "\n".join(framed[1])
-    start = re.search(r"Таблица\sП4\.1\s—", text).start()
-    end = re.search(r"Таблица\sП4\.2\s—", text).start()
+    start = re.search(r"Таблица\sБ\.2\s—", text).start()
+    end = re.search(r"Таблица\sБ\.3\s—", text).start()
     rows = [int(a) for a in re.findall(r"(?m)^\s*(\d+)\s+−?\d+,\d+", text[start:end])]
-    assert rows == [*range(0, 720, 45), 720]
-    assert "каждая третья строка" in flat(text).replace("\u2010 ", "")
+    assert rows == [*range(0, 721, 30)]
+    assert "в отчёте они напечатаны через 30°" in flat(text).replace("\u2010 ", "")
 
 
 def own(folder: Path, name: str, text: str) -> str:

@@ -125,3 +125,31 @@ def _part(block: TableBlock, places: Sequence[int]) -> TableBlock:
         tuple(tuple(row[i] for i in places) for row in block.rows),
         tuple(i + 1 for i in places),
     )
+
+
+_LEAST_PT = 5.0
+_LINE = 1.12  # of the type
+
+
+def type_pt(text: str, width_mm: float, height_mm: float, usual_pt: float) -> float:
+    """The type in which a text fits into a cell: smaller in one line, else in several lines.
+
+    Returns:
+        Size [pt]; 0 if the text does not fit even in the smallest type.
+    """
+    words = [text_em(word) for word in text.split()]
+    whole = sum(words) + 0.25 * max(0, len(words) - 1)
+    count = round((usual_pt - _LEAST_PT) / 0.5) + 1
+    sizes = [usual_pt - 0.5 * step for step in range(count)]
+    if height_mm < 2 * usual_pt * _LINE * 25.4 / 72:  # a cell of one line
+        sizes.sort(key=lambda size: whole * size / 72 * 25.4 > width_mm)
+    for size in sizes:
+        room = width_mm / 25.4 * 72 / size
+        lines, used = 1, 0.0
+        for word in words:
+            if used and used + 0.25 + word > room:
+                lines, used = lines + 1, 0.0
+            used += word + (0.25 if used else 0.0)
+        if max(words, default=0.0) <= room and lines * size * _LINE <= height_mm / 25.4 * 72:
+            return size
+    return 0.0

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from reports.inputs.messages import explain
+from reports.inputs.messages import explain, toml_error
 from reports.shared.errors import InputError, Problem
 
 KEY = "report.style"
@@ -47,9 +47,7 @@ class Style(_Strict):
     line_spacing: Annotated[float, Field(ge=1, le=2)] = 1.5
     indent_cm: Annotated[float, Field(ge=0, le=2)] = 1.25
     numbering: Literal["through", "chapter"] = "through"
-    page_number: Literal["bottom-center", "bottom-right", "top-center", "top-right"] = (
-        "bottom-center"
-    )
+    page_number: Literal["bottom-center", "bottom-right"] = "bottom-center"
     frame: Literal["none", "eskd"] | None = None
     chapters_on_new_page: bool = True
     table_step_deg: Annotated[int, Field(ge=1, le=90)] = 30
@@ -102,7 +100,8 @@ def read(path: Path) -> Style:
     try:
         return Style.model_validate(tomllib.loads(text))
     except tomllib.TOMLDecodeError as error:
-        raise InputError(Problem(str(path), f"не TOML: {error}", HINT)) from error
+        what, hint = toml_error(error, text)
+        raise InputError(Problem(str(path), what, hint or HINT)) from error
     except ValidationError as error:
         raise InputError(Problem(str(path), _said(error), HINT)) from error
 

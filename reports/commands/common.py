@@ -52,6 +52,15 @@ def tell(loaded: Loaded) -> None:
         click.echo(line, err=True)
 
 
+def tell_grid(loaded: Loaded) -> None:
+    """Results for which the step of the tables is too coarse."""
+    from reports.inputs.checks.grid import grid_remark
+
+    line = grid_remark(loaded.model)
+    if line:
+        click.echo(line, err=True)
+
+
 def notes_of(loaded: Loaded) -> tuple[str, ...]:
     """What is not calculated for an input and why."""
     geometry = loaded.model.geometry

@@ -20,6 +20,7 @@ from reports.commands.common import (
     notes_of,
     path_option,
     tell,
+    tell_grid,
     verbose_option,
 )
 from reports.commands.words import RussianCommand
@@ -139,6 +140,7 @@ def check(source: Path, as_json: bool, verbose: bool) -> int:
         return BAD if problems else (LOOK if warnings else DONE)
     tell(loaded)
     click.echo(f"{source}: ошибок нет")
+    tell_grid(loaded)
     return LOOK if warnings else DONE
 
 
@@ -178,6 +180,8 @@ def solve(source: Path, folder: Path | None, target: str | None, verbose: bool) 
             )
     if folder is None and target is None:
         _print_summary(solution.scalars)
+    if target != "-":
+        tell_grid(loaded)
     return DONE
 
 
@@ -208,18 +212,27 @@ def _print_summary(scalars: dict[str, float]) -> None:
 @click.option(
     "--only", type=click.Choice(["xlsx", "pdf", "html"]), help="Только один вид документа."
 )
+@path_option("--style", metavar="FILE", help="Оформление отчёта: файл кафедры .toml.")
 @dask_option
 @verbose_option
 def build(
-    sources: tuple[Path, ...], folder: Path, only: str | None, dask: str | None, verbose: bool
-) -> int:  # fmt: skip
+    sources: tuple[Path, ...],
+    folder: Path,
+    only: str | None,
+    style: Path | None,
+    dask: str | None,
+    verbose: bool,
+) -> int:
     """Сделать книгу Excel и отчёт PDF по файлу .toml или по изменённой книге."""
+    from reports.exports.build import find_templates
     from reports.exports.builds import build_each
 
     inputs = [(source, _with_named(source, load(source))) for source in sources]
+    for source, loaded in inputs:
+        find_templates(source, loaded, style)
     code = LOOK if any(loaded.warnings for _, loaded in inputs) else DONE
     kinds = (only,) if only else ("xlsx", "pdf")
-    for built in build_each(inputs, folder, kinds, dask, _chapters):  # type: ignore[arg-type]
+    for built in build_each(inputs, folder, kinds, dask, _chapters, style):  # type: ignore[arg-type]
         for path in built.files:
             click.echo(f"{path}")
         for line in built.accepted:

@@ -1,6 +1,6 @@
 """The report of a course project as PDF and as one HTML page.
 
-The chapters stand in ``sections``, their prose in ``templates/report``.  Two passes: the
+The chapters stand in ``chapters``, their prose in ``templates/report``.  Two passes: the
 draft finds out what stands where, then figures are drawn and the text is written with all
 numbers known (see :mod:`reports.document.page.writer`).
 """
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, cast
 
 from markupsafe import Markup
 
@@ -31,46 +31,74 @@ from reports.document.chapters import torque as torques
 from reports.document.chapters.chapter import Chapter
 from reports.document.page import overrides
 from reports.document.page.blocks import DocumentInfo
-from reports.document.page.numbering import Draft
+from reports.document.page.numbering import Draft, Name
 from reports.document.page.render import AttachedFile, RenderError, environment, render_pdf
+from reports.document.page.style import USUAL, Style
+from reports.document.page.style import read as read_style
 from reports.document.page.writer import Writer
 from reports.document.text import texts
 from reports.document.text.terms import Terms
 from reports.inputs.sections.input_file import InputFile
+from reports.inputs.sections.report import Report
 from reports.spec.blocks import Model
 from reports.spec.evaluation import Values
 
 if TYPE_CHECKING:
     from jinja2 import Environment
 
-Further = Sequence[Callable[[Chapter], Markup]]
-CHAPTERS: tuple[Callable[[Chapter], Markup], ...] = (
-    opening.introduction,
-    opening.input_data,
-    cycle.cycle,
-    kinematics.kinematics,
-    dynamics.dynamics,
-    torques.torque,
-    journals.crankpin,
-    journals.journals,
-    bearings.bearings,
-    torques.running,
-    regimes.regimes,
-    reference.reference,
-    companions.companions,
-    closing.checks,
-    closing.conclusion,
-    closing.sources,
-    closing.appendices,
-)
+Write = Callable[[Chapter], Markup]
+Further = Sequence[Write]
+
+# In the order of the report; the names are those of ``report.chapters``.
+CHAPTERS: dict[str, Write] = {
+    "introduction": opening.introduction,
+    "inputs": opening.input_data,
+    "cycle": cycle.cycle,
+    "kinematics": kinematics.kinematics,
+    "dynamics": dynamics.dynamics,
+    "torque": torques.torque,
+    "crankpin": journals.crankpin,
+    "journals": journals.journals,
+    "bearings": bearings.bearings,
+    "running": torques.running,
+    "regimes": regimes.regimes,
+    "reference": reference.reference,
+    "companions": companions.companions,
+    "checks": closing.checks,
+    "conclusion": closing.conclusion,
+    "sources": closing.sources,
+    "appendices": closing.appendices,
+}
+_ALWAYS = {"introduction", "inputs", "conclusion", "sources"}
+_SHORT = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals"}
+_COURSE = _SHORT | {"running", "regimes", "checks", "appendices"}
+_PROFILES = {"short": _SHORT, "course": _COURSE, "full": set(CHAPTERS)}
+
+
+def chosen(report: Report) -> set[str]:
+    """Names of the chapters that a report holds."""
+    wanted = _PROFILES[report.detail] if report.chapters is None else set(report.chapters)
+    return wanted | _ALWAYS
 
 
 def report_pdf(
-    model: Model, values: Values, *, source: Path, workbook: bytes, further: Further = ()
+    model: Model,
+    values: Values,
+    *,
+    source: Path,
+    workbook: bytes,
+    style: Path | None = None,
+    further: Further = (),
 ) -> bytes:
     """The report as PDF with the input file and the workbook attached.
 
-    ``further`` are chapters from rooms above this one, before the checks.
+    Args:
+        model: specifications of the engine.
+        values: their values.
+        source: the input file; own templates and a style file are looked for beside it.
+        workbook: the workbook to attach.
+        style: a style file instead of the one that the input names.
+        further: chapters from rooms above this one, before the checks.
 
     Raises:
         SystemPartMissing: pango is not on this machine.
@@ -85,7 +113,8 @@ def report_pdf(
         AttachedFile(f"{source.stem}.xlsx", workbook, "Книга Excel с формулами", "Supplement"),
     ]
     folder = overrides.find(model.input.report.templates, source.parent)
-    page = report_page(model, values, media="print", templates=folder, further=further)
+    look = find_style(model.input.report, source.parent, style)
+    page = report_page(model, values, media="print", templates=folder, style=look, further=further)
     try:
         return render_pdf(page, attachments=files)
     except RenderError as error:
@@ -94,14 +123,33 @@ def report_pdf(
         raise overrides.style_error(folder, str(error)) from error
 
 
-def report_html(model: Model, values: Values, *, source: Path, further: Further = ()) -> str:
+def report_html(
+    model: Model, values: Values, *, source: Path, style: Path | None = None, further: Further = ()
+) -> str:
     """The report as one self-contained page for the screen and for printing.
 
     Raises:
         InputError: the folder of own templates is missing or one of them is wrong.
     """
     folder = overrides.find(model.input.report.templates, source.parent)
-    return report_page(model, values, media="screen", templates=folder, further=further)
+    look = find_style(model.input.report, source.parent, style)
+    return report_page(model, values, media="screen", templates=folder, style=look, further=further)
+
+
+def remarks_on(model: InputFile, beside: Path, style: Path | None = None) -> tuple[str, ...]:
+    """What a person should look at in the finished report."""
+    return tuple(front.crowded(model, find_style(model.report, beside, style).frame))
+
+
+def find_style(report: Report, beside: Path, given: Path | None = None) -> Style:
+    """The style file given, or the one named in the input, or the usual look.
+
+    Raises:
+        InputError: it cannot be read or something in it is wrong.
+    """
+    if given is None and report.style.strip():
+        given = beside / report.style
+    return USUAL if given is None else read_style(given)
 
 
 def report_page(
@@ -110,6 +158,7 @@ def report_page(
     *,
     media: Literal["print", "screen"],
     templates: Path | None = None,
+    style: Style = USUAL,
     further: Further = (),
 ) -> str:
     """The whole page as HTML with style sheet, formulas and figures inside.
@@ -119,34 +168,50 @@ def report_page(
         values: their values.
         media: "print" for WeasyPrint, "screen" for a browser.
         templates: a folder of own templates, see :mod:`reports.document.page.overrides`.
+        style: margins, type and what else a department asks for.
         further: chapters from rooms above this one.
     """
     with overrides.told(templates):
-        return _page(model, values, environment(templates, media=media), further)
+        env = environment(templates, media=media, style=style)
+        return _page(model, values, env, further)
 
 
 def _page(model: Model, values: Values, env: Environment, further: Further) -> str:
     terms = Terms(model, values)
-    draft = Draft()
-    _write(Chapter(terms, Writer(env, draft), env), further)
-    chapter = Chapter(terms, Writer(env, draft.numbering()), env)
-    body = _write(chapter, further)
-    chapter.writer.n.check()
+    names = chosen(model.input.report)
+    style = cast(Style, env.globals["style"])
+    draft, absent = Draft(by_chapter=style.numbering == "chapter"), Draft()
+    _write(Chapter(terms, Writer(env, draft), env), names, further)
+    _write(Chapter(terms, Writer(env, absent), env), set(CHAPTERS) - names)
+    numbering = draft.numbering(elsewhere=_elsewhere(terms, absent))
+    chapter = Chapter(terms, Writer(env, numbering), env)
+    body = _write(chapter, names, further)
+    numbering.check()
     store.store().save()
     return texts.unbroken_initials(texts.spaces_inside(_whole(env, chapter, body)))
 
 
+def _elsewhere(terms: Terms, absent: Draft) -> dict[Name, str]:
+    """Words for what stands in a chapter that is left out: the workbook has it."""
+    words = {}
+    for kind, key in absent.declared:
+        table = terms.model.tables.get(key) if kind == "table" else None
+        number = f"{table.number} " if table is not None and table.number else ""
+        words[kind, key] = "" if kind == "formula" else f"{number}книги Excel"
+    return words
+
+
 def _whole(env: Environment, chapter: Chapter, body: Markup) -> str:
     """The page around the written chapters; what it counts is known by now."""
-    terms = chapter.terms
+    terms, style = chapter.terms, cast(Style, env.globals["style"])
     return env.get_template("report/report.html.j2").render(
         doc=_info(chapter.input),
         input=chapter.input,
         t=terms,
-        cover_page=front.title_page(chapter.input),
+        cover_page=front.title_page(chapter.input, style.title),
         task=front.assignment(chapter),
         brief=front.abstract(chapter),
-        block=front.title_block(chapter.input),
+        block=front.title_block(chapter.input, style.frame),
         exact=chapter.exact,
         load=chapter.worst("worst_main_load"),
         verdict=closing.verdict(terms),
@@ -155,10 +220,15 @@ def _whole(env: Environment, chapter: Chapter, body: Markup) -> str:
     )
 
 
-def _write(chapter: Chapter, further: Further) -> Markup:
-    before = CHAPTERS.index(closing.checks)
-    chapters = (*CHAPTERS[:before], *further, *CHAPTERS[before:])
-    return Markup("\n").join(write(chapter) for write in chapters)
+def _write(chapter: Chapter, names: set[str], further: Further = ()) -> Markup:
+    """The chapters of those names; further ones stand before the checks and conclusions."""
+    parts: list[Markup] = []
+    for name, write in CHAPTERS.items():
+        if name == "checks":
+            parts += [chapter_of(chapter) for chapter_of in further]
+        if name in names:
+            parts.append(write(chapter))
+    return Markup("\n").join(parts)
 
 
 def _info(model: InputFile) -> DocumentInfo:

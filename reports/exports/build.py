@@ -40,12 +40,17 @@ def load_input(path: Path) -> Loaded:
     return load_toml(path)
 
 
-def find_templates(path: Path, loaded: Loaded) -> None:
-    """Look for the folder of own templates that an input names.
+def find_templates(path: Path, loaded: Loaded, style: Path | None = None) -> None:
+    """Look for the folder of own templates and the style file that an input or a person names.
 
     Raises:
-        InputError: there is none, or nothing in it replaces a template.
+        InputError: there is none, nothing in the folder replaces a template, or the style file
+            has a fault.
     """
+    if style is not None or loaded.model.report.style:
+        from reports.document.report import find_style
+
+        find_style(loaded.model.report, path.parent, style)
     if loaded.model.report.templates:
         from reports.document.page import overrides
 
@@ -53,7 +58,12 @@ def find_templates(path: Path, loaded: Loaded) -> None:
 
 
 def build(
-    path: Path, loaded: Loaded, folder: Path, kinds: tuple[Kind, ...], further: Further = ()
+    path: Path,
+    loaded: Loaded,
+    folder: Path,
+    kinds: tuple[Kind, ...],
+    further: Further = (),
+    style: Path | None = None,
 ) -> Built:
     """Write the workbook and the report of a checked input, with further chapters.
 
@@ -63,12 +73,14 @@ def build(
         OutputError: the folder cannot be written.
         InputError: the input gives no finite result.
     """
+    from reports.inputs.checks.grid import grid_remark
     from reports.spec.evaluation import evaluate_model
     from reports.tables.overview.verdicts import failed_checks
     from reports.tables.registry import build_model
 
     make_dir(folder)
-    model = build_model(loaded.model, remarks_of(loaded))
+    grid = grid_remark(loaded.model)
+    model = build_model(loaded.model, (*remarks_of(loaded), *((grid,) if grid else ())))
     files: list[Path] = []
     missing: SystemPartMissing | None = None
     with Progress("Расчёт") as progress:
@@ -90,7 +102,9 @@ def build(
 
             progress.step("Отчёт PDF")
             try:
-                pdf = report_pdf(model, values, source=path, workbook=book, further=further)
+                pdf = report_pdf(
+                    model, values, source=path, workbook=book, style=style, further=further
+                )
                 target = folder / f"{path.stem}.pdf"
                 write_bytes(target, pdf)
                 files.append(target)
@@ -101,20 +115,22 @@ def build(
 
             progress.step("Отчёт HTML")
             target = folder / f"{path.stem}.html"
-            write_text(target, report_html(model, values, source=path, further=further))
+            write_text(
+                target, report_html(model, values, source=path, style=style, further=further)
+            )
             files.append(target)
     failed = tuple(check.line() for check in checks if not check.reason)
+    if "pdf" in kinds or wants_html:
+        from reports.document.report import remarks_on
+
+        failed += remarks_on(loaded.model, path.parent, style)
     accepted = tuple(check.line() for check in checks if check.reason)
     return Built(tuple(files), missing, failed, accepted)
 
 
 def remarks_of(loaded: Loaded) -> tuple[str, ...]:
     """Lines about an input that stand beside the checks of its calculation."""
-    from reports.inputs.checks.grid import grid_remark
-
-    grid = grid_remark(loaded.model)
     return (
         *(f"Внимание: {problem.line()}" for problem in loaded.warnings),
         *(f"Принято: {accepted.line()}" for accepted in loaded.accepted),
-        *((grid,) if grid else ()),
     )

@@ -44,9 +44,13 @@ class Delivery:
 
 
 def build_each(
-    inputs: Sequence[Input], folder: Path, kinds: tuple[Kind, ...], dask: str | None = None,
+    inputs: Sequence[Input],
+    folder: Path,
+    kinds: tuple[Kind, ...],
+    dask: str | None = None,
     chapters: Chapters = _no_chapters,
-) -> Iterator[Built]:  # fmt: skip
+    style: Path | None = None,
+) -> Iterator[Built]:
     """What was built for each input, in order; the files are the same wherever it is done.
 
     ``chapters`` gives the further chapters of an input's report.
@@ -59,10 +63,10 @@ def build_each(
     refuse_own(results, [file for path, loaded in inputs for file in (path, *loaded.beside)])
     if dask is None:
         for path, loaded in inputs:
-            yield build(path, loaded, folder, kinds, chapters(path, loaded))
+            yield build(path, loaded, folder, kinds, chapters(path, loaded), style)
         return
     make_dir(folder)
-    orders = (_order(path, loaded, kinds, chapters(path, loaded)) for path, loaded in inputs)
+    orders = (_order(path, loaded, kinds, chapters(path, loaded), style) for path, loaded in inputs)
     for delivery in in_order(delivered, orders, dask=dask):
         for name, data in delivery.files:
             write_bytes(folder / name, data)
@@ -86,7 +90,12 @@ def delivered(order: Order) -> Delivery:
         return Delivery(files, missing, built.failed, built.accepted)
 
 
-def _order(path: Path, loaded: Loaded, kinds: tuple[Kind, ...], further: Further) -> Order:
+def _order(
+    path: Path, loaded: Loaded, kinds: tuple[Kind, ...], further: Further, style: Path | None
+) -> Order:
+    if style is not None or loaded.model.report.style:
+        msg = f"{path}: файл оформления (report.style) есть только на этом компьютере; без --dask"
+        raise KshmError(msg)
     if loaded.model.report.templates:
         msg = f"{path}: свои шаблоны (report.templates) есть только на этом компьютере; без --dask"
         raise KshmError(msg)

@@ -67,7 +67,13 @@ class Section:
 
 
 _ALL = (
-    Section("report", "Сведения о работе", Report, optional=True),
+    Section(
+        "report",
+        "Сведения о работе",
+        Report,
+        optional=True,
+        lists={"chapters": ListKey("Главы отчета", "report_chapter_{n}")},
+    ),
     Section("engine", "Двигатель", EngineSection),
     Section("calculation", "Расчет", Calculation, optional=True),
     Section("geometry", "Геометрия", GeometrySection),

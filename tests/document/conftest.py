@@ -35,7 +35,8 @@ def nothing_is_drawn(monkeypatch):
 @pytest.fixture
 def few_chapters(monkeypatch):
     """Reports with all their sheets, but with hardly any chapter."""
-    monkeypatch.setattr(report, "CHAPTERS", (opening.introduction, closing.sources))
+    few = {"introduction": opening.introduction, "sources": closing.sources}
+    monkeypatch.setattr(report, "CHAPTERS", few)
 
 
 @pytest.fixture

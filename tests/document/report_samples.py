@@ -17,6 +17,7 @@ from reports.tables.registry import build_model
 ONE = """
 [report]
 year = 2024
+detail = "full"
 [engine]
 name = "Одноцилиндровый"
 cylinders = 1
@@ -66,8 +67,16 @@ def text_of(name: str) -> str:
         return ONE
     text = (samples_dir() / f"{name}.toml").read_text(encoding="utf-8")
     text = re.sub(r"^step_deg = \d+", "step_deg = 30", text, flags=re.MULTILINE)
+    text = with_detail(text, "full")
     # «раздел 2.9» in the name would look like a number with a point
     return re.sub(r'^name = ".*"', 'name = "Двигатель"', text, flags=re.MULTILINE)
+
+
+def with_detail(text: str, detail: str) -> str:
+    """An input whose report has this profile."""
+    text = re.sub(r"^detail = .*\n", "", text, flags=re.MULTILINE)
+    head = f'[report]\ndetail = "{detail}"\n'
+    return text.replace("[report]\n", head) if "[report]\n" in text else head + text
 
 
 def terms_of(text: str) -> Terms:

@@ -10,6 +10,7 @@ from pdftools import pages_of, poppler
 from reports.document.page.blocks import Column, DocumentInfo, TableBlock, table_block
 from reports.document.page.numbering import Label
 from reports.document.page.render import environment, render
+from reports.document.page.style import USUAL
 
 LONG = "Очень длинное название таблицы, которое занимает несколько строк над её головкой, " * 3
 SIMPLE = [Column("i"), Column("K"), Column("T"), Column("R")]
@@ -92,9 +93,17 @@ def places(texts: list[str], case: Case) -> dict[int, list[int]]:
     return found
 
 
+def lines_of(block: TableBlock, size: str):
+    return block.tabbed(USUAL.table_em_px(size), USUAL.width_px)
+
+
 def test_enough_layouts_break():
     assert len(CASES) >= 30
-    fast = [case for case in CASES if case.block.tabbed(case.size) is not None]
+    fast = [
+        case
+        for case in CASES
+        if case.block.tabbed(USUAL.table_em_px(case.size), USUAL.width_px) is not None
+    ]
     assert len(fast) >= 20 and len(CASES) - len(fast) >= 20
 
 
@@ -165,7 +174,7 @@ def test_lines_stand_under_their_headings(size, tmp_path):
     columns = [Column(f"H{k}") for k in range(count)]
     rows = [[f"{k + 1}{row:02d},{k}" for k in range(count)] for row in range(20)]
     block = table_block(columns, rows)
-    assert block.tabbed(size) is not None
+    assert lines_of(block, size) is not None
     source = (
         '{% extends "report/base.html.j2" %}{% import "report/macros.html.j2" as m with context %}'
         "{% block body %}{{ m.table(b, l, 'x', size=size) }}{% endblock %}"

@@ -26,13 +26,14 @@ approver = "Утверждаев У. У."
 issued = "01.09.2026"
 due = "20.12.2026"
 frame = "eskd"
-detail = "short"
+detail = "course"
 """
 
 
 @pytest.fixture(scope="module")
 def framed(tmp_path_factory):
-    t = terms_of(ONE.replace("step_deg = 30", "step_deg = 15").replace("[report]\n", DATA))
+    text = ONE.replace("step_deg = 30", "step_deg = 10").replace('detail = "full"\n', "")
+    t = terms_of(text.replace("[report]\n", DATA))
     result = render(report_page(t.model, t.values, media="print"))
     assert result.warnings == ()
     folder = tmp_path_factory.mktemp("framed")
@@ -46,12 +47,16 @@ def flat(text: str) -> str:
 def test_abstract_counts_what_is_there(tmp_path):
     result = rendered("one")
     text = "\n".join(pages_of(result.pdf, tmp_path))
-    said = re.search(r"Пояснительная\sзаписка\s(\d+)\sс\.,\s(\d+)\sрис\.,\s(\d+)\sтабл\.,\s(\d+)\sисточн\.", text)
+    said = re.search(
+        r"Пояснительная\sзаписка\s(\d+)\sс\.,\s(\d+)\sрис\.,\s(\d+)\sтабл\.,\s(\d+)\sисточн\.", text
+    )
     pages, figures, tables, sources = map(int, said.groups())
     assert pages == result.pages
     assert figures == len(re.findall(r"Рисунок\s\d+\s—", text))
     assert tables == len(re.findall(r"Таблица\s\S+\s—", text))
-    listed = text[text.index("СПИСОК ИСПОЛЬЗОВАННЫХ ИСТОЧНИКОВ", text.index("Основные результаты")) :]
+    listed = text[
+        text.index("СПИСОК ИСПОЛЬЗОВАННЫХ ИСТОЧНИКОВ", text.index("Основные результаты")) :
+    ]
     assert sources == len(re.findall(r"(?m)^\s*\d+\.\s+[А-Я]", listed[: listed.index("ПРИЛОЖ")]))
 
 
@@ -87,13 +92,13 @@ def test_without_frame_there_is_no_title_block(tmp_path):
     assert "докум" not in text
 
 
-def test_short_report_prints_every_third_row(framed):
+def test_a_course_report_prints_rows_at_thirty_degrees(framed):
     text = "\n".join(framed[1])
-    start = re.search(r"Таблица\sП4\.1\s—", text).start()
-    end = re.search(r"Таблица\sП4\.2\s—", text).start()
+    start = re.search(r"Таблица\sБ\.2\s—", text).start()
+    end = re.search(r"Таблица\sБ\.3\s—", text).start()
     rows = [int(a) for a in re.findall(r"(?m)^\s*(\d+)\s+−?\d+,\d+", text[start:end])]
-    assert rows == [*range(0, 720, 45), 720]
-    assert "каждая третья строка" in flat(text).replace("\u2010 ", "")
+    assert rows == [*range(0, 721, 30)]
+    assert "в отчёте они напечатаны через 30°" in flat(text).replace("\u2010 ", "")
 
 
 def own(folder: Path, name: str, text: str) -> str:

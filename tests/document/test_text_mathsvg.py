@@ -95,3 +95,28 @@ def test_label_for_readers():
 
 def test_nested_fractions_are_said_whole():
     assert plain(r"\dfrac{1-\dfrac{a}{b}}{c}+\sqrt{\varphi}") == "(1−(a)/(b))/(c)+√(φ)"
+
+
+DEEP = r"\sqrt{\left(\dfrac{1}{0{,}3} + 1\right)^{2} - 0{,}19512^{2}}"
+SUMS = [" + ".join([DEEP] * count) for count in range(7)]
+
+
+@pytest.mark.parametrize(
+    "tex",
+    [
+        rf"x = 1 + \dfrac{{9 \cdot 4}}{{82}} \left({DEEP} - \left({SUMS[2]}\right)\right)",
+        rf"\varepsilon = \dfrac{{{SUMS[5]}}}{{{DEEP}}} = -56\,871",
+        rf"y = \sqrt{{{SUMS[6]}}}",
+        rf"z = \dfrac{{{SUMS[3]}}}{{{SUMS[4]}}} + \sqrt{{{SUMS[2]}}}",
+    ],
+)
+def test_no_formula_is_wider_than_its_line(tex):
+    lines = formula_lines(tex, 28.0)
+    assert len(lines) > 1
+    assert max(line.width_em for line in lines) <= 28.0
+
+
+def test_parts_too_wide_are_named_and_follow():
+    tex = rf"\varepsilon = \dfrac{{{SUMS[5]}}}{{3}} = 7"
+    first, second, *_ = formula_lines(tex, 28.0)
+    assert r"\mathrm{Ч}}{3} = 7" in first.tex and second.tex.startswith(r"\mathrm{где}")

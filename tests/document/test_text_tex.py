@@ -27,6 +27,8 @@ def test_an_escaped_brace_is_a_sign():
 
 def test_break_prefers_relations_over_sums_and_never_cuts_groups():
     points = break_points(r"a=b+\dfrac{c=d}{e+f}-\left(g+h\right)")
-    assert [point.rank for point in points] == [0, 1, 1]
+    assert [point.rank for point in points] == [0, 1, 1, 2.2]
+    inside = points[-1]
+    assert (inside.closing, inside.carried) == (r"\right.", r"\left.{}+ ")
     assert [point.end for point in break_points("x=-1")] == [2]
     assert break_points(r"a\cdot b")[0].carried == r"{}\times "

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from markupsafe import Markup
 
 from reports.document.page.charts import HEIGHT, chart_figure, panels_figure
 from reports.document.page.spec_tables import angle_table, scalar_table
+from reports.document.page.style import Style
 from reports.document.page.writer import TablePlan, Writer
 from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms, with_unit
@@ -60,6 +61,15 @@ class Chapter:
         return self.input.calculation.method == "exact"
 
     @property
+    def printed_step(self) -> float:
+        """Step of the printed tables over the crank angle [deg]; 0 where all rows stand."""
+        style = cast(Style, self.environment.globals["style"])
+        if self.input.report.detail == "full":
+            return 0.0
+        step = self.input.calculation.step_deg
+        return 0.0 if step >= style.table_step_deg else float(style.table_step_deg)
+
+    @property
     def order(self) -> str:
         """Order in which the power strokes begin: ``1–3–4–2``."""
         offsets = self.input.crankshaft.firing_offsets_deg
@@ -78,22 +88,28 @@ class Chapter:
             "at": self.example,
         }
         own = ("input", "shape", "example", "exact", "order", "eq", "full", "sub", "ref", "book",
-               "chart", "panels", "told")  # fmt: skip
+               "chart", "panels", "told", "printed_step")  # fmt: skip
         names |= {name: getattr(self, name) for name in own}
         text = self.environment.get_template(f"report/{template}.html.j2")
         return Markup(text.render(**names | context))
 
     def eq(self, name: str, at: float | None = None, end: str = "") -> Markup:
         """The formula of a node in symbols, numbered."""
+        if self.writer.draft:
+            return self.writer.formula("", FORMULA + name)
         return self.writer.formula(self.terms.formula(name, at), FORMULA + name, end)
 
     def full(self, name: str, end: str = "") -> Markup:
         """The formula of a scalar in symbols, with numbers and its result, numbered."""
+        if self.writer.draft:
+            return self.writer.formula("", FORMULA + name)
         tex = self.terms.substitution(name, symbols=True)
         return self.writer.formula(tex, FORMULA + name, end)
 
     def sub(self, name: str, at: float | None = None, end: str = "") -> Markup:
         """The formula with numbers and its result, not numbered."""
+        if self.writer.draft:
+            return Markup("")
         return self.writer.formula(self.terms.substitution(name, at), None, end)
 
     def ref(self, name: str) -> Markup:
@@ -136,6 +152,8 @@ class Chapter:
         **more: Any,  # noqa: ANN401
     ) -> Markup:
         """A chart of the specifications as a figure; see :func:`chart_figure`."""
+        if self.writer.draft:
+            return self.writer.figure(key or name, None)
         plan = chart_figure(self.terms, self.model.charts_by_id[name], size, **more)
         return self.writer.figure(key or name, plan)
 
@@ -147,6 +165,8 @@ class Chapter:
         **more: Any,  # noqa: ANN401
     ) -> Markup:
         """Charts of one group in one figure, one above the other."""
+        if self.writer.draft:
+            return self.writer.figure(key, None)
         charts = [self.model.charts_by_id[name] for name in names]
         return self.writer.figure(key, panels_figure(self.terms, charts, size, **more))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 
 from markupsafe import Markup
@@ -46,8 +47,6 @@ SOURCES = {
 }  # fmt: skip
 
 _PEAK_MPA = 0.005  # half a unit of the last digit that the conclusion prints
-
-SHORT_EVERY = 3  # rows of the tables over the crank angle in a short report
 
 
 def checks(chapter: Chapter) -> Markup:
@@ -149,35 +148,26 @@ def sources(chapter: Chapter) -> Markup:
 
 def appendices(chapter: Chapter) -> Markup:
     """All tables over the crank angle: П3 in appendix А, П4 in appendix Б."""
-    shape, tables = chapter.shape, chapter.model.tables
+    shape, terms = chapter.shape, chapter.terms
     wide = "dense" if shape.cylinders > 6 else ""
     reactions = ["phi_deg", "Rx_MPa", "Ry_MPa", "R_MPa", "psiR_deg"]
-    plan = partial(_plan, chapter)
-    return chapter.page(
-        "appendices",
-        kinematic=[
-            plan("P3_1"),
-            plan("P3_2"),
-            *([plan("offset", number="П3.Д")] if shape.offset else ()),
-            *([plan("articulated", number="П3.П")] if shape.articulated else ()),
-        ],
-        forces=[
-            plan("gas", number="П4.Г"),
-            plan("P4_1"),
-            plan("P4_2", size=wide),
-            *(plan(key, number=f"П4.{tables[key].number}") for key in _loads(shape)),
-            *(plan(f"P4_3_{k}", reactions) for k in range(1, shape.throws + 2)),
-            *(
-                plan(key, _moments(chapter.terms, key), size=wide)
-                for key in ("P4_4", "P4_5", "P4_5s")
-            ),
-            plan(
-                "table_14",
-                number="П4.Л",
-                size="tiny" if len(tables["table_14"].columns) > 14 else "dense",
-            ),
-        ],
-    )
+    kinematic = [
+        ("P3_1", None, ""),
+        ("P3_2", None, ""),
+        *([("offset", None, "")] if shape.offset else ()),
+        *([("articulated", None, "")] if shape.articulated else ()),
+    ]
+    forces = [
+        ("gas", None, ""),
+        ("P4_1", None, ""),
+        ("P4_2", None, wide),
+        *((key, None, "") for key in _loads(shape)),
+        *((f"P4_3_{k}", reactions, "") for k in range(1, shape.throws + 2)),
+        *((key, _moments(terms, key), wide) for key in ("P4_4", "P4_5", "P4_5s")),
+        ("table_14", None, "dense"),
+    ]
+    return chapter.page("appendices", kinematic=_plans(chapter, "А", kinematic),
+                        forces=_plans(chapter, "Б", forces))  # fmt: skip
 
 
 def _loads(shape: Shape) -> list[str]:
@@ -195,21 +185,21 @@ def _moments(terms: Terms, table: str) -> list[str]:
     return [key for key in keys if key == "phi_deg" or key.startswith(("Mmain", "Mpin"))]
 
 
-def _plan(
-    chapter: Chapter,
-    key: str,
-    columns: list[str] | None = None,
-    *,
-    number: str = "",
-    size: str = "",
-) -> tuple[str, TablePlan]:
-    spec = chapter.model.tables[key]
-    build = partial(
-        angle_table,
-        chapter.terms,
-        key,
-        columns,
-        own_symbols=key in ("gas", "P4_1"),
-        every=SHORT_EVERY if chapter.input.report.detail == "short" else 1,
-    )
-    return key, TablePlan(build, spec.title, number=number or spec.number, size=size)
+def _plans(
+    chapter: Chapter, letter: str, tables: Sequence[tuple[str, list[str] | None, str]]
+) -> list[tuple[str, TablePlan]]:
+    """Tables of an appendix, numbered within it; the textbook's number stands in the title."""
+    plans = []
+    for place, (key, columns, size) in enumerate(tables, 1):
+        spec = chapter.model.tables[key]
+        build = partial(
+            angle_table,
+            chapter.terms,
+            key,
+            columns,
+            own_symbols=key in ("gas", "P4_1"),
+            step=chapter.printed_step,
+        )
+        title = f"{spec.title} ({spec.number})" if spec.number.startswith("П") else spec.title
+        plans.append((key, TablePlan(build, title, number=f"{letter}.{place}", size=size)))
+    return plans

@@ -8,6 +8,8 @@ from __future__ import annotations
 from typing import Any
 
 from reports.document.chapters.chapter import Chapter
+from reports.document.page.fitting import type_pt
+from reports.document.page.style import TitlePage
 from reports.inputs.sections.input_file import InputFile
 
 Words = dict[str, Any]
@@ -31,14 +33,14 @@ _TASK = ("engine_cylinders", "engine_strokes", "geometry_bore_mm", "geometry_str
          "geometry_compression_ratio", "regime_speed_rpm", "regime_indicated_power_kw")  # fmt: skip
 
 
-def title_page(model: InputFile) -> Words:
-    """Words of the title page."""
+def title_page(model: InputFile, style: TitlePage) -> Words:
+    """Words of the title page, some of them from the department's style file."""
     words = _words(model)
     department = words["department"]
     return words | {
         "subtitle": model.engine.name,
-        "kind": "Расчётно-пояснительная записка к курсовому проекту",
-        "ministry": "",
+        "kind": style.kind,
+        "ministry": style.ministry,
         "department": _department(department),
         "year": str(model.report.year),
     }
@@ -76,13 +78,40 @@ def abstract(chapter: Chapter) -> Words:
     }
 
 
-def title_block(model: InputFile) -> Words | None:
-    """Cells of the title block by ГОСТ 2.104; ``None`` where the input asks for no frame."""
+# Words of the title block with width and height of their cells [mm] and their usual type [pt].
+_CELLS = {
+    "designation": (("Обозначение документа",), 108.0, 14.0, 14.0),
+    "name": (("Тема работы", "название двигателя"), 68.0, 24.0, 10.0),
+    "organisation": (("Учебное заведение", "кафедра", "группа"), 48.0, 14.0, 8.5),
+    "developed": (("Студент",), 20.0, 4.6, 8.5),
+    "checked": (("Руководитель",), 20.0, 4.6, 8.5),
+    "controlled": (("Нормоконтроль",), 20.0, 4.6, 8.5),
+    "approved": (("Утвердил",), 20.0, 4.6, 8.5),
+}
+
+
+def crowded(model: InputFile, frame: str | None = None) -> list[str]:
+    """What the title block cannot show whole even in the smallest type, told in lines."""
+    block = title_block(model, frame)
+    return [
+        f"рамка листа: «{', '.join(_CELLS[cell][0])}» не помещается в графу; сократите"
+        for cell, size in (block["type"].items() if block else ())
+        if not size
+    ]
+
+
+def title_block(model: InputFile, frame: str | None = None) -> Words | None:
+    """Cells of the title block by ГОСТ 2.104; ``None`` where no frame is asked for.
+
+    Args:
+        model: the input.
+        frame: what the style file says about the frame, ``None`` for nothing.
+    """
     report = model.report
-    if report.frame == "none":
+    if (frame or report.frame) == "none":
         return None
     places = (report.institution, report.department, report.group)
-    return {
+    words = {
         "designation": report.designation,
         "title": report.title,
         "engine": model.engine.name,
@@ -92,6 +121,12 @@ def title_block(model: InputFile) -> Words | None:
         "approved": report.approver or report.head,
         "organisation": [place for place in places if place],
     }
+    shown = words | {
+        "name": f"{report.title} {model.engine.name}",
+        "organisation": ", ".join(place for place in places if place),
+    }
+    types = {cell: type_pt(str(shown[cell]), *sizes) for cell, (_, *sizes) in _CELLS.items()}
+    return words | {"type": types}
 
 
 def _words(model: InputFile) -> Words:

@@ -12,8 +12,6 @@ from reports.document.text.symbols import inline_html
 from reports.document.text.texts import rich
 from reports.shared.russian import NBSP
 
-_WIDTH = 165 / 25.4 * 96  # px of the text's width on paper
-_SIZES = {"": 12.0, "dense": 10.5, "tiny": 9.0}  # pt, as in report.css.j2
 _LONG = 12  # rows from which a table is worth the lines
 
 
@@ -48,10 +46,17 @@ class Tabbed:
 
 @dataclass(frozen=True, slots=True)
 class TableBlock:
-    """A table ready for the macro ``table``; column numbers and repeated heading come from it."""
+    """A table ready for the macro ``table``; column numbers and repeated heading come from it.
+
+    Attributes:
+        columns: Headings and widths.
+        rows: Cells.
+        numbers: Numbers of the columns; empty for 1, 2, 3 …
+    """
 
     columns: tuple[Column, ...]
     rows: tuple[tuple[str, ...], ...]
+    numbers: tuple[int, ...] = ()
 
     def __post_init__(self) -> None:
         for number, row in enumerate(self.rows, 1):
@@ -60,17 +65,26 @@ class TableBlock:
                 raise ValueError(msg)
 
     @property
+    def numbered(self) -> Sequence[int]:
+        """Numbers of the columns."""
+        return self.numbers or range(1, len(self.columns) + 1)
+
+    @property
     def widths(self) -> list[str]:
         """Widths of the columns in per cent."""
         total = sum(column.width for column in self.columns)
         return [f"{100 * column.width / total:.2f}%" for column in self.columns]
 
-    def tabbed(self, size: str) -> Tabbed | None:
+    def tabbed(self, em_px: float, width_px: float) -> Tabbed | None:
         """The same rows as lines with tab stops, or ``None`` where that will not do.
 
         A cell costs WeasyPrint half a millisecond and a kilobyte or more; a line of ten
         numbers costs hardly more than one cell.  It serves long tables of numbers in equal
         columns, on paper only.
+
+        Args:
+            em_px: Size of the table's type.
+            width_px: Width of the table.
         """
         count = len(self.columns)
         equal = len({column.width for column in self.columns}) == 1
@@ -79,9 +93,9 @@ class TableBlock:
         cells = [cell for row in self.rows for cell in row]
         if not all(type(cell) is str and numbers.is_number(cell) for cell in cells):
             return None
-        tab = int(_WIDTH / count)
-        first = _WIDTH - tab * (count - 1)
-        quarter = _SIZES[size] * 96 / 72 / 4
+        tab = int(width_px / count)
+        first = width_px - tab * (count - 1)
+        quarter = em_px / 4
         widest = [max(map(numbers.quarters, column)) for column in zip(*self.rows, strict=True)]
         if max(widest) * quarter > tab - 4:
             return None

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
 Kind = Literal["figure", "table", "formula", "source"]
 Name = tuple[Kind, str]
@@ -56,13 +56,22 @@ class Heading:
 class Numbering:
     """Registry of numbers of one report.
 
-    Figures, tables, formulas and sources count through the report; an appendix gives its
+    Figures, tables, formulas and sources count through the report or, but for the sources,
+    within a chapter; an appendix gives its
     numbers itself (``number="П4.1"``).  Sections number themselves by level.
     """
 
-    def __init__(self, labels: Mapping[Name, Label] | None = None) -> None:
+    def __init__(
+        self,
+        labels: Mapping[Name, Label] | None = None,
+        elsewhere: Mapping[Name, str] | None = None,
+        *,
+        by_chapter: bool = False,
+    ) -> None:
+        self._by_chapter = by_chapter
         self._labels: dict[Name, Label] = dict(labels or {})
-        self._counts: Counter[Kind] = Counter()
+        self._elsewhere = dict(elsewhere or {})
+        self._counts: Counter[tuple[Kind, int]] = Counter()
         self._referred: set[Name] = set()
         self._placed: list[Name] = []
         self._early: list[str] = []
@@ -80,8 +89,9 @@ class Numbering:
             msg = f"{word} «{key}»: объявлено дважды"
             raise NumberingError(msg)
         if number is None:
-            self._counts[kind] += 1
-            number = str(self._counts[kind])
+            chapter = self._section[0] if self._by_chapter and kind != "source" else 0
+            self._counts[kind, chapter] += 1
+            number = f"{chapter}.{self._counts[kind, chapter]}".removeprefix("0.")
         for other in self._labels.values():
             if (other.kind, other.number) == (kind, number):
                 msg = f"{word} {number}: номер уже у «{other.key}», его просит и «{key}»"
@@ -102,7 +112,12 @@ class Numbering:
         return self._labels[kind, key]
 
     def refer(self, kind: Kind, key: str) -> Markup:
-        """Number as a link to its thing, for the text: ``<a href="#ris-x">3</a>``."""
+        """Number as a link to its thing, for the text: ``<a href="#ris-x">3</a>``.
+
+        What stands in a chapter that is left out has its words instead of a number.
+        """
+        if (kind, key) not in self._labels and (kind, key) in self._elsewhere:
+            return Markup(escape(self._elsewhere[kind, key]))
         label = self.label(kind, key)
         self._referred.add((kind, key))
         return Markup('<a class="ref" href="#{}">{}</a>').format(label.anchor, label.number)
@@ -117,7 +132,8 @@ class Numbering:
 
     def eq(self, key: str) -> Markup:
         """Link to a formula with its parentheses."""
-        return Markup("({})").format(self.refer("formula", key))
+        number = self.refer("formula", key)
+        return Markup("({})").format(number) if number else number
 
     def src(self, *keys: str) -> Markup:
         """Links to sources of the bibliography in brackets: «[1, 3]»."""
@@ -133,7 +149,9 @@ class Numbering:
         if (kind, key) in self._placed:
             msg = f"{label}: помещено дважды"
             raise NumberingError(msg)
-        if (kind, key) not in self._referred and kind in ("figure", "table"):
+        # A chapter that is left out may be the one that names a table of an appendix.
+        excused = bool(self._elsewhere) and number is not None
+        if (kind, key) not in self._referred and kind in ("figure", "table") and not excused:
             self._early.append(f"{label}: нет ссылки до появления")
         self._placed.append((kind, key))
         return label
@@ -209,9 +227,18 @@ class Draft(Numbering):
         """Declare the thing."""
         return self.declare(kind, key, number=number)
 
-    def numbering(self) -> Numbering:
-        """A numbering in which everything is declared."""
-        return Numbering(self._labels)
+    @property
+    def declared(self) -> tuple[Name, ...]:
+        """Kind and key of everything that was placed."""
+        return tuple(self._labels)
+
+    def numbering(self, elsewhere: Mapping[Name, str] | None = None) -> Numbering:
+        """A numbering in which everything is declared.
+
+        Args:
+            elsewhere: Words for what stands in chapters that are left out.
+        """
+        return Numbering(self._labels, elsewhere)
 
 
 def _ascii(key: str) -> str:

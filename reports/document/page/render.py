@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Literal
 
 from markupsafe import Markup
 
+from reports.document.page import fitting
+from reports.document.page.style import USUAL, Style
 from reports.document.text import fonts, texts
 from reports.document.text.complaints import complaints
 from reports.document.text.mathsvg import formula_lines
@@ -103,7 +105,10 @@ def render(
 
 
 def environment(
-    overrides: Path | None = None, *, media: Literal["print", "screen"] = "print"
+    overrides: Path | None = None,
+    *,
+    media: Literal["print", "screen"] = "print",
+    style: Style = USUAL,
 ) -> Environment:
     """Jinja environment of the templates: autoescape on, unknown names refused.
 
@@ -117,6 +122,7 @@ def environment(
             in Jinja's sandbox.
         media: "print" writes long tables the way that is fast on paper and names the fonts by
             ``kshm-font:``; "screen" writes plain tables and embeds the fonts.
+        style: What a department's style file asks for.
     """
     import jinja2
     from jinja2.sandbox import ImmutableSandboxedEnvironment
@@ -144,10 +150,18 @@ def environment(
         "font_stack": Markup(fonts.STACK),
         "formula_lines": formula_lines,
         "nbsp": NBSP,
+        "style": style,
     }
     result.filters |= {
-        "joined": joined, "plain": texts.plain, "sym": inline_html, "titled": texts.titled,
-    }  # fmt: skip
+        "joined": joined,
+        "plain": texts.plain,
+        "sym": inline_html,
+        "titled": texts.titled,
+        "least_width": fitting.least_width,
+        "fitted": lambda block, size: (
+            fitting.fitted(block, size, style) if media == "print" else ([block], size)
+        ),
+    }
     return result
 
 

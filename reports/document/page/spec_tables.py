@@ -14,6 +14,8 @@ from reports.document.text.terms import Terms
 from reports.shared.russian import capital
 from reports.spec.blocks import Grid
 
+_NO_ANGLE = 1e-6  # deg
+
 
 def angle_table(
     terms: Terms,
@@ -21,7 +23,7 @@ def angle_table(
     keys: Sequence[str] | None = None,
     *,
     own_symbols: bool = False,
-    every: int = 1,
+    step: float = 0.0,
 ) -> TableBlock:
     """A table over the crank angle, by default with all rows.
 
@@ -30,7 +32,7 @@ def angle_table(
         table: id of the table.
         keys: its columns, by default all but the helpers.
         own_symbols: symbols of formulas instead of those of the nomenclature.
-        every: print each row of this number and the last one.
+        step: print the rows at multiples of this angle [deg] and the last one; 0 prints all.
     """
     spec = terms.model.tables[table]
     columns = [c for c in spec.columns if (c.key in keys if keys else not c.helper)]
@@ -43,8 +45,12 @@ def angle_table(
         tex = terms.tex(f"{table}.{column.key}") if own_symbols else q.tex
         heads.append(Column(symbol_head(tex, q.unit_label)))
     rows = list(zip(*cells, strict=True))
-    last = len(rows) - 1
-    return table_block(heads, [row for i, row in enumerate(rows) if i % every == 0 or i == last])
+    if step:
+        angles = np.asarray(spec.rows, dtype=float)
+        kept = np.abs(np.remainder(angles + step / 2, step) - step / 2) < _NO_ANGLE
+        kept[-1] = True
+        rows = [row for row, keep in zip(rows, kept, strict=True) if keep]
+    return table_block(heads, rows)
 
 
 def scalar_table(terms: Terms, keys: Iterable[str]) -> TableBlock:

@@ -70,10 +70,10 @@ class Writer:
         """The «где» list under a formula."""
         return Markup("") if self.draft else Markup(self._macros.where(items))
 
-    def figure(self, key: str, plan: Figure) -> Markup:
-        """A figure with its caption."""
+    def figure(self, key: str, plan: Figure | None) -> Markup:
+        """A figure with its caption; a draft needs no plan."""
         label = self.n.place("figure", key)
-        if self.draft:
+        if self.draft or plan is None:
             return Markup("")
         svg = store.kept("figure", pickle.dumps(plan.draw, protocol=5), plan.draw)
         return Markup(self._macros.figure(Markup(svg), label, plan.caption, plan.alt))

@@ -6,6 +6,10 @@ import base64
 import functools
 import unicodedata
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from matplotlib.ft2font import FT2Font
 
 SCHEME = "kshm-font"
 FAMILY = "STIXGeneral"
@@ -89,9 +93,31 @@ def fonts_css(*, embedded: bool = False) -> str:
 @functools.cache
 def coverage() -> frozenset[int]:
     """Code points that STIXGeneral in its regular face can show."""
+    return frozenset(_regular().get_charmap())
+
+
+@functools.cache
+def _regular() -> FT2Font:
     from matplotlib.ft2font import FT2Font
 
-    return frozenset(FT2Font(str(fonts_dir() / "STIXGeneral.ttf")).get_charmap())
+    return FT2Font(str(fonts_dir() / "STIXGeneral.ttf"))
+
+
+@functools.cache
+def advance(char: str) -> float:
+    """Width of a character of the regular face [em]; half an em for one that it lacks."""
+    from matplotlib.ft2font import LoadFlags
+
+    font = _regular()
+    if ord(char) not in coverage():
+        return 0.5
+    glyph = font.load_char(ord(char), flags=LoadFlags.NO_SCALE)
+    return float(glyph.horiAdvance) / float(font.units_per_EM)
+
+
+def text_em(text: str) -> float:
+    """Width of a line of plain text in the regular face [em], without kerning."""
+    return sum(map(advance, text))
 
 
 @functools.lru_cache(maxsize=4096)

@@ -14,15 +14,25 @@ from __future__ import annotations
 import functools
 import json
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from html import escape as escape_html
 from typing import Any
 
 from reports.document import store
 from reports.document.text.complaints import complaints
 from reports.document.text.symbols import SIGNS
-from reports.document.text.tex import FRACTIONS, GREEK, Node, TexError, break_points, tree
+from reports.document.text.tex import (
+    FRACTIONS,
+    GREEK,
+    BreakPoint,
+    Node,
+    TexError,
+    break_points,
+    steps,
+    tree,
+)
 from reports.document.text.texwords import for_mathtext
 from reports.shared.russian import MINUS, NBSP
 
@@ -100,10 +110,11 @@ def formula_lines(tex: str, max_em: float = 28.0) -> tuple[Formula, ...]:
 
     The break falls at a relation sign first, then at plus or minus, then at a product, all
     outside of brackets where possible; the sign is repeated at the start of the next line
-    as the Russian standard asks (a product as ``\times``).
+    as the Russian standard asks (a product as ``\times``).  A fraction or a root that is wider
+    than a line gets its parts named, and these follow in lines of their own.
 
     Args:
-        tex: The formula; ``\\`` forces a new line.
+        tex: The formula; ``\\\\`` forces a new line.
         max_em: Room for one line, in em.
 
     Raises:
@@ -116,6 +127,25 @@ def formula_lines(tex: str, max_em: float = 28.0) -> tuple[Formula, ...]:
 
 
 def _fit(tex: str, max_em: float) -> list[Formula]:
+    broken = _broken(tex, max_em)
+    if all(line.width_em <= max_em for line in broken):
+        return broken
+    for share in (0.8, 0.5, 0.3):  # of a line: what a part may take at most
+        short, *parts = steps(tex, partial(_is_wide, share * max_em))
+        lines = _broken(short, max_em)
+        for number, part in enumerate(parts):
+            lines += _fit(part if number else rf"\mathrm{{где}}\;\; {part}", max_em)
+        if all(line.width_em <= max_em for line in lines):
+            return lines
+    return lines
+
+
+def _is_wide(limit: float, nodes: Sequence[Node]) -> bool:
+    return sum(map(_wide, nodes)) * _SIGN > limit
+
+
+def _broken(tex: str, max_em: float) -> list[Formula]:
+    """Lines of a formula; one that cannot be broken stays wider."""
     # Setting a formula costs a millisecond a sign: lines are guessed by counting signs, and
     # the first guess that fits serves.
     whole: Formula | None = None
@@ -126,17 +156,25 @@ def _fit(tex: str, max_em: float) -> list[Formula]:
             return [whole]
         scale = whole.width_em / max(1, _signs(tex))
 
-    def score(end: int, rank: int) -> float:
+    def head(point: BreakPoint) -> str:
+        return tex[: point.end] + point.closing
+
+    def score(point: BreakPoint) -> float:
         # A full line is good, a break at a relation better than one within a sum, the
         # left side alone on a line is bad.
-        filled = _signs(tex[:end]) * scale / max_em
-        return min(filled, 1.0) - rank * 0.35 - (0.5 if filled < 0.25 else 0.0)
+        filled = _signs(head(point)) * scale / max_em
+        return min(filled, 1.0) - point.rank * 0.35 - (0.5 if filled < 0.25 else 0.0)
 
-    guesses = [p for p in break_points(tex) if _signs(tex[: p.end]) * scale <= 1.15 * max_em]
-    for point in sorted(guesses, key=lambda p: score(p.end, p.rank), reverse=True):
-        head = formula(tex[: point.end])
-        if head.width_em <= max_em:
-            return [head, *_fit(point.carried + tex[point.end :], max_em)]
+    points = break_points(tex)
+    guesses = [p for p in points if _signs(head(p)) * scale <= 1.15 * max_em]
+    for point in sorted(guesses, key=score, reverse=True):
+        line = formula(head(point))
+        if line.width_em <= max_em:
+            return [line, *_broken(point.carried + tex[point.end :], max_em)]
+    if points:  # the first piece is too wide, what follows may not be
+        shortest = min(points, key=lambda point: point.end)
+        rest = _broken(shortest.carried + tex[shortest.end :], max_em)
+        return [formula(head(shortest)), *rest]
     return [whole or formula(tex)]
 
 

@@ -7,7 +7,7 @@ index, ``\dfrac`` two parts; any other token has none.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 _TOKEN = re.compile(r"\\[A-Za-z]+|\\.|.", re.DOTALL)
@@ -17,6 +17,10 @@ _TAKES_ONE |= {r"\sqrt", r"\vec", r"\dot", r"\ddot", r"\operatorname", r"\hat", 
 _RELATIONS = {"=", r"\approx", r"\leq", r"\geq", r"\le", r"\ge", "<", ">", r"\equiv", r"\neq"}
 _SUMS = {"+", "-", r"\pm", r"\mp"}
 _PRODUCTS = {r"\cdot", r"\times"}
+_LOOSE = re.compile(r"(\\[A-Za-z]+) (?![A-Za-z])")
+_CARRIED = re.compile(r"(?:\\left\.)*\s*\{\}\s*")
+# Names of parts that are written apart: числитель, знаменатель, подкоренное выражение.
+_NAMES = dict.fromkeys(FRACTIONS, ("Ч", "З")) | {r"\sqrt": ("П",)}
 
 _GREEK_NAMES = (
     "alpha beta gamma delta varepsilon zeta eta theta iota kappa lambda mu nu xi omicron pi rho "
@@ -101,44 +105,106 @@ def _node(tokens: Sequence[str], place: int) -> tuple[Node, int]:
 
 @dataclass(frozen=True, slots=True)
 class BreakPoint:
-    """A place after an operator: ``end`` past it, what the next line begins with, rank 0-3."""
+    """A place where a line may end.
+
+    Attributes:
+        end: Where in the TeX the line ends.
+        closing: What the line ends with besides: a sign, invisible closing brackets.
+        carried: What the next line begins with.
+        rank: How bad the place is, from 0 at a relation.
+    """
 
     end: int
+    closing: str
     carried: str
-    rank: int
+    rank: float
 
 
 def break_points(tex: str) -> list[BreakPoint]:
     r"""Every place where a line may end, in order.
 
-    Only the outermost level of braces and of ``\left … \right`` is looked at; plain round
-    brackets count as depth too, but a break inside of them is allowed as a last resort.
+    Only the outermost level of braces is looked at.  Brackets, plain or of ``\left … \right``,
+    count as depth, but a break inside of them is allowed as a last resort; the halves of a
+    sized pair are closed and opened again invisibly.
     """
     points: list[BreakPoint] = []
-    groups = rounds = 0
+    groups = sized = rounds = 0
     previous = ""
     for match in _TOKEN.finditer(tex):
         token = match.group()
-        groups += (token in ("{", r"\left")) - (token in ("}", r"\right"))
-        rounds += (token in ("(", "[")) - (token in (")", "]"))
         if groups == 0 and previous:
-            point = _point(token, match.end(), previous, rounds)
+            place = _place(token, match, previous)
             # Nothing but a carried sign stands before: such a break would repeat for ever.
-            if point is not None and tex[: match.start()].strip() != "{}":
-                points.append(point)
+            if place is not None and not _CARRIED.fullmatch(tex[: match.start()]):
+                end, sign, carried, rank = place
+                shut, opened = r"\right." * sized, r"\left." * sized
+                points.append(
+                    BreakPoint(
+                        end, sign + shut, opened + carried, rank + 1.2 * sized + (rounds > 0)
+                    )
+                )
+        groups += (token == "{") - (token == "}")
+        sized += (token == r"\left") - (token == r"\right")
+        rounds += (token in ("(", "[")) - (token in (")", "]"))
+        if previous in (r"\left", r"\right"):  # its bracket is no round one
+            rounds -= (token in ("(", "[")) - (token in (")", "]"))
         if not token.isspace():
             previous = token
     # Nothing may follow the last operator: a line cannot begin with it alone.
     return [point for point in points if tex[point.end :].strip()]
 
 
-def _point(token: str, end: int, previous: str, rounds: int) -> BreakPoint | None:
-    inside = 1 if rounds > 0 else 0
+def _place(token: str, match: re.Match[str], previous: str) -> tuple[int, str, str, float] | None:
+    """End of the line, sign at the end, sign at the next line's beginning, rank."""
     if token in _RELATIONS:
-        return BreakPoint(end, f"{{}}{token} ", inside)
+        return match.end(), "", f"{{}}{token} ", 0
     unary = previous in _RELATIONS | _SUMS | _PRODUCTS or previous in ("(", "[", "{")
     if token in _SUMS and not unary:
-        return BreakPoint(end, f"{{}}{token} ", 1 + inside)
+        return match.end(), "", f"{{}}{token} ", 1
     if token in _PRODUCTS:
-        return BreakPoint(end, r"{}\times ", 2 + inside)
+        return match.end(), "", r"{}\times ", 2
+    if token == r"\left" and (previous == "}" or previous.isalnum()):  # a product without a sign
+        return match.start(), r"\times ", r"{}\times ", 2
     return None
+
+
+def written(nodes: Sequence[Node]) -> str:
+    """The TeX of some nodes."""
+    return _LOOSE.sub(r"\1", "".join(_written(node) for node in nodes))
+
+
+def _written(node: Node) -> str:
+    parts = "".join(f"{{{written(part)}}}" for part in node.parts)
+    bare = node.command.isalpha() and not node.parts
+    return parts if node.token == "{" else node.token + parts + (" " if bare else "")
+
+
+def steps(tex: str, widest: Callable[[Sequence[Node]], bool]) -> list[str]:
+    """The formula with parts too wide for a line named, then each part by its name.
+
+    Args:
+        tex: One line of TeX.
+        widest: Whether a numerator, a denominator or a radicand is too wide.
+
+    Returns:
+        The formula alone where nothing is too wide.
+    """
+    named: list[str] = []
+
+    def shortened(node: Node) -> Node:
+        names = _NAMES.get(node.token)
+        if names is None:
+            return Node(node.token, tuple(tuple(map(shortened, part)) for part in node.parts))
+        parts = []
+        for name, part in zip(names, node.parts, strict=True):
+            if not widest(part):
+                parts.append(part)
+                continue
+            count = len(named) + 1
+            symbol = rf"\mathrm{{{name}}}" + (f"_{{{count}}}" if count > 1 else "")
+            named.append(f"{symbol} = {written(part)}")
+            parts.append(tree(symbol))
+        return Node(node.token, tuple(parts))
+
+    short = written([shortened(node) for node in tree(tex)])
+    return [short, *named]

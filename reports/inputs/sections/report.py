@@ -5,12 +5,38 @@ from __future__ import annotations
 from datetime import UTC, datetime
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, Strict
 
 from reports.inputs.meta import Strictly, choice, number, text
 from reports.inputs.units import NONE
 
-DETAILS = {"full": "все строки таблиц", "short": "каждая третья строка"}
+DETAILS = {
+    "course": "главы курсового проекта, таблицы через 30°",
+    "full": "все главы, все строки таблиц",
+    "short": "расчет до коренных шеек с выводами, без приложений",
+}
+# Chapters that a report may do without; the introduction, the input data, the conclusion and
+# the sources always stand.
+CHAPTERS = {
+    "cycle": "рабочий цикл",
+    "kinematics": "кинематика",
+    "dynamics": "динамика",
+    "torque": "крутящий момент",
+    "crankpin": "шатунная шейка",
+    "journals": "коренные шейки",
+    "bearings": "подшипники и изгиб вала",
+    "running": "набегающие моменты",
+    "regimes": "сравнение режимов",
+    "reference": "точность формул и справочные зависимости",
+    "companions": "уравновешенность, ход, гармоники",
+    "checks": "проверка результатов",
+    "appendices": "таблицы по углу поворота",
+}
+Detail = Literal["course", "full", "short"]
+ChapterName = Literal[
+    "cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "bearings", "running",
+    "regimes", "reference", "companions", "checks", "appendices",
+]  # fmt: skip
 FRAMES = {"none": "без рамки", "eskd": "рамка и основная надпись по ГОСТ 2.104"}
 
 
@@ -43,7 +69,11 @@ class Report(Strictly):
     frame: Annotated[
         Literal["none", "eskd"], choice("Рамка листов отчёта", FRAMES, structural=False)
     ] = "none"
-    detail: Annotated[
-        Literal["full", "short"], choice("Таблицы в отчёте", DETAILS, structural=False)
-    ] = "full"
+    detail: Annotated[Detail, choice("Объем отчета", DETAILS, structural=False)] = "course"
+    chapters: Annotated[
+        tuple[Annotated[ChapterName, choice("Глава отчета {n}", CHAPTERS, structural=False)], ...]
+        | None,
+        Strict(False),
+    ] = None
+    style: Annotated[str, text("Файл оформления кафедры")] = ""
     templates: Annotated[str, text("Папка со своими шаблонами отчёта")] = ""

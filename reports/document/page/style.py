@@ -1,0 +1,119 @@
+"""How the sheets are set: what a department asks for instead of the usual."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from reports.inputs.messages import explain, toml_error
+from reports.shared.errors import InputError, Problem
+
+KEY = "report.style"
+HINT = "исправьте файл оформления; ключи описаны в docs/report.md"
+PX = 96 / 25.4  # CSS pixels in a millimetre
+_TABLE = 12 / 14  # type of tables relative to the text's
+_SIZES = {"": 1.0, "dense": 0.875, "tiny": 0.75}  # relative to the usual type of tables
+
+
+class _Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Margins(_Strict):
+    """Margins of the sheet [mm]."""
+
+    left: Annotated[float, Field(ge=15, le=50)] = 30.0
+    right: Annotated[float, Field(ge=5, le=40)] = 15.0
+    top: Annotated[float, Field(ge=10, le=40)] = 20.0
+    bottom: Annotated[float, Field(ge=10, le=40)] = 20.0
+
+
+class TitlePage(_Strict):
+    """Words of the title page, and which sheets stand before the text."""
+
+    ministry: str = ""
+    kind: str = "Расчётно-пояснительная записка к курсовому проекту"
+    assignment: bool = True
+    abstract: bool = True
+
+
+class Style(_Strict):
+    """A department's style file; every key has the usual value."""
+
+    font_size_pt: Annotated[float, Field(ge=10, le=16)] = 14.0
+    line_spacing: Annotated[float, Field(ge=1, le=2)] = 1.5
+    indent_cm: Annotated[float, Field(ge=0, le=2)] = 1.25
+    numbering: Literal["through", "chapter"] = "through"
+    page_number: Literal["bottom-center", "bottom-right"] = "bottom-center"
+    frame: Literal["none", "eskd"] | None = None
+    chapters_on_new_page: bool = True
+    table_step_deg: Annotated[int, Field(ge=1, le=90)] = 30
+    margins: Margins = Margins()
+    title: TitlePage = TitlePage()
+
+    @property
+    def width_mm(self) -> float:
+        """Width of the text [mm]."""
+        return 210.0 - self.margins.left - self.margins.right
+
+    @property
+    def width_px(self) -> float:
+        """Width of the text [CSS pixels]."""
+        return self.width_mm * PX
+
+    @property
+    def em_px(self) -> float:
+        """Size of the text's type [CSS pixels]."""
+        return self.font_size_pt * 96 / 72
+
+    @property
+    def table_pt(self) -> float:
+        """Usual type of tables [pt]."""
+        return round(self.font_size_pt * _TABLE, 2)
+
+    def table_em_px(self, size: str) -> float:
+        """Size of a table's type [CSS pixels] by the name of its size."""
+        return self.table_pt * _SIZES[size] * 96 / 72
+
+    def formula_em(self, *, numbered: bool) -> float:
+        """Room for a line of a displayed formula, in em of the text."""
+        return self.width_px / self.em_px * (0.86 if numbered else 1.0) - 0.6
+
+
+USUAL = Style()
+
+
+def read(path: Path) -> Style:
+    """Read a style file.
+
+    Raises:
+        InputError: It cannot be read, is no TOML, or has a wrong key or value; one line.
+    """
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        what = f"файл не читается: {path}"
+        raise InputError(Problem(KEY, what, "укажите файл TOML в кодировке UTF-8")) from error
+    try:
+        return Style.model_validate(tomllib.loads(text))
+    except tomllib.TOMLDecodeError as error:
+        what, hint = toml_error(error, text)
+        raise InputError(Problem(str(path), what, hint or HINT)) from error
+    except ValidationError as error:
+        raise InputError(Problem(str(path), _said(error), HINT)) from error
+
+
+def _said(error: ValidationError) -> str:
+    """All that is wrong in one line: key, what, what is allowed."""
+    lines = []
+    for item in error.errors():
+        what, hint = explain(item, None)
+        limits = {"ge": "не меньше", "le": "не больше", "expected": "допустимо:"}
+        allowed = [f"{word} {item['ctx'][name]}" for name, word in limits.items()
+                   if name in item.get("ctx", {})]  # fmt: skip
+        said = ", ".join(filter(None, (what, hint, *allowed)))
+        lines.append(f"{'.'.join(map(str, item['loc']))}: {said}")
+    return "; ".join(lines)

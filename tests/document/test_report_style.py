@@ -1,0 +1,108 @@
+"""A department's style file, the profiles and the chapters picked."""
+
+import re
+
+import pytest
+from pdftools import pages_of
+from report_samples import ONE, terms_of, with_detail
+
+from reports.document.page.render import render
+from reports.document.page.style import Style, read
+from reports.document.report import CHAPTERS, chosen, find_style, report_page
+from reports.inputs.sections import report as sections
+from reports.shared.errors import InputError
+
+STYLE = """
+font_size_pt = 12
+line_spacing = 1.2
+numbering = "chapter"
+page_number = "bottom-right"
+frame = "none"
+table_step_deg = 90
+
+[margins]
+left = 25
+right = 10
+
+[title]
+ministry = "Министерство образования"
+kind = "Курсовая работа"
+abstract = false
+"""
+
+
+def page_of(text: str, style: Style | None = None) -> str:
+    t = terms_of(text)
+    return report_page(t.model, t.values, media="print", style=style or Style())
+
+
+def titles(page: str) -> list[str]:
+    return re.findall(r"<h1[^>]*>(?:<span class=\"\w+\">)?(.*?)</h1>", page)
+
+
+def test_names_of_chapters_are_stated_once():
+    assert set(sections.CHAPTERS) < set(CHAPTERS)
+    assert sections.ChapterName.__args__ == tuple(sections.CHAPTERS)
+    assert sections.Detail.__args__ == tuple(sections.DETAILS)
+
+
+def test_profiles_hold_one_another():
+    held = {d: chosen(sections.Report(detail=d, year=2024)) for d in sections.DETAILS}
+    assert held["short"] < held["course"] < held["full"] == set(CHAPTERS)
+
+
+@pytest.mark.parametrize("name", sections.CHAPTERS)
+def test_every_chapter_stands_alone_and_may_be_left_out(name):
+    """References to what is left out turn into words; none stays unresolved."""
+    others = [other for other in sections.CHAPTERS if other != name]
+    for picked in ([name], others):
+        text = ONE.replace('detail = "full"', f"chapters = {picked}".replace("'", '"'))
+        page = page_of(text)
+        anchors = set(re.findall(r'\bid="([^"]+)"', page))
+        assert set(re.findall(r'href="#([^"]+)"', page)) <= anchors
+        if picked == ["kinematics"]:
+            assert "П3.1 книги Excel" in page
+
+
+def test_a_style_file_changes_the_sheets(tmp_path):
+    path = tmp_path / "style.toml"
+    path.write_text(STYLE, encoding="utf-8")
+    text = with_detail(ONE, "course").replace("step_deg = 30", "step_deg = 15")
+    page = page_of(text, read(path))
+    result = render(page)
+    assert result.warnings == ()
+    pages = pages_of(result.pdf, tmp_path)
+    assert "Министерство образования" in pages[0] and "Курсовая работа" in pages[0]
+    whole = "\n".join(pages)
+    assert "Реферат" not in page and "РЕФЕРАТ" not in whole
+    assert re.search(r"Рисунок\s1\.1\s—", whole) and re.search(r"(?m)\(2\.1\)\s*$", whole)
+    start = re.search(r"Таблица\sБ\.2\s—", whole).start()
+    end = re.search(r"Таблица\sБ\.3\s—", whole).start()
+    rows = re.findall(r"(?m)^\s*(\d+)\s+−?\d+,\d+", whole[start:end])
+    assert rows == [str(angle) for angle in range(0, 721, 90)]
+    assert "margin: 20.0mm 10.0mm 20.0mm 25.0mm" in page and "font-size: 12.0pt" in page
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("font_size_pt = 99", "font_size_pt"),
+        ("fontsize = 12", "fontsize"),
+        ('numbering = "roman"', "numbering"),
+        ("[margins]\nleft = 'wide'", "margins.left"),
+        ("font_size_pt = ", "обрывается"),
+    ],
+)
+def test_a_bad_style_file_is_told_in_one_line(tmp_path, text, words):
+    path = tmp_path / "style.toml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError) as caught:
+        read(path)
+    (line,) = caught.value.lines()
+    assert words in line and "style.toml" in line and not re.search(r"[a-z]{4,} [a-z]{4,}", line)
+
+
+def test_a_missing_style_file_is_told(tmp_path):
+    report = sections.Report(style="none.toml", year=2024)
+    with pytest.raises(InputError, match="не читается"):
+        find_style(report, tmp_path)

@@ -29,6 +29,7 @@ from reports.document.chapters import (
 )
 from reports.document.chapters import torque as torques
 from reports.document.chapters.chapter import Chapter
+from reports.document.chapters.profiles import chosen
 from reports.document.page import overrides
 from reports.document.page.blocks import DocumentInfo
 from reports.document.page.numbering import Draft, Name
@@ -51,6 +52,7 @@ Further = Sequence[Write]
 
 # In the order of the report; the names are those of ``report.chapters``.
 CHAPTERS: dict[str, Write] = {
+    "notation": opening.notation,
     "introduction": opening.introduction,
     "inputs": opening.input_data,
     "cycle": cycle.cycle,
@@ -69,16 +71,6 @@ CHAPTERS: dict[str, Write] = {
     "sources": closing.sources,
     "appendices": closing.appendices,
 }
-_ALWAYS = {"introduction", "inputs", "conclusion", "sources"}
-_SHORT = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals"}
-_COURSE = _SHORT | {"running", "regimes", "checks", "appendices"}
-_PROFILES = {"short": _SHORT, "course": _COURSE, "full": set(CHAPTERS)}
-
-
-def chosen(report: Report) -> set[str]:
-    """Names of the chapters that a report holds."""
-    wanted = _PROFILES[report.detail] if report.chapters is None else set(report.chapters)
-    return wanted | _ALWAYS
 
 
 def report_pdf(
@@ -182,7 +174,7 @@ def _page(model: Model, values: Values, env: Environment, further: Further) -> s
     style = cast(Style, env.globals["style"])
     draft, absent = Draft(by_chapter=style.numbering == "chapter"), Draft()
     _write(Chapter(terms, Writer(env, draft), env), names, further)
-    _write(Chapter(terms, Writer(env, absent), env), set(CHAPTERS) - names)
+    _write(Chapter(terms, Writer(env, absent), env), CHAPTERS.keys() - names)
     numbering = draft.numbering(elsewhere=_elsewhere(terms, absent))
     chapter = Chapter(terms, Writer(env, numbering), env)
     body = _write(chapter, names, further)
@@ -213,7 +205,9 @@ def _whole(env: Environment, chapter: Chapter, body: Markup) -> str:
         brief=front.abstract(chapter),
         block=front.title_block(chapter.input, style.frame),
         exact=chapter.exact,
+        chapter=chapter,
         load=chapter.worst("worst_main_load"),
+        pin=closing.worst_pin(chapter),
         verdict=closing.verdict(terms),
         toc=chapter.writer.contents(),
         content=body,

@@ -113,7 +113,7 @@ def conclusion(chapter: Chapter) -> Markup:
         mains=[k + 1 for k in facts.leaders(terms, [f"dM_main{k}" for k in range(2, throws + 2)])],
         pins_count=len(names),
         worst_pins=worst,
-        pin=names[worst[0] - 1],
+        pin=worst_pin(chapter),
         pins=facts.leaders(terms, [f"dM_pin{i}" for i in range(1, throws + 1)]),
         ray=least_ray(terms),
         has_power=terms.has("T_ref"),
@@ -122,6 +122,12 @@ def conclusion(chapter: Chapter) -> Markup:
         peak=_peak(terms, float(pressure[row])),
         pz=(fixed(float(pressure[row]), 2), fixed(terms.model.tables["gas"].rows[row], 0)),
     )
+
+
+def worst_pin(chapter: Chapter) -> str:
+    """Stem of the keys of the crankpin with the greatest load: ``pin``, ``pin_2``."""
+    names = [f"pin{pin_name(n)}" for n in range(1, len(chapter.shape.pins) + 1)]
+    return names[facts.leaders(chapter.terms, [f"R{name}_max" for name in names])[0] - 1]
 
 
 def verdict(terms: Terms) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from reports.document.chapters.chapter import Chapter
+from reports.document.chapters.profiles import chosen
 from reports.document.page.fitting import type_pt
 from reports.document.page.style import TitlePage
 from reports.inputs.sections.input_file import InputFile
@@ -15,15 +16,16 @@ from reports.inputs.sections.input_file import InputFile
 Words = dict[str, Any]
 
 _KEYWORDS = (
-    "кривошипно-шатунный механизм",
-    "кинематика",
-    "динамика",
-    "индикаторная диаграмма",
-    "крутящий момент",
-    "шатунная шейка",
-    "коренная шейка",
-    "диаграмма износа",
-    "уравновешенность",
+    ("", "кривошипно-шатунный механизм"),
+    ("cycle", "рабочий цикл"),
+    ("kinematics", "кинематика"),
+    ("dynamics", "динамика"),
+    ("dynamics", "индикаторная диаграмма"),
+    ("torque", "крутящий момент"),
+    ("crankpin", "шатунная шейка"),
+    ("journals", "коренная шейка"),
+    ("crankpin", "диаграмма износа"),
+    ("companions", "уравновешенность"),
 )
 _REPORT = ("title", "institution", "department", "discipline", "student", "group", "supervisor",
            "variant", "city", "head", "issued", "due")  # fmt: skip
@@ -67,8 +69,10 @@ def assignment(chapter: Chapter) -> Words:
 def abstract(chapter: Chapter) -> Words:
     """Counts of what the report holds, and key words."""
     n = chapter.writer.n
-    cycle = ("рабочий цикл",) if chapter.terms.has("cyc_N_e") else ()
-    words = (_KEYWORDS[0], *cycle, *_KEYWORDS[1:])
+    names = {"", *chosen(chapter.input.report)}
+    if not chapter.terms.has("cyc_N_e"):
+        names.discard("cycle")
+    words = [word for name, word in _KEYWORDS if name in names]
     return {
         "figures": n.count("figure"),
         "tables": n.count("table"),

@@ -9,6 +9,7 @@ from markupsafe import Markup
 
 from reports.document.chapters.chapter import Chapter
 from reports.document.chapters.layout import scheme_text
+from reports.document.chapters.profiles import chosen
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.page.spec_tables import list_block, unit_cell
 from reports.document.page.writer import TablePlan
@@ -27,9 +28,47 @@ _ARMS = ("l1", "l2", "l3", "l4", "l5", "l6", "left_web", "right_web")
 _LEFT_OUT = {"engine_name", "engine_layout", "engine_strokes"}
 
 
+# Abbreviations of the report and the nodes whose symbols run through it.
+_ABBREVIATIONS = (
+    ("ВМТ", "верхняя мёртвая точка"),
+    ("КПД", "коэффициент полезного действия"),
+    ("НМТ", "нижняя мёртвая точка"),
+)
+_SYMBOLS = (
+    "phi_deg", "P3_2.beta_rad", "lam", "r_crank", "L_rod", "geometry_bore_mm", "S_stroke",
+    "geometry_compression_ratio", "k_offset", "F_piston", "V_h", "V_c", "omega",
+    "regime_speed_rpm", "c_m", "P3_1.s_mm", "P3_1.v_m_s", "P3_1.j_m_s2", "m_j", "m_1", "m_2",
+    "m_r", "K_r", "gas.p_MPa", "P4_1.Pg_MPa", "P4_1.Pj_MPa", "P4_1.Ps_MPa", "P4_1.N_MPa",
+    "P4_1.S_MPa", "P4_1.T_MPa", "P4_1.K_MPa", "P4_1.M_Nm", "P4_2.Msum_Nm", "M_mean",
+    "crankpin.Rpin_MPa", "crankpin.psi_deg", "P4_3_1.R_MPa",
+)  # fmt: skip
+
+
+def notation(chapter: Chapter) -> Markup:
+    """Abbreviations and symbols that run through the report."""
+    terms = chapter.terms
+    present = [name for name in _SYMBOLS if name == "phi_deg" or terms.has(name)]
+    symbols = [(terms.sym(name), terms.title(name), terms.unit(name)) for name in present]
+    return chapter.page("notation", abbreviations=_ABBREVIATIONS, symbols=symbols)
+
+
+# What the introduction says was found, by chapter.
+_FOUND = (
+    ("kinematics", "перемещение, скорость и ускорение поршня"),
+    ("kinematics", "качание шатуна"),
+    ("dynamics", "силы в механизме"),
+    ("torque", "крутящий момент двигателя"),
+    ("crankpin", "нагрузка на шатунную шейку и условная диаграмма её износа"),
+    ("journals", "нагрузки на коренные шейки и их условные диаграммы износа"),
+    ("running", "набегающие моменты"),
+    ("companions", "уравновешенность и неравномерность хода двигателя"),
+)
+
+
 def introduction(chapter: Chapter) -> Markup:
     """Introduction: what is computed and how."""
-    return chapter.page("introduction")
+    names = chosen(chapter.input.report)
+    return chapter.page("introduction", found=[what for name, what in _FOUND if name in names])
 
 
 def input_data(chapter: Chapter) -> Markup:

@@ -1,0 +1,61 @@
+"""Results for which the step of the tables is too coarse are told, and only those."""
+
+import re
+
+import pytest
+from click.testing import CliRunner
+
+from kshm import solve
+from reports.cli import main
+from reports.inputs.checks.grid import grid_errors, grid_remark
+from reports.inputs.fields import to_mapping
+from reports.inputs.load import load_mapping
+from reports.inputs.to_si.engine import engine_and_cycle
+from reports.shared.resources import samples_dir
+from tests.conftest import sample
+from tests.layouts import made
+
+
+def stepped(name, step):
+    raw = to_mapping(sample(name))
+    raw["calculation"]["step_deg"] = step
+    return load_mapping(raw, source="t.toml").model
+
+
+def scalars(model):
+    return solve(*engine_and_cycle(model)).scalars
+
+
+@pytest.mark.parametrize("step", [10.0, 30.0])
+@pytest.mark.parametrize("name", ["yamz-236", "yamz-238", "two-stroke"])
+def test_what_is_told_is_what_the_solver_finds_with_a_step_of_a_degree(name, step):
+    model = stepped(name, step)
+    coarse, fine = scalars(model), scalars(stepped(name, 1.0))
+    told = {error.key: error for error in grid_errors(model)}
+    for key in ("M_max", "M_mean", "I_flywheel", "Rpin_max", "Rmain1_max", "dM_main2"):
+        off = abs(coarse[key] - fine[key]) > 0.02 * abs(fine[key])
+        assert (key in told) == off, key
+        if off:
+            assert (told[key].coarse, told[key].fine) == (coarse[key], fine[key])
+
+
+def test_the_v6_of_the_issue():
+    (found,) = (e for e in grid_errors(stepped("yamz-236", 10.0)) if e.key == "M_max")
+    assert round(found.coarse) == 2374 and round(found.fine) == 2557
+    assert found.percent == pytest.approx(-7.18, abs=0.01)
+
+
+def test_a_fine_grid_has_nothing_to_tell():
+    assert grid_errors(stepped("yamz-236", 1.0)) == () and grid_remark(stepped("d-240", 1.0)) == ""
+
+
+def test_rounding_noise_of_zero_is_no_difference():
+    assert all(abs(e.coarse) + abs(e.fine) > 1e-9 for e in grid_errors(made("opposed_four")))
+
+
+@pytest.mark.parametrize("command", ["check", "solve"])
+def test_the_commands_name_the_grid(command):
+    path = samples_dir() / "yamz-236.toml"
+    done = CliRunner().invoke(main, [command, str(path)])
+    assert done.exit_code == 0
+    assert re.search(r"Шаг таблиц 10° .*наибольший суммарный момент 2374 вместо 2557", done.stderr)

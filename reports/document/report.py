@@ -39,6 +39,7 @@ from reports.document.page.style import read as read_style
 from reports.document.page.writer import Writer
 from reports.document.text import texts
 from reports.document.text.terms import Terms
+from reports.inputs.checks.grid import fine_columns
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.report import Report
 from reports.spec.blocks import Model
@@ -169,7 +170,7 @@ def report_page(
 
 
 def _page(model: Model, values: Values, env: Environment, further: Further) -> str:
-    terms = Terms(model, values)
+    terms = Terms(model, values, fine_columns(model.input))
     names = chosen(model.input.report)
     style = cast(Style, env.globals["style"])
     draft, absent = Draft(by_chapter=style.numbering == "chapter"), Draft()

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 LETTERS = "абвгдежиклмнпрстуфхцшщэюя"  # without з, о, ё, й, ъ, ы, ь, as the standard lists them
 _BOTTOM, _TOP, _BETWEEN = 20.0, 22.0, 38.0  # pt below, above and between the panels
+_DOT: dict[str, Any] = {"linewidth": 2.2, "solid_capstyle": "round", "label": "_"}
 _LEVEL: dict[str, Any] = {"color": "#000000", "linewidth": 0.9, "linestyle": (0, (12, 3, 2, 3))}
 
 
@@ -57,13 +58,14 @@ class Mark:
 
 @dataclass(frozen=True, slots=True)
 class Panel:
-    """One plot of a figure; ``zero`` takes zero into the ordinate."""
+    """One plot of a figure; ``zero`` takes zero into the ordinate, ``points`` get dots."""
 
     curves: Sequence[Curve]
     y_title: str
     levels: Sequence[Level] = ()
     marks: Sequence[Mark] = ()
     zero: bool = True
+    points: Sequence[tuple[ArrayLike, ArrayLike]] = ()
 
     def ordinates(self, size: int) -> list[NDArray[np.float64]]:
         """The curves as arrays, shape (size,) each.
@@ -147,9 +149,20 @@ def _plot(
         dash, width, colour = PATTERNS[number % len(PATTERNS)]
         look = {"linestyle": dash, "linewidth": width, "color": colour}
         axes.plot(x, y, label=shown(curve.name), clip_on=False, **look)
+    for number, points in enumerate(panel.points):
+        colour = PATTERNS[number % len(PATTERNS)][2]
+        dots = axes.plot(*map(_dotted, points), color=colour, clip_on=False, **_DOT)
+        dots[0].get_path().should_simplify = False
     for level in panel.levels:
         axes.axhline(level.y, clip_on=False, **_LEVEL)
     _name(axes, panel, [np.column_stack([x, y]) for y in columns])
+
+
+def _dotted(values: ArrayLike) -> NDArray[np.float64]:
+    """Segments of no length, which round caps make dots; markers would be copies by reference."""
+    places = np.repeat(np.asarray(values, dtype=np.float64), 3)
+    places[2::3] = np.nan
+    return places
 
 
 def _name(axes: Axes, panel: Panel, curves: Sequence[Points]) -> None:

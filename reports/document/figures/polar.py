@@ -40,8 +40,9 @@ def polar_path(
     poles: Sequence[Pole] = (Pole("$O$"),),
     most: float = 150.0,
     least_step: float = 10.0,
+    marked: ArrayLike | None = None,
 ) -> str:
-    """Path of a vector's end in equal scales, not smoothed, as SVG.
+    """Path of a vector's end in equal scales, through its points and no others, as SVG.
 
     Args:
         x: Horizontal component, shape (n,).
@@ -52,6 +53,7 @@ def polar_path(
         poles: Points from which the vector is measured.
         most: Greatest width and height of the field [mm].
         least_step: Finest division of angles to label [deg].
+        marked: Angles of the points that get a dot and may get a label, else all [deg].
 
     Raises:
         ValueError: Shapes differ or a value is not finite.
@@ -90,7 +92,10 @@ def polar_path(
         _ends(pen, to_sheet((0.0, 0.0)), (left, low, left + width, low + height), reverse, titles)
         for pole in poles:
             _pole(pen, room, to_sheet((pole.x, pole.y)), pole.name, reverse)
-        _angles(pen, room, path, degrees, least_step)
+        rows = _rows(degrees, marked)
+        for row in rows.tolist() if marked is not None else ():
+            pen.circle(tuple(path[row].tolist()), 0.8, fill="#000000", width=0)
+        _angles(pen, room, path, degrees, (rows, least_step))
         return page.svg()
 
 
@@ -133,13 +138,25 @@ def _pole(pen: Pen, room: Room, place: NDArray[np.float64], name: str, reverse: 
         pen.text(spot, name)
 
 
+def _rows(degrees: NDArray[np.float64], marked: ArrayLike | None) -> NDArray[np.intp]:
+    """Numbers of the points at the marked angles, of all without them."""
+    if marked is None:
+        return np.arange(degrees.size)
+    apart = np.abs(degrees[:, None] - np.asarray(marked, dtype=np.float64))
+    return np.flatnonzero(apart.min(axis=1) < 1e-6)
+
+
 def _angles(
-    pen: Pen, room: Room, path: Points, degrees: NDArray[np.float64], least_step: float
+    pen: Pen,
+    room: Room,
+    path: Points,
+    degrees: NDArray[np.float64],
+    labelled: tuple[NDArray[np.intp], float],
 ) -> None:
     """Label as many points as there is room for, the round angles and the farthest first."""
     centre = path.mean(axis=0)
     seen: list[Place] = []
-    for index, least in _order(path, degrees, least_step):
+    for index, least in _order(path, degrees, *labelled):
         point = (float(path[index, 0]), float(path[index, 1]))
         if any(math.dist(point, other) < least for other in seen):
             continue
@@ -158,13 +175,13 @@ def _angles(
 
 
 def _order(
-    path: Points, degrees: NDArray[np.float64], least_step: float
+    path: Points, degrees: NDArray[np.float64], rows: NDArray[np.intp], least_step: float
 ) -> list[tuple[int, float]]:
     """Points in the order of their right to a label, with the distance each must keep [pt]."""
-    far = int(np.hypot(*(path - path.mean(axis=0)).T).argmax())
+    far = int(rows[np.hypot(*(path[rows] - path.mean(axis=0)).T).argmax()])
     order = {far: 0.0}
     for step in (step for step in _PRIORITIES if step >= least_step):
         multiples = np.flatnonzero(np.abs(np.remainder(degrees + step / 2, step) - step / 2) < 1e-6)
-        for index in multiples.tolist():
+        for index in np.intersect1d(multiples, rows).tolist():
             order.setdefault(index, 14.0 if step >= 30 else 24.0)
     return list(order.items())

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from reports.document.figures.curves import LETTERS, Curve, Level, Mark, Panel, curves_figure
 from reports.document.figures.polar import Pole, polar_path
@@ -66,9 +68,10 @@ def panels_figure(
         f"{letter}{NBSP}—{NBSP}{chart.panel}"
         for letter, chart in zip(LETTERS, charts, strict=False)
     )
-    x = first.drawn_by("report")[0].x
+    x, abscissa, columns = _together(terms, charts)
+    panels = (_panel(terms, c, columns[n]) for n, c in enumerate(charts))
     draw = partial(
-        curves_figure, terms.column(x), tuple(_panel(terms, chart) for chart in charts),
+        curves_figure, abscissa, tuple(panels),
         _axis(terms, x), height=size, **more,
     )  # fmt: skip
     caption = f"{first.group}: {words}"
@@ -78,29 +81,49 @@ def panels_figure(
 def _curves(
     terms: Terms, chart: ChartSpec, size: float, *, rows: Sequence[Row] = (), closed: bool = False
 ) -> Callable[[], str]:
-    name = chart.drawn_by("report")[0].x
-    x, panel = terms.column(name), _panel(terms, chart, rows)
+    name, x, (columns,) = _together(terms, [chart])
+    panel = _panel(terms, chart, columns, rows)
     if closed:
         x = np.append(x, x[0])
         curves = (Curve(c.name, np.append(c.y, np.asarray(c.y)[0])) for c in panel.curves)
-        panel = Panel(tuple(curves), panel.y_title, panel.levels, panel.marks, panel.zero)
+        panel = replace(panel, curves=tuple(curves))
     return partial(
         curves_figure, x, (panel,), _axis(terms, name), height=size, angle=chart.x_is_angle
     )
 
 
-def _panel(terms: Terms, chart: ChartSpec, rows: Sequence[Row] = ()) -> Panel:
+Column = NDArray[np.float64]
+
+
+def _together(terms: Terms, charts: Sequence[ChartSpec]) -> tuple[str, Column, list[list[Column]]]:
+    """The abscissa of charts, its values and the ordinates of each chart on it."""
+    series = [chart.drawn_by("report") for chart in charts]
+    name = series[0][0].x
+    abscissa, *columns = terms.curves([name, *(s.y for each in series for s in each)])
+    found = iter(columns)
+    return name, abscissa, [[next(found) for _ in each] for each in series]
+
+
+def _panel(
+    terms: Terms, chart: ChartSpec, columns: Sequence[Column], rows: Sequence[Row] = ()
+) -> Panel:
+    """A panel with its curves; the rows of the table are marked on finer curves."""
     drawn = chart.drawn_by("report")
     x, y = terms.column(drawn[0].x), terms.column(drawn[0].y)
+    marked = len(columns[0]) > len(x)
     if chart.extremes:
         rows = (*rows, ("max", int(np.argmax(y))), ("min", int(np.argmin(y))))
     title = chart.y_tex or (_axis(terms, drawn[0].y) if len(drawn) == 1 else _tex(chart.y_title))
     return Panel(
-        tuple(Curve(_name(terms, series), terms.column(series.y)) for series in drawn),
+        tuple(
+            Curve(_name(terms, series), column)
+            for series, column in zip(drawn, columns, strict=True)
+        ),
         title,
         tuple(Level(f"${terms.tex(level)}$", terms.value(level)) for level in chart.levels),
         tuple(Mark(name, float(x[row]), float(y[row])) for name, row in rows),
         chart.from_zero,
+        tuple((x, terms.column(series.y)) for series in drawn) if marked else (),
     )
 
 
@@ -111,9 +134,13 @@ def _path(
     table = drawn.x.partition(".")[0]
     titles = (chart.x_tex or _axis(terms, drawn.x), chart.y_tex or _axis(terms, drawn.y))
     poles = (Pole(f"${tex}$", 0.0, float(evaluate(expr, terms.value))) for tex, expr in chart.poles)
+    rows = terms.model.tables[table].rows
+    x, y = terms.curves([drawn.x, drawn.y])
+    fine = len(x) > len(rows)
     return partial(
-        polar_path, terms.column(drawn.x), terms.column(drawn.y), terms.model.tables[table].rows,
-        titles, reverse=(chart.x_reversed, chart.y_reversed), poles=(Pole("$O$"), *poles),
+        polar_path, x, y, terms.fine[table]["phi_deg"] if fine else rows, titles,
+        marked=rows if fine else None, reverse=(chart.x_reversed, chart.y_reversed),
+        poles=(Pole("$O$"), *poles),
         most=size, least_step=least_step,
     )  # fmt: skip
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 from markupsafe import Markup
+from numpy.typing import NDArray
 
 from kshm.nomenclature.quantity import Quantity, quantity
 from reports.document.text import numbers
@@ -48,11 +50,11 @@ def unit_tex(label: str) -> str:
     return r"\;" + rf"\mathrm{{{text}}}".replace(r"\mathrm{}", "")
 
 
-def input_text(field: Field) -> str:
+def input_text(given: Field) -> str:
     """An input value as printed: the label of a choice, a number with decimal comma."""
-    if field.choices is not None:
-        return field.choices.get(str(field.value), str(field.value))
-    return field.value if isinstance(field.value, str) else plain_number(float(field.value))
+    if given.choices is not None:
+        return given.choices.get(str(given.value), str(given.value))
+    return given.value if isinstance(given.value, str) else plain_number(float(given.value))
 
 
 def plain_number(value: float) -> str:
@@ -80,6 +82,14 @@ class Terms:
 
     model: Model
     values: Values
+    fine: Mapping[str, Mapping[str, NDArray[np.float64]]] = field(default_factory=dict)
+
+    def curves(self, names: Sequence[str]) -> list[NDArray[np.float64]]:
+        """Columns to draw together: at the fine step where all of them are known so."""
+        keys = [name.rpartition(".")[::2] for name in names]
+        if all(key in self.fine.get(table, {}) for table, key in keys):
+            return [np.asarray(self.fine[table][key], dtype=np.float64) for table, key in keys]
+        return [self.column(name) for name in names]
 
     def has(self, name: str) -> bool:
         """Whether the model has the scalar, input or column."""
@@ -236,9 +246,9 @@ class Terms:
 
         def lookup(inner: str) -> float | str:
             node = self._global(inner, table)
-            field = self.model.fields.get(node)
-            if field is not None and isinstance(field.value, str):
-                return (field.choices or {}).get(field.value, field.value)
+            given = self.model.fields.get(node)
+            if given is not None and isinstance(given.value, str):
+                return (given.choices or {}).get(given.value, given.value)
             return self.value(node, at)
 
         return formulas.chosen(self._node_expr(name), lambda test: bool(evaluate(test, lookup)))

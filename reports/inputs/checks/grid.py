@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from kshm.arrays import Tables
 from kshm.nomenclature.quantity import Quantity, quantity
 from kshm.results.solution import solve
 from reports.inputs.sections.input_file import InputFile
@@ -58,10 +59,8 @@ def grid_errors(model: InputFile) -> tuple[GridError, ...]:
     """
     if model.calculation.step_deg <= FINE:
         return ()
-    calculation = model.calculation.model_copy(update={"step_deg": FINE})
     try:
-        coarse = _results(model)
-        fine = _results(model.model_copy(update={"calculation": calculation}))
+        coarse, fine = _results(model), _results(refined(model))
     except (ValueError, InputError):
         return ()
     found = [
@@ -70,6 +69,19 @@ def grid_errors(model: InputFile) -> tuple[GridError, ...]:
         if _is_off(value, fine[key], max(map(abs, _family(coarse, key))))
     ]
     return tuple(sorted(found, key=lambda error: (_rank(error.key), -abs(error.percent))))
+
+
+def refined(model: InputFile) -> InputFile:
+    """The same engine with tables at the fine step."""
+    calculation = model.calculation.model_copy(update={"step_deg": FINE})
+    return model.model_copy(update={"calculation": calculation})
+
+
+def fine_columns(model: InputFile) -> Tables:
+    """Tables of the solver at the fine step, in their units; none where the grid is as fine."""
+    if model.calculation.step_deg <= FINE:
+        return {}
+    return solve(*engine_and_cycle(refined(model))).columns
 
 
 def _results(model: InputFile) -> dict[str, float]:

@@ -95,7 +95,7 @@ def cylinder_inertia(diameter: Array, length: Array) -> Array:
 
 
 def piston_speed(phi: Array, lam: float, k: float = 0.0) -> Array:
-    """Speed of the piston over ωR [-], elementwise, by the rod's direction; k is e/r."""
+    """Speed of the piston over ωR [-], elementwise, Gots 1.4: by the rod's direction, k is e/r."""
     if k == 0:
         return dimensionless.exact(phi, np.array(lam)).v
     side = np.sin(phi) - k

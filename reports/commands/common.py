@@ -58,7 +58,7 @@ def tell_grid(loaded: Loaded) -> None:
 
     line = grid_remark(loaded.model)
     if line:
-        click.echo(line, err=True)
+        click.echo(line)
 
 
 def notes_of(loaded: Loaded) -> tuple[str, ...]:

@@ -180,7 +180,6 @@ def solve(source: Path, folder: Path | None, target: str | None, verbose: bool) 
             )
     if folder is None and target is None:
         _print_summary(solution.scalars)
-    if target != "-":
         tell_grid(loaded)
     return DONE
 

@@ -32,6 +32,7 @@ from reports.document.chapters.chapter import Chapter
 from reports.document.chapters.profiles import chosen
 from reports.document.page import overrides
 from reports.document.page.blocks import DocumentInfo
+from reports.document.page.floating import arranged
 from reports.document.page.numbering import Draft, Name
 from reports.document.page.render import AttachedFile, RenderError, environment, render_pdf
 from reports.document.page.style import USUAL, Style
@@ -72,6 +73,7 @@ CHAPTERS: dict[str, Write] = {
     "sources": closing.sources,
     "appendices": closing.appendices,
 }
+_RUN_ON = 0.3  # of a page that is left for the next chapter outside of the full report
 
 
 def report_pdf(
@@ -179,9 +181,17 @@ def _page(model: Model, values: Values, env: Environment, further: Further) -> s
     numbering = draft.numbering(elsewhere=_elsewhere(terms, absent))
     chapter = Chapter(terms, Writer(env, numbering), env)
     body = _write(chapter, names, further)
+    if env.globals["media"] == "print":
+        body = Markup(arranged(body, style, run_on=_run_on(chapter, style)))
     numbering.check()
     store.store().save()
     return texts.unbroken_initials(texts.spaces_inside(_whole(env, chapter, body)))
+
+
+def _run_on(chapter: Chapter, style: Style) -> float:
+    """Share of a page from which a chapter follows on it; 1 for one that never does."""
+    new_page = style.chapters_on_new_page
+    return 1.0 if new_page or (new_page is None and chapter.whole) else _RUN_ON
 
 
 def _elsewhere(terms: Terms, absent: Draft) -> dict[Name, str]:

@@ -18,7 +18,9 @@ from tests.cycle.cycle_files import loaded
 def text_of(name: str) -> str:
     """The report's HTML without its formulas and figures, tags taken out."""
     model = build_model(loaded(name))
-    with mock.patch.object(report_module, "CHAPTERS", (cycle.cycle, closing.sources)):
+    with mock.patch.object(
+        report_module, "CHAPTERS", {"cycle": cycle.cycle, "sources": closing.sources}
+    ):
         page = report_module.report_html(model, evaluate_model(model), source=Path("t.toml"))
     page = re.sub(r"<svg.*?</svg>", " ", page, flags=re.DOTALL)
     page = re.sub(r"<style.*?</style>", " ", page, flags=re.DOTALL)
@@ -68,8 +70,7 @@ def test_derived_regimes_are_marked(report: tuple[str, str]) -> None:
 
 
 def test_the_chapter_stands_in_the_report() -> None:
-    assert cycle.cycle in report_module.CHAPTERS
-    assert report_module.CHAPTERS.count(cycle.cycle) == 1
+    assert list(report_module.CHAPTERS.values()).count(cycle.cycle) == 1
 
 
 def test_a_given_diagram_has_no_chapter_on_the_cycle() -> None:

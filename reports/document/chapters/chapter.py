@@ -61,10 +61,15 @@ class Chapter:
         return self.input.calculation.method == "exact"
 
     @property
+    def whole(self) -> bool:
+        """Whether every journal has its diagrams here; otherwise the most loaded one alone."""
+        return self.input.report.detail == "full"
+
+    @property
     def printed_step(self) -> float:
         """Step of the printed tables over the crank angle [deg]; 0 where all rows stand."""
         style = cast(Style, self.environment.globals["style"])
-        if self.input.report.detail == "full":
+        if self.whole:
             return 0.0
         step = self.input.calculation.step_deg
         return 0.0 if step >= style.table_step_deg else float(style.table_step_deg)
@@ -88,7 +93,7 @@ class Chapter:
             "at": self.example,
         }
         own = ("input", "shape", "example", "exact", "order", "eq", "full", "sub", "ref", "book",
-               "chart", "panels", "told", "printed_step")  # fmt: skip
+               "chart", "panels", "told", "printed_step", "whole")  # fmt: skip
         names |= {name: getattr(self, name) for name in own}
         text = self.environment.get_template(f"report/{template}.html.j2")
         return Markup(text.render(**names | context))

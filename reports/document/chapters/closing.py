@@ -207,5 +207,7 @@ def _plans(
             step=chapter.printed_step,
         )
         title = f"{spec.title} ({spec.number})" if spec.number.startswith("П") else spec.title
-        plans.append((key, TablePlan(build, title, number=f"{letter}.{place}", size=size)))
+        usual = "" if chapter.whole else "dense"
+        plan = TablePlan(build, title, number=f"{letter}.{place}", size=size or usual)
+        plans.append((key, plan))
     return plans

@@ -100,6 +100,7 @@ def journals(chapter: Chapter) -> Markup:
         ),
         throws=throws,
         numbers=numbers,
+        drawn=numbers if chapter.whole else [k],
         forces=_throws(chapter, _FORCES, "Центробежные силы колен", size),
         reactions=_throws(
             chapter, _REACTIONS, "Пролёты колен и реакции опор от центробежных сил", size

@@ -1,0 +1,267 @@
+"""Figures and small tables that float: to the top of the next page while the text goes on.
+
+WeasyPrint knows no floats of the page, so the places are chosen beforehand: the heights of all
+blocks are estimated, the pages of a chapter are filled with them, and what does not fit at the
+foot of a page is put behind the text that does, at the next place between two paragraphs.  An
+estimate that is wrong by some lines costs no more than these lines of blank paper.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from markupsafe import Markup
+
+from reports.document.page.style import Style
+from reports.document.text.fonts import text_em
+
+Kind = Literal["chapter", "heading", "text", "tied", "float", "table", "other"]
+
+_TAG = re.compile(r"<(/?)(p|h[1-3]|div|figure|ul|ol|nav|section)\b([^>]*)>")
+_WIDTH = re.compile(r'<(?:svg|img) class="fig"[^>]*?style="width:([\d.]+)mm')
+_BOX = re.compile(r'viewBox="[-\d.]+ [-\d.]+ ([\d.]+) ([\d.]+)"')
+_EM = re.compile(r"height:([\d.]+)em")
+_NUMBERED = re.compile(r'<span class="hn">(\d+)')
+_ROW = re.compile(r"<tr.*?</tr>", re.DOTALL)
+_CELL = re.compile(r"<td[^>]*>(.*?)</td>", re.DOTALL)
+_SHARE = re.compile(r'<col style="width:([\d.]+)%')
+_SMALL = re.compile(r"<su[bp]>(.*?)</su[bp]>", re.DOTALL)
+_PT = 96 / 72  # CSS pixels in a point
+_FULL = 0.97  # of a line that words fill on the average
+_LEAST = 0.78  # to which a figure may be reduced to fit the foot of a page
+_SLACK = 6.0  # px kept free on every page: estimates are no measures
+_NEARLY = 0.07  # of a page: too little for a heading and what must follow it
+_DOUBT = 28.0  # px kept free below what would miss the page by a hair: a line of the text
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """A block of the text and its estimated height with its margins [px].
+
+    ``tied`` blocks continue what stands before them, a formula or a line of its sentence.
+    """
+
+    html: str
+    kind: Kind
+    height: float
+    figure: float = 0.0  # of it the picture, which may be reduced
+
+
+def arranged(body: str, style: Style, *, run_on: float = 1.0) -> str:
+    """The text with its figures and small tables where they leave no hole in the page.
+
+    Args:
+        body: HTML of the chapters.
+        style: Sizes of sheet and type.
+        run_on: A numbered chapter follows on the same page if this share of it is free.
+    """
+    room = (297 - style.margins.top - style.margins.bottom) * 96 / 25.4 - _SLACK
+    out: list[str] = []
+    chapter: list[Block] = []
+    used = room
+    for block in _blocks(str(body), style):  # no Markup: nothing is escaped here
+        if block.kind == "chapter":
+            placed, used = _filled(chapter, used, room)
+            out += placed
+            follows = bool(chapter) and not {_number(chapter[0]), _number(block)} & {""}
+            chapter = []
+            # A page all but full may run over by a line: then the heading follows that line.
+            free = (room - used) / room
+            if follows and run_on < 1 and (free > run_on or free < _NEARLY):
+                html = block.html.replace('class="', 'class="runon ', 1)
+                block = replace(block, html=html, height=block.height + 18 * _PT)  # noqa: PLW2901
+            else:
+                used = 0.0
+        chapter.append(block)
+    return "\n".join([*out, *_filled(chapter, used, room)[0]])
+
+
+def _number(chapter: Block) -> str:
+    """Number in a chapter's heading, empty for introduction, conclusion, appendices."""
+    found = _NUMBERED.search(chapter.html)
+    return found[1] if found else ""
+
+
+def _filled(blocks: Sequence[Block], used: float, room: float) -> tuple[list[str], float]:
+    """The blocks of one chapter in their new order, and the height used on their last page."""
+    out: list[str] = []
+    waiting: list[Block] = []
+    for index, block in enumerate(blocks):
+        if waiting and block.kind not in ("tied", "other"):
+            used, placed, waiting = _placed(waiting, used, room)
+            out += placed
+        if block.kind == "float" or (waiting and block.kind == "table"):
+            waiting.append(block)
+            if not (index + 1 < len(blocks) and blocks[index + 1].kind == "tied"):
+                used, placed, waiting = _placed(waiting, used, room)
+                out += placed
+            continue
+        out.append(block.html)
+        used = _after(block, used, room)
+    for block in waiting:  # each on the page that comes next
+        out.append(block.html)
+        used = _after(block, used, room)
+    return out, used
+
+
+def _placed(waiting: list[Block], used: float, room: float) -> tuple[float, list[str], list[Block]]:
+    """What of the waiting blocks fits on this page, in order; the height used then."""
+    placed: list[str] = []
+    while waiting:
+        block = waiting[0]
+        rest = room - used - (_DOUBT if used else 0.0)
+        if block.kind == "table" or block.height <= rest:
+            placed.append(block.html)
+            used = _after(block, used, room)
+        elif block.figure and rest >= block.height - (1 - _LEAST) * block.figure:
+            placed.append(_reduced(block, 1 - (block.height - rest) / block.figure))
+            used = room
+        else:
+            break
+        waiting = waiting[1:]
+    return used, placed, waiting
+
+
+def _after(block: Block, used: float, room: float) -> float:
+    """Height used on the page on which a block ends."""
+    total = used + block.height
+    if total <= room:
+        return total
+    if block.kind in ("text", "table"):  # goes on over the page's end
+        return (total - room) % room
+    return min(block.height, room)
+
+
+def _reduced(block: Block, share: float) -> str:
+    """The figure smaller."""
+
+    def smaller(match: re.Match[str]) -> str:
+        width = float(match[1])
+        head = match.group()[: match.start(1) - match.start()]
+        return f"{head}{width * share:.1f}mm"
+
+    return _WIDTH.sub(smaller, block.html, count=1)
+
+
+def _blocks(body: str, style: Style) -> Iterator[Block]:
+    """Blocks of the body; a table's caption, box and end are one."""
+    table: list[str] = []
+    for html, tag, attributes in _elements(body):
+        if 'class="tcap"' in attributes or table:
+            table.append(html)
+            if 'class="tclear"' in attributes:
+                yield _table("\n".join(table), style)
+                table = []
+            continue
+        yield _block(html, tag, attributes, style)
+
+
+def _elements(body: str) -> Iterator[tuple[str, str, str]]:
+    """Outermost elements with tag and attributes; what lies between them goes with the next."""
+    depth = start = 0
+    tag = attributes = ""
+    for match in _TAG.finditer(body):
+        if match[1]:
+            depth -= 1
+            if depth == 0:
+                yield body[start : match.end()].strip(), tag, attributes
+                start = match.end()
+        else:
+            if depth == 0:
+                tag, attributes = match[2], match[3]
+            depth += 1
+    if body[start:].strip():
+        yield body[start:].strip(), "", ""
+
+
+def _block(html: str, tag: str, attributes: str, style: Style) -> Block:
+    em = style.em_px
+    line = em * style.line_spacing
+    if tag == "h1":
+        lines = _title_lines(html, style, em * 1.15) + html.count("<br>")
+        return Block(html, "chapter", lines * em * 1.5 + 8 * _PT)
+    if tag in ("h2", "h3"):
+        return Block(html, "heading", _lines(html, style, em) * em * 1.3 + 22 * _PT)
+    if tag == "p":
+        kind: Kind = "tied" if "flush" in attributes else "text"
+        return Block(html, kind, _lines(html, style, em) * line)
+    if 'class="eq' in attributes:
+        heights = [max(1.3, float(height)) * em for height in _EM.findall(html)]
+        padding = 4 * _PT * len(heights) if len(heights) > 1 else 0.0
+        return Block(html, "tied", sum(heights) + padding + 7 * _PT)
+    if tag == "figure":
+        size = _figure_px(html, style)
+        caption = html[html.find("<figcaption") :]
+        lines = _title_lines(caption, style, em)
+        return Block(html, "float", size + lines * em * 1.3 + 24.5 * _PT, size)
+    if 'class="where"' in attributes:
+        parts = re.findall(r"<p>.*?</p>", html, re.DOTALL)
+        height = sum(_lines(part, style, em) for part in parts) * line + 6 * _PT
+        return Block(html, "tied", height)
+    if tag in ("ul", "ol"):
+        items = re.findall(r"<li.*?</li>", html, re.DOTALL)
+        return Block(html, "text", sum(_lines(item, style, em) for item in items) * line)
+    return Block(html, "other", _lines(html, style, em) * line)
+
+
+def _figure_px(html: str, style: Style) -> float:
+    """Height of a figure's picture."""
+    width, box = _WIDTH.search(html), _BOX.search(html)
+    if width is None or box is None:
+        return 0.0
+    shown = min(float(width[1]), style.width_mm) * 96 / 25.4
+    return shown * float(box[2]) / float(box[1])
+
+
+def _table(html: str, style: Style) -> Block:
+    size = next((name for name in ("dense", "tiny") if f'class="data {name}' in html), "")
+    em = style.table_em_px(size)
+    caption = html[: html.find("</div>")]
+    height = _title_lines(caption, style, style.em_px) * 1.5 * style.em_px + 20 * _PT
+    height += em * 1.2 * 2 + 5 * _PT
+    lines = html.find('<tr class="lines">')
+    if lines > 0:
+        height += html.count("\n", lines) * 1.37 * em
+    else:
+        widths = [float(share) / 100 * style.width_px - 9 for share in _SHARE.findall(html)]
+        for row in _ROW.findall(html[html.find("<tbody") :]):
+            height += _row_lines(row, widths, em) * em * 1.2 + 2.8 * _PT
+    kind: Kind = "float" if re.search(r'class="data[^"]* keep', html) else "table"
+    return Block(html, kind, height)
+
+
+def _row_lines(row: str, widths: Sequence[float], em: float) -> int:
+    """Lines of the highest cell of a row."""
+    cells = _CELL.findall(row)
+    return (
+        max(
+            (
+                -int(-text_em(Markup(cell).striptags()) * em // width)
+                for cell, width in zip(cells, widths, strict=False)
+                if width > 0
+            ),
+            default=1,
+        )
+        or 1
+    )
+
+
+def _title_lines(html: str, style: Style, em: float) -> int:
+    """Lines of a heading or a caption, ragged and without indent."""
+    return max(1, -int(-_width_em(html) * em // style.width_px))
+
+
+def _lines(html: str, style: Style, em: float) -> int:
+    """Lines of a paragraph at a size of the type [px]."""
+    width = _width_em(html) * em + style.indent_cm * 96 / 2.54
+    return max(1, -int(-width // (style.width_px * _FULL)))
+
+
+def _width_em(html: str) -> float:
+    """Length of a text set in one line [em]."""
+    small = sum(text_em(Markup(part).striptags()) for part in _SMALL.findall(html))
+    plain = " ".join(Markup(_SMALL.sub("", html)).striptags().split())
+    return text_em(plain) + 0.7 * small

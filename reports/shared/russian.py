@@ -86,5 +86,5 @@ def capital(text: str) -> str:
 
 def joined(items: Sequence[object]) -> str:
     """Things as a sentence counts them up: «1, 2 и 4»."""
-    *most, last = map(str, items)
+    *most, last = map(str, items or ("",))
     return f"{', '.join(most)} и {last}" if most else last

@@ -59,8 +59,8 @@ def test_numbers_are_the_results(report: tuple[str, str]) -> None:
 
 def test_ranges_from_memory_are_marked_and_no_book_values(report: tuple[str, str]) -> None:
     _, text = report
-    assert "обычные значения, с книгой не сверены" in text
-    assert "Пределы не взяты из учебника" in text
+    assert "Пределы даны по памяти" in text
+    assert "в пособии их нет" in text
 
 
 def test_derived_regimes_are_marked(report: tuple[str, str]) -> None:

@@ -19,6 +19,7 @@ from reports.formula.tex import input_symbol_tex
 from reports.inputs.fields import Field
 from reports.inputs.sections.gas import TableGasSection
 from reports.inputs.sections.input_file import InputFile
+from reports.shared.russian import joined
 from reports.spec.shape import Shape
 from reports.tables.gas.cycle_names import friction_by_speed, section_of
 from reports.tables.gas.diagram import is_smooth
@@ -68,7 +69,9 @@ _FOUND = (
 def introduction(chapter: Chapter) -> Markup:
     """Introduction: what is computed and how."""
     names = chosen(chapter.input.report)
-    return chapter.page("introduction", found=[what for name, what in _FOUND if name in names])
+    return chapter.page(
+        "introduction", found=joined([what for name, what in _FOUND if name in names])
+    )
 
 
 def input_data(chapter: Chapter) -> Markup:

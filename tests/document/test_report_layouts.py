@@ -9,6 +9,7 @@ import pytest
 from report_samples import terms, terms_of, text_of
 
 from reports.document import store
+from reports.document.page import writer
 from reports.document.report import report_page
 from reports.document.text.mathsvg import formula, formula_lines
 from reports.document.text.terms import Terms
@@ -19,13 +20,18 @@ from reports.tables.registry import build_model
 from tests import layouts
 from tests.conftest import sample
 
-EMPTY = {"figure": "<svg></svg>", "formula": json.dumps(["<svg></svg>", 1.0, 1.0, 0.0])}
+EMPTY = {
+    "figure": "<svg></svg>",
+    "formula": json.dumps(["<svg></svg>", 1.0, 1.0, 0.0]),
+    "lines": json.dumps([["<svg></svg>", 1.0, 1.0, 0.0, "x"]]),
+}
 
 
 @pytest.fixture(autouse=True)
 def nothing_is_drawn(monkeypatch):
     for cached in (formula, formula_lines):
         cached.cache_clear()
+    monkeypatch.setattr(writer, "draw_all", lambda jobs: None)
     monkeypatch.setattr(store, "kept", lambda kind, content, make: EMPTY[kind])
     yield
     for cached in (formula, formula_lines):

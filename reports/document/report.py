@@ -170,6 +170,10 @@ def report_page(
         templates: a folder of own templates, see :mod:`reports.document.page.overrides`.
         style: margins, type and what else a department asks for.
     """
+    if style.tagged_tables is None:
+        # Cells for everyone's reader where they are few; lines are fast where they are many.
+        tagged = model.input.report.detail != "full"
+        style = style.model_copy(update={"tagged_tables": tagged})
     with overrides.told(templates):
         return _page(model, values, environment(templates, media=media, style=style))
 

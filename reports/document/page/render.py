@@ -154,7 +154,9 @@ def environment(
         "font_stack": Markup(fonts.STACK),
         "formula_lines": formula_lines,
         "nbsp": NBSP,
-        "style": style,
+        "style": style
+        if style.tagged_tables is not None
+        else style.model_copy(update={"tagged_tables": False}),
     }
     result.filters |= {
         "plain": texts.plain,

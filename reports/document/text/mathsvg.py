@@ -51,7 +51,7 @@ _SILENT = {"mathrm", "text", "left", "right", "operatorname", "mathit", "display
 _WORDS = {r"\sin", r"\cos", r"\tg", r"\min", r"\max", r"\arcsin", r"\arccos", r"\arctg"}
 _SIGN = 0.56  # em that a sign takes on the average
 _INVISIBLE = re.compile(r"\\(?:left|right)\.")
-_ONE = re.compile(r"[\w.]+")  # an index or exponent that needs no brackets
+_ONE = re.compile(r"−?[\w.]+")  # an index or exponent that needs no brackets
 _DECIMAL_POINT = re.compile(r"\d\.\d")
 
 

@@ -7,7 +7,7 @@ numbers known (see :mod:`reports.document.page.writer`).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, cast
 
@@ -81,7 +81,7 @@ def report_pdf(
     values: Values,
     *,
     source: Path,
-    workbook: bytes,
+    workbook: bytes | Callable[[], bytes],
     style: Path | None = None,
     further: Further = (),
 ) -> bytes:
@@ -91,7 +91,7 @@ def report_pdf(
         model: specifications of the engine.
         values: their values.
         source: the input file; own templates and a style file are looked for beside it.
-        workbook: the workbook to attach.
+        workbook: the workbook to attach, or what gives it when it is needed.
         style: a style file instead of the one that the input names.
         further: chapters from rooms above this one, before the checks.
 
@@ -103,19 +103,23 @@ def report_pdf(
     from reports.shared.doctor import need_pango
 
     need_pango()
-    files = [
-        AttachedFile(f"исходные-данные{source.suffix}", source.read_bytes(), "Исходные данные"),
-        AttachedFile(f"{source.stem}.xlsx", workbook, "Книга Excel с формулами", "Supplement"),
-    ]
     folder = overrides.find(model.input.report.templates, source.parent)
     look = find_style(model.input.report, source.parent, style)
     page = report_page(model, values, media="print", templates=folder, style=look, further=further)
     try:
-        return render_pdf(page, attachments=files)
+        return render_pdf(page, attachments=_files(source, workbook))
     except RenderError as error:
         if folder is None:
             raise
         raise overrides.style_error(folder, str(error)) from error
+
+
+def _files(source: Path, workbook: bytes | Callable[[], bytes]) -> Iterator[AttachedFile]:
+    """The files to attach; a workbook in the making is waited for here."""
+    given = f"исходные-данные{source.suffix}"
+    yield AttachedFile(given, source.read_bytes(), "Исходные данные")
+    book = workbook if isinstance(workbook, bytes) else workbook()
+    yield AttachedFile(f"{source.stem}.xlsx", book, "Книга Excel с формулами", "Supplement")
 
 
 def report_html(
@@ -166,6 +170,10 @@ def report_page(
         style: margins, type and what else a department asks for.
         further: chapters from rooms above this one.
     """
+    if style.tagged_tables is None:
+        # Cells for everyone's reader where they are few; lines are fast where they are many.
+        tagged = model.input.report.detail != "full"
+        style = style.model_copy(update={"tagged_tables": tagged})
     with overrides.told(templates):
         env = environment(templates, media=media, style=style)
         return _page(model, values, env, further)
@@ -180,7 +188,7 @@ def _page(model: Model, values: Values, env: Environment, further: Further) -> s
     _write(Chapter(terms, Writer(env, absent), env), CHAPTERS.keys() - names)
     numbering = draft.numbering(elsewhere=_elsewhere(terms, absent))
     chapter = Chapter(terms, Writer(env, numbering), env)
-    body = _write(chapter, names, further)
+    body = chapter.writer.drawn(_write(chapter, names, further))
     if env.globals["media"] == "print":
         body = Markup(arranged(body, style, run_on=_run_on(chapter, style)))
     numbering.check()

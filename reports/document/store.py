@@ -58,6 +58,15 @@ class Store:
         """Remember a text; ``save`` writes it."""
         self._new[key] = text
 
+    def alone(self) -> None:
+        """Let go of the file: another process has it."""
+        self._base, self._new = None, {}
+
+    @property
+    def new(self) -> dict[str, str]:
+        """What was put since the last saving."""
+        return self._new
+
     def save(self) -> None:
         """Write what is new in one go; if that does not work, it is not kept."""
         if self._base is None or not self._new:

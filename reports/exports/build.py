@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, Literal
 
 from reports.inputs.load import Loaded, load_toml
+from reports.shared.aside import aside
 from reports.shared.errors import SystemPartMissing
 from reports.shared.files import make_dir, write_bytes, write_text
 from reports.shared.progress import Progress
@@ -86,17 +88,14 @@ def build(
     with Progress("Расчёт") as progress:
         values = evaluate_model(model)
         checks = failed_checks(model, values)
-        book = b""
+        wants_html = "html" in kinds
         if "xlsx" in kinds or "pdf" in kinds:
             from reports.workbook.write import workbook_bytes
 
             progress.step("Книга Excel")
-            book = workbook_bytes(model, values)
-        if "xlsx" in kinds:
-            target = folder / f"{path.stem}.xlsx"
-            write_bytes(target, book)
-            files.append(target)
-        wants_html = "html" in kinds
+            # A report takes longer than a workbook: both are made at the same time.
+            make = partial(workbook_bytes, model, values)
+            book = cache(aside(make) if "pdf" in kinds else make)
         if "pdf" in kinds:
             from reports.document.report import report_pdf
 
@@ -110,6 +109,10 @@ def build(
                 files.append(target)
             except SystemPartMissing as error:
                 missing, wants_html = error, True
+        if "xlsx" in kinds:
+            target = folder / f"{path.stem}.xlsx"
+            write_bytes(target, book())
+            files.insert(0, target)
         if wants_html:
             from reports.document.report import report_html
 

@@ -1,41 +1,46 @@
-"""The textbook's diesel: workbook and report, full and short, with and without kept pictures."""
+"""The textbook's diesel: workbook and report in each profile, the first time and again."""
 
 from __future__ import annotations
 
+import re
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
+from reports.inputs.sections.report import DETAILS
 from reports.shared.resources import samples_dir
 from tests.bench._figure import Figure, costs
 from tests.bench._process import kshm, median, run
 
 
 def figures() -> Iterator[Figure]:
-    """Times of whole commands; medians of three but for the first report."""
+    """Times of whole commands; medians of three but for the first report; pages and size."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         text = (samples_dir() / "gots-diesel.toml").read_text(encoding="utf-8")
-        for kind in ("full", "short"):
+        for kind in DETAILS:
             data = text.replace("[report]\n", f'[report]\ndetail = "{kind}"\n')
             (folder / f"{kind}.toml").write_text(data, encoding="utf-8")
-        keep = {"KSHM_CACHE": str(folder / "cache")}
 
         def build(kind: str, only: str = "") -> list[str]:
             more = ("--only", only) if only else ()
             return kshm("build", str(folder / f"{kind}.toml"), "-o", str(folder / "out"), *more)
 
-        yield from costs("только книга", median(build("full", "xlsx"), env=keep))
-        first = run(build("full"), keep)
-        yield from costs("книга и отчёт, первый раз", first)
-        full = median(build("full"), env=keep)
-        yield from costs("книга и отчёт, снова", full)
-        yield Figure("снова / первый раз", full.wall / first.wall, "раз")
-        never = run(build("full"), {"KSHM_CACHE": ""})
-        yield from costs("книга и отчёт, рисунки и формулы не хранятся", never)
-        yield Figure("хранятся / не хранятся: процессор", full.cpu / never.cpu, "раз")
-        short = median(build("short"), env=keep)
-        yield from costs("книга и краткий отчёт, снова", short)
-        yield Figure("краткий / полный", short.wall / full.wall, "раз")
-        size = (folder / "out" / "full.pdf").stat().st_size
-        yield Figure("полный отчёт с вложенной книгой", size / 1024, "КБ")
+        yield from costs("только книга", median(build("full", "xlsx")))
+        for kind in DETAILS:
+            keep = {"KSHM_CACHE": str(folder / f"cache-{kind}")}
+            yield from costs(f"{kind}: книга и отчёт, первый раз", run(build(kind), keep))
+            yield from costs(f"{kind}: книга и отчёт, снова", median(build(kind), env=keep))
+            pdf = (folder / "out" / f"{kind}.pdf").read_bytes()
+            yield Figure(f"{kind}: страниц", _pages(pdf))
+            yield Figure(f"{kind}: отчёт с вложенной книгой", len(pdf) / 1024, "КБ")
+
+
+def _pages(pdf: bytes) -> int:
+    """Pages of a PDF, by the count in its page tree."""
+    import zlib
+
+    texts = [pdf]
+    for stream in re.findall(rb"/ObjStm.*?stream\r?\n(.*?)endstream", pdf, re.DOTALL):
+        texts.append(zlib.decompress(stream))
+    return max(int(count) for text in texts for count in re.findall(rb"/Count (\d+)", text))

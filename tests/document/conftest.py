@@ -8,6 +8,7 @@ import pytest
 
 from reports.document import report, store
 from reports.document.chapters import closing, opening
+from reports.document.page import writer
 from reports.document.text.mathsvg import formula, formula_lines
 
 
@@ -18,7 +19,11 @@ def pytest_collection_modifyitems(items):
             item.add_marker(pytest.mark.xdist_group("reports"))
 
 
-EMPTY = {"figure": "<svg></svg>", "formula": json.dumps(["<svg></svg>", 1.0, 1.0, 0.0])}
+EMPTY = {
+    "figure": "<svg></svg>",
+    "formula": json.dumps(["<svg></svg>", 1.0, 1.0, 0.0]),
+    "lines": json.dumps([["<svg></svg>", 1.0, 1.0, 0.0, "x"]]),
+}
 
 
 @pytest.fixture
@@ -26,6 +31,7 @@ def nothing_is_drawn(monkeypatch):
     """Reports without figures and formulas: a second instead of ten."""
     for cached in (formula, formula_lines):
         cached.cache_clear()
+    monkeypatch.setattr(writer, "draw_all", lambda jobs: None)
     monkeypatch.setattr(store, "kept", lambda kind, content, make: EMPTY[kind])
     yield
     for cached in (formula, formula_lines):

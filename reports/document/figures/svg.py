@@ -40,9 +40,11 @@ def clean(svg: str, width_mm: float) -> str:
     root = ET.fromstring(svg)
     box = " ".join(_short(part) for part in root.attrib["viewBox"].split())
     body = _gridless("".join(_write(child) for child in root))
+    _, _, across, down = (float(part) for part in box.split())
     return (
         f'<svg class="fig" xmlns="http://www.w3.org/2000/svg" viewBox="{box}" '
-        f'style="width:{width_mm:.1f}mm" font-family="STIXGeneral" stroke-linejoin="round">'
+        f'style="width:{width_mm:.1f}mm" data-size="{across:.4g}/{down:.4g}" '
+        f'font-family="STIXGeneral" stroke-linejoin="round">'
         f"{body}</svg>"
     )
 

@@ -22,7 +22,7 @@ Kind = Literal["chapter", "heading", "text", "tied", "float", "table", "other"]
 
 _TAG = re.compile(r"<(/?)(p|h[1-3]|div|figure|ul|ol|nav|section)\b([^>]*)>")
 _WIDTH = re.compile(r'<(?:svg|img) class="fig"[^>]*?style="width:([\d.]+)mm')
-_BOX = re.compile(r'viewBox="[-\d.]+ [-\d.]+ ([\d.]+) ([\d.]+)"')
+_BOX = re.compile(r'data-size="([\d.]+)/([\d.]+)"')
 _EM = re.compile(r"height:([\d.]+)em")
 _NUMBERED = re.compile(r'<span class="hn">(\d+)')
 _ROW = re.compile(r"<tr.*?</tr>", re.DOTALL)

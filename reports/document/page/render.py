@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import gc
+import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ from typing import TYPE_CHECKING, Literal
 from markupsafe import Markup
 
 from reports.document.page import fitting
+from reports.document.page.finish import finish
 from reports.document.page.style import USUAL, Style
 from reports.document.text import fonts, texts
 from reports.document.text.complaints import complaints
@@ -88,8 +90,9 @@ def render(
     identifier: bytes | None = None,
 ) -> Rendered:
     """Render like :func:`render_pdf`, handing the warnings back instead of raising."""
-    import weasyprint
-    from weasyprint.text.fonts import FontConfiguration
+    with _libraries_by_name():
+        import weasyprint
+        from weasyprint.text.fonts import FontConfiguration
 
     with _quiet_gc(), complaints("weasyprint") as warnings:
         page = weasyprint.HTML(string=html, base_url=None, url_fetcher=_fetcher())
@@ -100,6 +103,7 @@ def render(
             pdf_tags=True,  # alternative texts stand in the tags
             pdf_identifier=identifier or _identifier(html),
             attachments=[_attachment(item) for item in attachments],
+            finisher=lambda _, made: finish(made),
         )
     return Rendered(pdf, len(document.pages), tuple(warnings))
 
@@ -150,7 +154,15 @@ def environment(
         "font_stack": Markup(fonts.STACK),
         "formula_lines": formula_lines,
         "nbsp": NBSP,
-        "style": style,
+        "style": style
+        if style.tagged_tables is not None
+        else style.model_copy(update={"tagged_tables": False}),
+    }
+    result.filters |= {
+        "plain": texts.plain,
+        "sym": inline_html,
+        "titled": texts.titled,
+        "pictured": texts.pictured,
     }
     result.filters |= {
         "joined": joined,
@@ -209,6 +221,23 @@ def _fetcher() -> URLFetcher:
             raise ValueError(msg)
 
     return PackageFetcher(allowed_protocols=[fonts.SCHEME, "data"], allow_redirects=False)
+
+
+@contextmanager
+def _libraries_by_name() -> Iterator[None]:
+    """Let libraries be found by their file names alone while WeasyPrint is imported.
+
+    Otherwise a compiler and a linker are started for each name that is tried: half a second.
+    """
+    import ctypes.util
+
+    before = ctypes.util.find_library
+    if sys.platform == "linux":
+        ctypes.util.find_library = lambda name: None
+    try:
+        yield
+    finally:
+        ctypes.util.find_library = before
 
 
 @contextmanager

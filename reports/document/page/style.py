@@ -50,6 +50,7 @@ class Style(_Strict):
     page_number: Literal["bottom-center", "bottom-right"] = "bottom-center"
     frame: Literal["none", "eskd"] | None = None
     chapters_on_new_page: bool | None = None
+    tagged_tables: bool | None = None
     table_step_deg: Annotated[int, Field(ge=1, le=90)] = 30
     margins: Margins = Margins()
     title: TitlePage = TitlePage()

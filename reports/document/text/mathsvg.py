@@ -20,6 +20,8 @@ from functools import partial
 from html import escape as escape_html
 from typing import Any
 
+from markupsafe import Markup
+
 from reports.document import store
 from reports.document.text.complaints import complaints
 from reports.document.text.symbols import SIGNS
@@ -33,9 +35,11 @@ from reports.document.text.tex import (
     steps,
     tree,
 )
+from reports.document.text.texts import pictured
 from reports.document.text.texwords import for_mathtext
 from reports.shared.russian import MINUS, NBSP
 
+MARK = "\u2062"  # an invisible sign before the words of a formula: tells it from a figure
 _UNITS = 1000.0  # size at which mathtext sets the formula; one em of the result
 _PAD = 0.04  # em added left and right: slanted letters reach out of their boxes
 
@@ -46,6 +50,8 @@ _NO_SIGN = {r"\left", r"\right", r"\,", r"\;", r"\:", r"\!"}
 _SILENT = {"mathrm", "text", "left", "right", "operatorname", "mathit", "displaystyle"}
 _WORDS = {r"\sin", r"\cos", r"\tg", r"\min", r"\max", r"\arcsin", r"\arccos", r"\arctg"}
 _SIGN = 0.56  # em that a sign takes on the average
+_INVISIBLE = re.compile(r"\\(?:left|right)\.")
+_ONE = re.compile(r"−?[\w.]+")  # an index or exponent that needs no brackets
 _DECIMAL_POINT = re.compile(r"\d\.\d")
 
 
@@ -70,6 +76,11 @@ class Formula:
     def __html__(self) -> str:
         """Let Jinja put the SVG in without a filter."""
         return self.svg
+
+    @property
+    def image(self) -> Markup:
+        """The formula as a picture with its words, for paper."""
+        return pictured(self.svg, MARK + plain(self.tex))
 
 
 @functools.lru_cache(maxsize=4096)
@@ -120,10 +131,23 @@ def formula_lines(tex: str, max_em: float = 28.0) -> tuple[Formula, ...]:
     Raises:
         FormulaError: The TeX is wrong.
     """
+    kept = store.kept(LINES, lines_of(tex, max_em), lambda: _lines(tex, max_em))
+    return tuple(Formula(*line) for line in json.loads(kept))
+
+
+LINES = "lines"  # kind of what is kept of a formula broken into lines
+
+
+def lines_of(tex: str, max_em: float) -> bytes:
+    """What the lines of a formula are made from, for the key under which they are kept."""
+    return f"{max_em} {tex}".encode()
+
+
+def _lines(tex: str, max_em: float) -> str:
     lines: list[Formula] = []
     for forced in tex.split(r"\\"):
         lines.extend(_fit(forced.strip(), max_em))
-    return tuple(lines)
+    return json.dumps([[x.svg, x.width_em, x.height_em, x.depth_em, x.tex] for x in lines])
 
 
 def _fit(tex: str, max_em: float) -> list[Formula]:
@@ -264,7 +288,8 @@ def _number(value: float) -> str:
 
 def plain(tex: str) -> str:
     """A readable text of a formula for people who hear the page or copy it."""
-    return re.sub(r"\s+", " ", "".join(map(_said, tree(tex.replace("{,}", ","))))).strip()
+    tex = _INVISIBLE.sub("", tex.replace("{,}", ","))
+    return re.sub(r"\s+", " ", "".join(map(_said, tree(tex)))).strip()
 
 
 def _said(node: Node) -> str:
@@ -275,6 +300,10 @@ def _said(node: Node) -> str:
         return f"√({parts[0]})"
     if node.command in _SILENT or node.token == "{":
         return "".join(parts)
+    if node.token in ("_", "^") and len(parts[0]) > 1 and not _ONE.fullmatch(parts[0]):
+        return f"{node.token}({parts[0]})"
+    if node.token == "^" and parts[0] in ("°", "′"):
+        return parts[0]
     sign = {"-": MINUS, r"\!": " "}.get(node.token) or SIGNS.get(node.command)
     sign = sign or GREEK.get(node.command) or (f"{node.command} " if node.command else node.token)
     return (" " if sign == NBSP else sign) + "".join(parts)

@@ -17,7 +17,7 @@ from reports.shared.russian import MINUS, NBSP
 SIGNS = {
     "cdot": "·", "times": "×", "circ": "°", "prime": "′", "infty": "∞", "pm": "±", "approx": "≈",
     "leq": "≤", "geq": "≥", "le": "≤", "ge": "≥", "dots": "…", "ldots": "…", "degree": "°",
-    "sum": "∑", ",": NBSP, ";": NBSP, ":": NBSP, " ": NBSP,
+    "sum": "∑", "quad": NBSP, "qquad": NBSP, ",": NBSP, ";": NBSP, ":": NBSP, " ": NBSP,
 }  # fmt: skip
 _SPACED = set(f"=≈≤≥<>·×±+{MINUS}") | {"&lt;", "&gt;"}
 _FUNCTIONS = {"sin", "cos", "tan", "tg", "ctg", "arcsin", "arccos", "arctg", "max", "min", "ln"}

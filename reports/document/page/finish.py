@@ -1,0 +1,34 @@
+"""What a finished PDF is told that the page's HTML cannot say."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from reports.document.text.mathsvg import MARK
+
+_TYPES = {".toml": "application/toml"}  # that Python's list of media types lacks
+
+
+def finish(pdf: Any) -> None:  # noqa: ANN401
+    """Formulas tagged as such, each attachment named once, media types of attachments."""
+    for item in pdf.objects:
+        if isinstance(item, dict) and item.get("Type") == "/StructElem":
+            _tagged(item)
+        elif isinstance(item, dict) and item.get("Type") == "/Filespec":
+            _typed(pdf, item)
+    if "AF" in pdf.catalog:
+        pdf.catalog["AF"][:] = dict.fromkeys(pdf.catalog["AF"])
+
+
+def _tagged(element: dict[str, Any]) -> None:
+    words = element.get("Alt")
+    if words is not None and words.string.startswith(MARK):
+        words.string = words.string.removeprefix(MARK)
+        element["S"] = "/Formula"
+
+
+def _typed(pdf: Any, file: dict[str, Any]) -> None:  # noqa: ANN401
+    for ending, media in _TYPES.items():
+        if file["UF"].string.endswith(ending):
+            stream = pdf.objects[int(file["EF"]["F"].split()[0])]
+            stream.extra["Subtype"] = f"/{media.replace('/', '#2f')}"

@@ -1,0 +1,61 @@
+"""Work done in a second process meanwhile, where this system can split a process in two."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import sys
+from collections.abc import Callable
+from multiprocessing.connection import Connection
+from typing import TypeVar
+
+Result = TypeVar("Result")
+
+
+def can_split() -> bool:
+    """Whether a second process costs next to nothing here and has a processor of its own.
+
+    A copy of the running process needs neither to import nor to read anything again.  Workers
+    of a pool, which share the processors already, do not split.
+    """
+    if sys.platform != "linux" or multiprocessing.parent_process() is not None:
+        return False
+    return len(os.sched_getaffinity(0)) > 1
+
+
+def aside(work: Callable[[], Result]) -> Callable[[], Result]:
+    """Begin some work; the function returned waits for its result.
+
+    What the work raises is raised there.  Where the process cannot be split, or the second one
+    ends before its time, the work is done then and here.
+    """
+    if not can_split():
+        return work
+    context = multiprocessing.get_context("fork")
+    answer, question = context.Pipe(duplex=False)
+    process = context.Process(target=_done, args=(work, question), daemon=True)
+    process.start()
+    question.close()
+
+    def result() -> Result:
+        try:
+            failed, value = answer.recv()
+        except EOFError:
+            return work()
+        finally:
+            answer.close()
+            process.join()
+        if failed:
+            raise value
+        return value  # type: ignore[no-any-return]
+
+    return result
+
+
+def _done(work: Callable[[], object], question: Connection) -> None:
+    try:
+        value: tuple[bool, object] = (False, work())
+    except Exception as error:
+        value = (True, error)
+    question.send(value)
+    question.close()

@@ -1,0 +1,161 @@
+"""What a strict reader sees: nothing off the page, no number broken, no hole in the page.
+
+Looked at as ink on the rendered pages and as words with their places, never as code.
+"""
+
+import os
+import random
+import re
+
+import ink
+import pytest
+from pdftools import poppler
+from report_samples import terms_of, text_of, with_detail
+
+from reports.document import store
+from reports.document.page import writer
+from reports.document.page.render import render
+from reports.document.report import report_page
+from reports.document.text.terms import Terms
+from reports.inputs.fields import to_mapping
+from reports.inputs.load import load_mapping
+from reports.spec.evaluation import evaluate_model
+from reports.tables.registry import build_model
+from tests.conftest import sample, sample_names
+from tests.layouts import MAKERS
+
+FIELD = ink.Field()
+ENGINES = int(os.environ.get("KSHM_ENGINES", "4"))  # random engines; 30 for a thorough look
+BOX = '<svg class="fig" viewBox="0 0 2 1" style="width:120.0mm" data-size="2/1"></svg>'
+NUMBER = re.compile(r"[−+]?[\d\u00a0]+(,\d+)?")
+# From one page the ink of the last line to the field's foot; see the issue of the report.
+MOST_BLANK, MOST_MEAN = 0.30, 0.06
+
+
+def faults(pages: list[list[ink.Word]], sheets: list) -> list[tuple[int, list[str]]]:
+    found = []
+    for number, (words, sheet) in enumerate(zip(pages, sheets, strict=True), 1):
+        wrong = ink.outside(sheet, FIELD) + ink.struck_numbers(words, FIELD)
+        if wrong:
+            found.append((number, wrong))
+    return found
+
+
+def rows_of(page: str) -> list[list[str]]:
+    """Cells of every row of every table, of long tables set as lines too."""
+    rows = []
+    for body in re.findall(r"<tbody>(.*?)</tbody>", page, re.DOTALL):
+        for row in re.findall(r"<tr.*?</tr>", body, re.DOTALL):
+            lines = re.search(r'<tr class="lines"><td><div[^>]*>(.*?)</div>', row, re.DOTALL)
+            if lines:
+                text = re.sub(r"<[^>]+>", "", lines[1])
+                rows += [line.split("\t") for line in text.split("\n")]
+            else:
+                rows.append(re.findall(r"<td[^>]*>(.*?)</td>", row, re.DOTALL))
+    return rows
+
+
+def solid(text: str) -> str:
+    return re.sub(r"\s", "", text)
+
+
+def broken(page: str, text: str) -> list[list[str]]:
+    """Rows of numbers that no line of the PDF holds whole."""
+    lines = "\n".join(solid(line) for line in text.splitlines())
+    missing = []
+    for row in rows_of(page):
+        numbers = [solid(cell) for cell in row if NUMBER.fullmatch(cell.strip("\u00a0 "))]
+        whole = len(numbers) == len(row)
+        if (whole and "".join(numbers) not in lines) or any(n not in lines for n in numbers):
+            missing.append(row)
+    return missing
+
+
+def looked_at(terms: Terms, folder):
+    page = report_page(terms.model, terms.values, media="print")
+    result = render(page)
+    assert result.warnings == ()
+    path = folder / "r.pdf"
+    path.write_bytes(result.pdf)
+    return page, path
+
+
+def holes(path, sheets) -> list[float]:
+    """Blank share of each page but the last of a chapter and the sheets before the text."""
+    texts = poppler("pdftotext", "-layout", str(path), "-").split("\f")
+    first = next(n for n, text in enumerate(texts) if "СОДЕРЖАНИЕ" in text)
+    starts = set()
+    for text in texts[first : first + 3]:
+        for title, page in re.findall(r"(?m)^\s*(\S.*?)\s?\.{4,}\s*(\d+)\s*$", text):
+            if not re.match(r"\d+\.\d", title):
+                starts.add(int(page))
+    inner = range(min(starts), len(sheets))
+    return [ink.blank(sheets[n - 1], FIELD) for n in inner if n + 1 not in starts]
+
+
+@pytest.mark.parametrize("name", sample_names())
+def test_every_sample_reads_well(name, tmp_path):
+    detail = "full" if name in ("ecoboost-10", "two-stroke") else "course"
+    page, path = looked_at(terms_of(with_detail(text_of(name), detail)), tmp_path)
+    sheets = ink.sheets(path)
+    assert faults(ink.words(path), sheets) == []
+    assert broken(page, poppler("pdftotext", "-layout", str(path), "-")) == []
+    blank = holes(path, sheets)
+    assert max(blank) <= MOST_BLANK and sum(blank) / len(blank) < MOST_MEAN
+
+
+def engine(seed: int) -> Terms:
+    """A random engine of a layout that the seed picks: sizes, speed, long names."""
+    draw = random.Random(seed)
+    names = list(MAKERS)
+    raw = MAKERS[names[seed % len(names)]](to_mapping(sample("gots-diesel")))
+    factor = draw.uniform(0.6, 2.2)
+    for key in ("bore_mm", "stroke_mm"):
+        if raw["geometry"].get(key):
+            raw["geometry"][key] *= factor
+    raw["regime"]["speed_rpm"] *= draw.uniform(0.4, 1.6)
+    raw["engine"]["name"] = "Двигатель с очень длинным названием " * draw.randint(1, 4)
+    raw["calculation"]["step_deg"] = draw.choice([10, 15, 30])
+    raw["report"] |= {"detail": draw.choice(["course", "full"]), "title": "Тема " * 30}
+    model = build_model(load_mapping(raw, source="t.toml").model)
+    return Terms(model, evaluate_model(model))
+
+
+@pytest.mark.parametrize("seed", range(ENGINES))
+def test_no_random_engine_leaves_its_page(seed, tmp_path, monkeypatch):
+    kept = store.kept
+    monkeypatch.setattr(writer, "draw_all", lambda jobs: None)
+    monkeypatch.setattr(
+        store, "kept", lambda kind, data, make: BOX if kind == "figure" else kept(kind, data, make)
+    )
+    page, path = looked_at(engine(seed), tmp_path)
+    assert faults(ink.words(path), ink.sheets(path)) == []
+    assert broken(page, poppler("pdftotext", "-layout", str(path), "-")) == []
+
+
+@pytest.mark.parametrize(
+    ("html", "wrong"),
+    [
+        ('<div style="width:190mm;background:#000">x</div>', "right"),
+        ('<div style="margin-left:-9mm;background:#000">x</div>', "left"),
+        ('<div style="position:absolute;top:-9mm;background:#000">x</div>', "top"),
+        ('<div style="height:256mm"></div><div style="height:20mm;background:#000"></div>', ""),
+        ('<div class="eq"><span class="c" style="width:99%;text-align:right">abcdef</span>'
+         '<span class="n" style="margin-left:-9mm">(7)</span></div>', "(7) abcdef"),
+    ],
+)  # fmt: skip
+def test_ink_off_the_page_is_noticed(html, wrong, tmp_path):
+    from reports.document.page.blocks import DocumentInfo
+    from reports.document.page.render import environment
+
+    source = '{% extends "report/base.html.j2" %}{% block body %}' + html + "{% endblock %}"
+    path = tmp_path / "r.pdf"
+    path.write_bytes(render(environment().from_string(source).render(doc=DocumentInfo("x"))).pdf)
+    found = [fault for _, page in faults(ink.words(path), ink.sheets(path)) for fault in page]
+    assert (wrong in found) if wrong else found == []
+
+
+def test_a_broken_number_is_noticed():
+    page = "<tbody><tr><td>79,527</td><td>8,91</td></tr></tbody>"
+    assert broken(page, "79,527   8,91\n") == []
+    assert broken(page, "79,52   8,91\n7\n") == [["79,527", "8,91"]]

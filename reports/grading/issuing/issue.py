@@ -113,7 +113,8 @@ def _shape(fields: Iterable[Field]) -> list[tuple[str, Value | None]]:
 
 def _shapes(field: Field) -> bool:
     text = isinstance(field.value, str) and field.path[0] != "report"
-    return field.structural or text
+    phase = field.path[0] == "crankshaft" and field.name.endswith("_deg")  # tables shift by them
+    return field.structural or text or phase
 
 
 def _with_title(raw: dict[str, Any], student: Student, number: int) -> dict[str, Any]:

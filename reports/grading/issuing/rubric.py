@@ -31,10 +31,11 @@ class Work(_Part):
 
 
 class Credit(_Part):
-    """[credit]: share of the points."""
+    """[credit]: share of the points; ``rows`` for the right rows of a column with wrong ones."""
 
     carried: Share = 1.0
     typed: Share = 0.5
+    rows: Share = 1.0
 
 
 class Formulas(_Part):

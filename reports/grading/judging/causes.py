@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from reports.formula.numeric import evaluate_tree
 from reports.formula.parse import names, parse
 from reports.grading.issuing.assignment import Item
-from reports.grading.judging.verdicts import Judgement, close, tolerance
+from reports.grading.judging.tolerances import close, tolerance
+from reports.grading.judging.verdicts import Judgement
 from reports.grading.reading.student import Student, known_values
 from reports.inputs.sections.input_file import METHODS
 from reports.spec.blocks import TableSpec
@@ -60,8 +61,10 @@ class Causes:
         item, values = judgement.item, judgement.values
         if not np.isfinite(values).any():
             return ""
-        bases = [self._known(judgement)] if judgement.own is not None else []
-        bases.append({})
+        if judgement.coarse:
+            return "округлено грубее, чем печатает книга"
+        known = self._known(judgement)
+        bases = [known, {}] if known else [{}]
         for known in bases:
             run = self.student.expected.fork(known)
             right = self._values(item, run)
@@ -73,8 +76,16 @@ class Causes:
         return ""
 
     def _known(self, judgement: Judgement) -> dict[str, object]:
-        nodes = judgement.precedents - set(judgement.item.nodes)
-        return known_values(self.student.answers, nodes)
+        """The student's own earlier values, where they are not the right ones."""
+        nodes = frozenset().union(*(self.student.precedents(n) for n in judgement.item.nodes))
+        known = known_values(self.student.answers, nodes - set(judgement.item.nodes))
+        return known if any(self._is_off(node, value) for node, value in known.items()) else {}
+
+    def _is_off(self, node: str, value: object) -> bool:
+        right = self.student.expected.value(node)
+        if isinstance(right, str):
+            return False
+        return not np.allclose(np.asarray(value, dtype=float), right, rtol=1e-9, equal_nan=True)
 
     def _fits(self, item: Item, values: Array, attempt: Array, right: Array) -> bool:
         """Whether an attempt explains the values, and differs from what is right."""

@@ -15,11 +15,14 @@ from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.causes import Causes, OtherVariant
+from reports.grading.judging.response import Proofs, Response
+from reports.grading.judging.trials import trials_of
 from reports.grading.judging.verdicts import (
     BROKEN,
     CARRIED,
     EMPTY,
     RIGHT,
+    STILL,
     TYPED,
     UNKNOWN,
     WRONG,
@@ -73,6 +76,7 @@ class Marker:
     def __post_init__(self) -> None:
         self._assignments: dict[int, tuple[Assignment, Layout]] = {}
         self._first: tuple[Assignment, Layout] | None = None  # the others are mostly alike
+        self._proofs: dict[int, Proofs] = {}  # by the tables that they are of
 
     def mark(self, submission: Submission, data: bytes) -> Result:
         """The result of one file; whatever is wrong with it is part of the result."""
@@ -123,6 +127,17 @@ class Marker:
         result["manual"].append(f"файл не принят: {why}")
         return result
 
+    def response(self, student: Student) -> Response:
+        """How a student's formulas respond to other input data."""
+        assignment = student.assignment
+        key = id(assignment.fill)  # kept by the first assignment with these tables
+        proofs = self._proofs.get(key)
+        if proofs is None:
+            seed = self.register.trial_seed
+            proofs = Proofs(trials_of(assignment, self.register.books, seed))
+            self._proofs[key] = proofs
+        return Response(student, proofs)
+
     def student(self, book: Issued, grid: Grid) -> Student:
         """The workbook under its assignment."""
         return Student.of(*self.assignment(book), grid)
@@ -137,7 +152,7 @@ class Marker:
         package: Package,
     ) -> None:
         student = self.student(book, grid)
-        judgements = judge_all(student)
+        judgements = judge_all(student, self.response(student))
         causes = Causes(student, self.others(book.number), self.titles(assignment))
         items = [_line(student, judgement, causes, assignment) for judgement in judgements]
         result |= {
@@ -197,11 +212,9 @@ def _line(
     """One item of the feedback."""
     item = judgement.item
     worth = assignment.points[item.id]
-    share = {
-        RIGHT: 1.0,
-        CARRIED: assignment.rubric.credit.carried,
-        TYPED: assignment.rubric.credit.typed,
-    }.get(judgement.verdict, 0.0)
+    share = judgement.paid
+    if judgement.verdict == CARRIED:
+        share *= assignment.rubric.credit.carried
     tables = assignment.model.tables
     cause = causes.find(judgement) if judgement.verdict == WRONG else ""
     line: dict[str, Any] = {
@@ -218,10 +231,11 @@ def _line(
         "of": round(worth, 6),
         "reason": judgement.reason,
         "cause": cause,
+        "origins": list(judgement.origins),
         "rows": [item.labels[i] for i in judgement.rows],
         "typed": [item.labels[i] for i in judgement.typed] if judgement.verdict != RIGHT else [],
     }
-    if judgement.verdict in (WRONG, CARRIED, TYPED, BROKEN):
+    if judgement.verdict in (WRONG, CARRIED, TYPED, STILL, BROKEN):
         line["cells"] = _cells(student, judgement)
         line["mark"] = _fingerprint(item, judgement.values)
         line["right_mark"] = _fingerprint(item, judgement.expected)
@@ -252,7 +266,6 @@ def _cells(student: Student, judgement: Judgement) -> list[dict[str, Any]]:
                 "cell": f"{place.sheet}!{address(at, place.column)}" if place and at else "",
                 "own": _number(judgement.values[row]),
                 "right": _number(judgement.expected[row]),
-                "carried": _number(judgement.own[row]) if judgement.own is not None else None,
             }
         )
     return cells

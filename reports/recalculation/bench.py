@@ -150,10 +150,28 @@ def unrounded(formula: Formula) -> Formula:
         if tokens[at][0] == "name" and tokens[at][1].upper() in ROUNDINGS:
             end, comma = _arguments(tokens, at + 1)
             if end and comma:
-                tokens[at : end + 1] = tokens[at + 1 : comma] + [("op", ")")]
+                tokens[at : end + 1] = [*tokens[at + 1 : comma], ("op", ")")]
                 continue
         at += 1
     return Formula(tuple(tokens))
+
+
+def unrounded_grid(grid: Grid) -> Grid:
+    """A grid whose formulas do not round."""
+
+    def plain(run: Run) -> Run:
+        formula = unrounded(run.formula) if run.formula is not None else None
+        return Run(run.sheet, run.column, run.first, run.count, formula, run.text, run.problem,
+                   run.array)  # fmt: skip
+
+    sheets = {
+        title: {
+            number: Column(c.constants, c.errors, [plain(run) for run in c.runs])
+            for number, c in columns.items()
+        }
+        for title, columns in grid.sheets.items()
+    }
+    return Grid(sheets, grid.names, grid.areas)
 
 
 ROUNDINGS = frozenset(("ROUND", "ROUNDUP", "ROUNDDOWN"))

@@ -140,8 +140,16 @@ class Assignment:
     def with_model(self, model: Model) -> Assignment:
         """The same tables for a model with the same blocks."""
         made = Assignment(model, self.rubric, self.fill, self.given)
-        for name in ("graph", "items", "points", "blocks", "fill_nodes", "states",
-                     "given_nodes", "live_nodes"):
+        for name in (
+            "graph",
+            "items",
+            "points",
+            "blocks",
+            "fill_nodes",
+            "states",
+            "given_nodes",
+            "live_nodes",
+        ):
             made.__dict__[name] = getattr(self, name)
         if "issued_formulas" in self.__dict__:
             made.__dict__["issued_formulas"] = self.__dict__["issued_formulas"]

@@ -47,9 +47,7 @@ def with_own_shifts(model: Model, fill: Collection[Block]) -> Model:
     return replace(model, blocks=blocks)
 
 
-def _read_from(
-    table: TableSpec, own: TableSpec, phase: np.ndarray, run: Evaluation
-) -> TableSpec:
+def _read_from(table: TableSpec, own: TableSpec, phase: np.ndarray, run: Evaluation) -> TableSpec:
     """A table with those columns read from another that are the same at the phase."""
     step = own.rows[1] - own.rows[0] if len(own.rows) > 1 else 0.0
     if not step or not np.allclose(np.diff(own.rows), step):
@@ -61,7 +59,8 @@ def _read_from(
     first = f" - {own.rows[0]:g}" if own.rows[0] else ""
     shared = {column.key for column in own.columns if column.expr is not None}
     columns = []
-    for column in table.columns:
+    for given in table.columns:
+        column = given
         if column.key in shared and column.key != _PHASE:
             theirs = np.asarray(run.value(f"{table.id}.{column.key}"), dtype=float)
             mine = np.asarray(run.value(f"{own.id}.{column.key}"), dtype=float)[rows]

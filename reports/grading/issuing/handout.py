@@ -146,9 +146,7 @@ def _live_cells(assignment: Assignment, layout: Layout) -> frozenset[Cell]:
     )
 
 
-def _open_cells(
-    sheet: Worksheet, block: Block, layout: Layout, asked: Collection[str]
-) -> None:
+def _open_cells(sheet: Worksheet, block: Block, layout: Layout, asked: Collection[str]) -> None:
     for node, cells in fill_cells(block, layout).items():
         if node not in asked:
             continue

@@ -10,11 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from reports.grading.issuing.assignment import Assignment, Item
+from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.causes import Causes, OtherVariant
+from reports.grading.judging.marks import fingerprint, formula_marks
 from reports.grading.judging.response import Proofs, Response
 from reports.grading.judging.trials import trials_of
 from reports.grading.judging.verdicts import (
@@ -30,6 +31,7 @@ from reports.grading.judging.verdicts import (
     judge_all,
 )
 from reports.grading.reading.matching import Match, file_properties, find_by_name, find_owner
+from reports.grading.reading.restoring import restore
 from reports.grading.reading.student import Student, address
 from reports.grading.reading.submissions import Submission
 from reports.inputs.fields import cell_name
@@ -43,7 +45,7 @@ from reports.workbook.intake import check_data
 from reports.workbook.layout import Layout
 from reports.workbook.package import Package
 
-FORMAT = 2
+FORMAT = 3
 SHOWN_ROWS = 12  # wrong cells shown in the feedback of an item
 Result = dict[str, Any]
 
@@ -59,6 +61,8 @@ def blank_result(submission: Submission) -> Result:
         "sha256": "",
         "items": [],
         "manual": [],
+        "doubts": [],
+        "submitter": None,
         "notes": [],
         "moved": [],
         "changed": [],
@@ -140,7 +144,9 @@ class Marker:
 
     def student(self, book: Issued, grid: Grid) -> Student:
         """The workbook under its assignment."""
-        return Student.of(*self.assignment(book), grid)
+        made = Student.of(*self.assignment(book), grid)
+        restore(made)
+        return made
 
     def _grade(
         self,
@@ -152,7 +158,13 @@ class Marker:
         package: Package,
     ) -> None:
         student = self.student(book, grid)
-        judgements = judge_all(student, self.response(student))
+        response = self.response(student)
+        judgements = judge_all(student, response)
+        tampered = response.tampered
+        if tampered:
+            text = "изменены выданные формулы: " + ", ".join(tampered[:4])
+            result["doubts"].append(text)
+            result["manual"].append(text)
         causes = Causes(student, self.others(book.number), self.titles(assignment))
         items = [_line(student, judgement, causes, assignment) for judgement in judgements]
         result |= {
@@ -167,6 +179,12 @@ class Marker:
             "altered": altered(student, read_grid(package) if student.changed else None)[:50],
         }
         notes = result["notes"]
+        theirs = self._variant_of(student, book)
+        if theirs:
+            text = f"исходные данные заменены данными другого варианта: {theirs}"
+            result["doubts"].append(text)
+            result["manual"].append(text)
+        result["formulas"] = formula_marks(student)
         if student.changed:
             notes.append(f"изменены исходные или защищённые данные: ячеек {len(student.changed)}")
         if result["altered"]:
@@ -174,6 +192,25 @@ class Marker:
         unknown = [line["id"] for line in items if line["verdict"] == UNKNOWN]
         if unknown:
             result["manual"].append("не удалось проверить: " + ", ".join(unknown[:8]))
+
+    def _variant_of(self, student: Student, book: Issued) -> str:
+        """Whose variant the input data are that were typed over those issued."""
+        typed = {change.name: change.now for change in student.changed}
+        names = {key: cell_name(Range.path_of(key)) for key in book.drawn}
+        mine = {key for key, name in names.items() if name in typed}
+        if not mine:
+            return ""
+        found = [
+            f"{other.number} ({other.student.full})"
+            for other in self.register.books
+            if other.number != book.number
+            and all(
+                (typed[names[key]] if key in mine else book.drawn[key]) == str(value)
+                or _equal(typed[names[key]] if key in mine else book.drawn[key], value)
+                for key, value in other.drawn.items()
+            )
+        ]
+        return ", ".join(found[:4])
 
     def others(self, number: int) -> list[OtherVariant]:
         """What the other students' variants have different."""
@@ -196,6 +233,14 @@ class Marker:
         return {name: field.title for name, field in assignment.model.fields.items()}
 
 
+def _equal(text: object, value: object) -> bool:
+    """Whether a cell, as it is shown, holds a value."""
+    try:
+        return abs(float(str(text)) - float(str(value))) <= 1e-9 * max(1.0, abs(float(str(value))))
+    except ValueError:
+        return False
+
+
 def _take_match(result: Result, match: Match) -> None:
     book = match.book
     result["number"] = book.number if book else None
@@ -204,6 +249,8 @@ def _take_match(result: Result, match: Match) -> None:
     result["folder"] = book.folder if book else None
     result["evidence"] = list(match.evidence)
     result["manual"] += list(match.doubts)
+    result["doubts"] += list(match.doubts)
+    result["submitter"] = match.submitter.number if match.submitter else None
 
 
 def _line(
@@ -232,13 +279,13 @@ def _line(
         "reason": judgement.reason,
         "cause": cause,
         "origins": list(judgement.origins),
+        "right_mark": fingerprint(item, judgement.expected),
         "rows": [item.labels[i] for i in judgement.rows],
         "typed": [item.labels[i] for i in judgement.typed] if judgement.verdict != RIGHT else [],
     }
     if judgement.verdict in (WRONG, CARRIED, TYPED, STILL, BROKEN):
         line["cells"] = _cells(student, judgement)
-        line["mark"] = _fingerprint(item, judgement.values)
-        line["right_mark"] = _fingerprint(item, judgement.expected)
+        line["mark"] = fingerprint(item, judgement.values)
         if item.is_column:
             line["chart"] = {
                 "x": [float(label) for label in item.labels],
@@ -277,14 +324,6 @@ def _number(value: float) -> float | None:
 
 def _plain(values: np.ndarray[Any, np.dtype[np.float64]]) -> list[float | None]:
     return [float(f"{v:.6g}") if math.isfinite(v) else None for v in values]
-
-
-def _fingerprint(item: Item, values: np.ndarray[Any, np.dtype[np.float64]]) -> str:
-    """The same for equal values, whatever the book: for the signals of similarity."""
-    if item.is_column and np.unique(values[np.isfinite(values)]).size < 4:
-        return ""  # zeros and constants are alike by themselves
-    text = ";".join(f"{value:.6g}" for value in values)
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def altered(student: Student, original: Grid | None) -> list[str]:

@@ -14,11 +14,18 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from reports.grading.issuing.assignment import Item
 from reports.grading.judging.tolerances import close, tolerance
 from reports.grading.judging.trials import Trial
-from reports.grading.issuing.assignment import Item
 from reports.grading.reading.student import Student
-from reports.recalculation.bench import ROUNDINGS, Bench, Cells, pinned, rounded_to
+from reports.recalculation.bench import (
+    ROUNDINGS,
+    Bench,
+    Cells,
+    pinned,
+    rounded_to,
+    unrounded_grid,
+)
 from reports.recalculation.formulas import Formula
 from reports.recalculation.grid import Run
 from reports.recalculation.language import UnknownFormula
@@ -65,9 +72,7 @@ class Response:
     def _keys(self) -> dict[str, tuple[object, ...]]:
         """What the response of a node follows from, where it may be known of another book."""
         return {
-            node: key
-            for node in self._nodes
-            if (key := self.student.signature(node)) is not None
+            node: key for node in self._nodes if (key := self.student.signature(node)) is not None
         }
 
     @cached_property
@@ -100,7 +105,7 @@ class Response:
         student = self.student
         first = pinned(student.grid, self.cells(self.trials[0], everything=True))
         if not rounded:
-            first = _unrounded_grid(first)
+            first = unrounded_grid(first)
         bench = Bench(first, {node: student.runs(node) for node in nodes}, rounded=rounded)
         found: dict[str, list[Array] | str] = {node: [] for node in nodes}
         for trial in self.trials:
@@ -131,32 +136,39 @@ class Response:
             place = student.placement.places.get(name)
             if place is not None and place.rows[0] is not None:
                 made.append(Cells(place.sheet, place.column, (place.rows[0],), (value,)))
+            made += [
+                Cells(sheet, column, (row,), (value * factor,))
+                for sheet, column, row, factor in self._copies.get(name, ())
+            ]
         assignment = student.assignment
-        for node in sorted(assignment.fill_nodes | assignment.live_nodes):
-            place = student.placement.places.get(node)
-            if place is None:
-                continue
+        for node in sorted(assignment.fill_nodes | assignment.live_nodes | assignment.given_nodes):
             right = trial.expected.value(node)
             if isinstance(right, str) and not everything:
                 continue
-            values = [right] if isinstance(right, str) else np.ravel(right).tolist()
             if changed is not None and node in changed:
-                values = changed[node].tolist()
-            kept = [(r, v) for r, v in zip(place.rows, values, strict=True) if r is not None]
-            if kept:
-                rows, numbers = zip(*kept, strict=True)
-                made.append(Cells(place.sheet, place.column, rows, numbers))
-        for node in sorted(assignment.given_nodes):  # may depend on an input that is not asked
-            place = student.placement.places.get(node)
-            right = trial.expected.value(node)
-            if place is None or isinstance(right, str):
-                continue
-            values = np.ravel(right).tolist()
-            kept = [(r, v) for r, v in zip(place.rows, values, strict=True) if r is not None]
-            if kept:
-                rows, numbers = zip(*kept, strict=True)
-                made.append(Cells(place.sheet, place.column, rows, numbers))
+                right = changed[node]
+            made += student.cells_of(node, right)
         return made
+
+    @cached_property
+    def _copies(self) -> dict[str, list[tuple[str, int, int, float]]]:
+        """Cells of the student's own that repeat an input, in its unit or in metres.
+
+        Who copies the input data to a sheet of his own and calculates from there has not
+        typed in a result.
+        """
+        fields = self.student.assignment.model.fields
+        wanted: dict[float, tuple[str, float]] = {}
+        for name in self.trials[0].inputs if self.trials else ():
+            value = float(fields[name].value)
+            for factor in (1.0, 1e-3) if fields[name].unit == "мм" else (1.0,):
+                wanted[float(f"{value * factor:.12g}")] = (name, factor)
+        found: dict[str, list[tuple[str, int, int, float]]] = {}
+        for sheet, number, row, value in self.student.own_constants:
+            hit = wanted.get(float(f"{value:.12g}"))
+            if hit is not None:
+                found.setdefault(hit[0], []).append((sheet, number, row, hit[1]))
+        return found
 
     # --- what it says -----------------------------------------------------------------
 
@@ -273,6 +285,29 @@ class Response:
                 found &= close(item, own, wanted, allowed * (1 + 1e-9))
         return found
 
+    @cached_property
+    def tampered(self) -> list[str]:
+        """Given formulas that do not calculate what they should; looked at where cells moved."""
+        student = self.student
+        if student.as_laid_out or not self.trials:
+            return []
+        nodes = [node for node in sorted(student.assignment.live_nodes) if student.runs(node)]
+        values = self._run(nodes, rounded=True)
+        return [node for node in nodes if not self._calculates(node, values[node])]
+
+    def _calculates(self, node: str, values: list[Array] | str) -> bool:
+        if isinstance(values, str):
+            return False
+        for trial, own in zip(self.trials, values, strict=False):
+            right = trial.expected.value(node)
+            if isinstance(right, str):
+                continue
+            wanted = np.ravel(np.asarray(right, dtype=float))
+            scale = float(np.nanmax(np.abs(wanted))) if wanted.size else 1.0
+            if not np.allclose(own, wanted, rtol=0, atol=1e-6 * max(scale, 1e-12), equal_nan=True):
+                return False
+        return True
+
     # --- what depends on what ---------------------------------------------------------
 
     def depends(self, nodes: Sequence[str], on: str) -> dict[str, bool]:
@@ -341,27 +376,3 @@ def _long_numbers(formula: Formula) -> int:
             if kind == "number" and len(value.replace(".", "").strip("0")) >= _LONG
         }
     )
-
-
-def _unrounded_grid(grid: object) -> object:
-    """A grid whose own formulas do not round either."""
-    from reports.recalculation.bench import unrounded
-    from reports.recalculation.grid import Column, Grid
-
-    assert isinstance(grid, Grid)
-    sheets = {}
-    for title, columns in grid.sheets.items():
-        sheets[title] = {
-            number: Column(
-                c.constants,
-                c.errors,
-                [
-                    Run(r.sheet, r.column, r.first, r.count,
-                        unrounded(r.formula) if r.formula is not None else None, r.text,
-                        r.problem, r.array)
-                    for r in c.runs
-                ],
-            )
-            for number, c in columns.items()
-        }  # fmt: skip
-    return Grid(sheets, grid.names, grid.areas)

@@ -12,6 +12,7 @@ from reports.grading.issuing.assignment import Item
 from reports.grading.judging import response as say
 from reports.grading.judging.response import Response
 from reports.grading.judging.tolerances import close, tolerance
+from reports.grading.reading.ground import circles, is_void, resting_on
 from reports.grading.reading.student import LOST, Answer, Student, known_values
 from reports.recalculation.evaluate import BLANK, ERROR, TEXT
 from reports.recalculation.language import UnknownFormula
@@ -33,6 +34,7 @@ WORDS = {
     CARRIED: "верно по вашим предыдущим значениям",
     RIGHT: "верно",
 }
+_ROUND = "круговая ссылка: величина считается через саму себя"
 _ENOUGH = 0.5  # share of right rows from which a column is paid by rows
 
 
@@ -136,12 +138,12 @@ def _by_rows(
     allowed = tolerance(item, made.expected, student)
     good = close(item, made.values, made.expected, allowed)
     fixed = response.fixed(item)
-    words = [
-        _word(kinds[i], letters[i], bool(good[i]), bool(fixed[i])) for i in range(len(kinds))
-    ]
-    unlinked = RIGHT in words and not _is_linked(item, student)
-    if unlinked:  # nothing to respond to: numbers
-        words = [TYPED if word == RIGHT else word for word in words]
+    words = [_word(kinds[i], letters[i], bool(good[i]), bool(fixed[i])) for i in range(len(kinds))]
+    unlinked = not _is_linked(item, student)
+    if unlinked:  # nothing to respond to: numbers, or references to pasted ones
+        runs = [run for node in item.nodes for run in student.runs(node)]
+        plain = not any(True for run in runs for _ in student.grid.located(run))
+        words = [(TYPED if plain else STILL) if w in (RIGHT, STILL) else w for w in words]
     counts = {word: words.count(word) for word in dict.fromkeys(words)}
     if set(words) == {RIGHT}:
         return replace(made, paid=1.0, typed=(), coarse=say.ROUNDED in letters)
@@ -180,9 +182,7 @@ def _word(kind: str, letter: str, good: bool, fixed: bool) -> str:
     return STILL if letter == say.STILL else TYPED
 
 
-def _reason(
-    verdict: str, words: Sequence[str], kinds: str, letters: str, *, unlinked: bool
-) -> str:
+def _reason(verdict: str, words: Sequence[str], kinds: str, letters: str, *, unlinked: bool) -> str:
     if verdict == STILL:
         return (
             "значения верны только для вашего варианта: при других исходных данных формула даёт "
@@ -252,19 +252,19 @@ def _is_linked(item: Item, student: Student) -> bool:
 
 def _without_ground(found: dict[str, Judgement], student: Student) -> None:
     """Blanks and circles pass nothing on: what rests on them is no result."""
-    circles = student.circles
+    round_ = circles(student)
     for id_, judgement in found.items():
-        if circles & set(judgement.item.nodes) and judgement.verdict != UNKNOWN:
+        if round_ & set(judgement.item.nodes) and judgement.verdict != UNKNOWN:
             found[id_] = replace(judgement, verdict=BROKEN, paid=0.0,
-                                 reason="круговая ссылка: величина считается через саму себя")  # fmt: skip
-    void = set(circles)
+                                 reason=_ROUND)  # fmt: skip
+    void = set(round_)
     for judgement in found.values():
         for node in judgement.item.nodes:
-            if student.is_void(node):
+            if is_void(student, node):
                 void.add(node)
     if not void:
         return
-    resting = student.resting_on(frozenset(void))
+    resting = resting_on(student, frozenset(void))
     names = {node: j.item for j in found.values() for node in j.item.nodes}
     for id_, judgement in found.items():
         nodes = set(judgement.item.nodes)
@@ -272,7 +272,7 @@ def _without_ground(found: dict[str, Judgement], student: Student) -> None:
             continue
         near = frozenset().union(*(student.precedents(node) for node in nodes)) & (void | resting)
         roots = sorted({names[n].id for n in near if n in names})
-        circle = near and near <= circles
+        circle = near and near <= round_
         why = "опирается на круговую ссылку" if circle else "опирается на незаполненное"
         found[id_] = replace(judgement, verdict=GROUNDLESS, paid=0.0, origins=tuple(roots),
                              reason=why)  # fmt: skip
@@ -290,7 +290,7 @@ def _backwards(found: dict[str, Judgement], student: Student, response: Response
     while changed:
         changed = False
         suspects: dict[str, list[str]] = {}
-        for id_, judgement in found.items():
+        for judgement in found.values():
             if judgement.verdict != RIGHT or judgement.paid <= 0:
                 continue
             ancestors = student.assignment.ancestors(judgement.item)
@@ -320,12 +320,11 @@ def _carried(found: dict[str, Judgement], student: Student) -> None:
     """Right formulas on earlier values that are not right name the columns these came from."""
     owner = {node: j.item.id for j in found.values() for node in j.item.nodes}
     for id_, judgement in found.items():
-        if judgement.verdict != RIGHT or not np.isnan(judgement.expected).all():
-            allowed = tolerance(judgement.item, judgement.expected, student)
-            good = close(judgement.item, judgement.values, judgement.expected, allowed)
-        else:
+        if judgement.verdict != RIGHT or np.isnan(judgement.expected).all():
             continue
-        if judgement.verdict != RIGHT or good.all():
+        allowed = tolerance(judgement.item, judgement.expected, student)
+        good = close(judgement.item, judgement.values, judgement.expected, allowed)
+        if good.all():
             continue
         names = frozenset().union(*(student.precedents(n) for n in judgement.item.nodes))
         near = sorted({owner[n] for n in names if n in owner} - {id_})
@@ -333,7 +332,11 @@ def _carried(found: dict[str, Judgement], student: Student) -> None:
         through = student.assignment.graph
         for name in live:
             near += sorted({owner[n] for n in through.ancestors(name) if n in owner} - set(near))
-        guilty = [n for n in near if found[n].verdict not in (RIGHT, UNKNOWN) or _is_off(found[n], student)]
+        guilty = [
+            n
+            for n in near
+            if found[n].verdict not in (RIGHT, UNKNOWN) or _is_off(found[n], student)
+        ]
         if not guilty:
             continue  # roundings on the way, or a value that is not known
         wrong = [n for n in guilty if found[n].verdict not in (RIGHT, CARRIED)]
@@ -344,7 +347,7 @@ def _carried(found: dict[str, Judgement], student: Student) -> None:
 def _is_off(judgement: Judgement, student: Student) -> bool:
     """Whether a right formula's values are not the right ones for more than roundings."""
     if judgement.verdict != RIGHT:
-        return True
+        return judgement.verdict != UNKNOWN
     allowed = 20 * tolerance(judgement.item, judgement.expected, student)
     return not close(judgement.item, judgement.values, judgement.expected, allowed).all()
 

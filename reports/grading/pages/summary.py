@@ -8,7 +8,7 @@ from statistics import mean, median
 from typing import Any
 
 from reports.grading.issuing.register import Register
-from reports.grading.judging.similarity import signals
+from reports.grading.judging.similarity import signals, suspicions
 from reports.grading.judging.verdicts import CARRIED, EMPTY, RIGHT, TYPED
 
 _BAR = 160  # px of the longest bar
@@ -24,19 +24,33 @@ def choose(results: Sequence[dict[str, Any]]) -> dict[int, dict[str, Any]]:
     return chosen
 
 
-def _order(result: dict[str, Any]) -> tuple[bool, str, str]:
-    """A graded file counts before any other, a later one before an earlier."""
-    return result["status"] == "graded", result["time"] or "", result["key"]
+def _order(result: dict[str, Any]) -> tuple[bool, bool, str, str]:
+    """One's own file before one that came under another's name, then a graded one, the later."""
+    own = result.get("submitter") is None
+    return own, result["status"] == "graded", result["time"] or "", result["key"]
 
 
 def table_rows(register: Register, results: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     """A row for each student of the register, then one for each file without an owner."""
-    chosen = choose(results)
-    copies = Counter(r["number"] for r in results if r.get("number") is not None)
+    chosen, held = choose(results), suspicions(results)
+    copies = Counter(
+        r["number"] for r in results if r.get("number") is not None and r.get("submitter") is None
+    )
+    strange = {r["submitter"]: r for r in results if r.get("submitter") is not None}
     rows = []
     for book in register.books:
         result = chosen.get(book.number)
+        other = strange.get(book.number) if result is None else None
+        doubts = held.get((result or other or {}).get("key", ""), [])
+        if result is not None and result.get("submitter") is not None and not doubts:
+            doubts = list(result["manual"])
+        points = result.get("points") if result else None
         remarks = _remarks(result, copies[book.number])
+        if other is not None:
+            remarks = list(doubts)
+        remarks = list(dict.fromkeys([*doubts, *remarks]))
+        if doubts and points is not None:
+            remarks.append(f"баллы до решения преподавателя: {points:g}")
         rows.append(
             {
                 "number": book.number,
@@ -44,23 +58,24 @@ def table_rows(register: Register, results: Sequence[dict[str, Any]]) -> list[di
                 "group": book.student.group,
                 "id": book.student.number,
                 "email": book.student.email,
-                "file": result["file"] if result else "",
-                "status": _status(result),
-                "points": result.get("points") if result else None,
+                "file": (result or other or {}).get("file", ""),
+                "status": "ждёт решения" if doubts else _status(result),
+                "points": None if doubts else points,
+                "provisional": points,
                 "result": result,
                 "page": result.get("page", "") if result else "",
-                "manual": bool(result and result["manual"]),
+                "manual": bool(doubts or (result and result["manual"])),
                 "remark": "; ".join(remarks),
             }
         )
     for result in results:
-        if result.get("number") is None:
+        if result.get("number") is None and result.get("submitter") is None:
             rows.append(
                 {
                     "number": None, "student": f"? ({result['file']})", "group": "", "id": "",
                     "email": "", "file": result["file"], "status": _status(result), "points": None,
-                    "result": result, "page": result.get("page", ""), "manual": True,
-                    "remark": "; ".join(result["manual"]),
+                    "provisional": None, "result": result, "page": result.get("page", ""),
+                    "manual": True, "remark": "; ".join(result["manual"]),
                 }
             )  # fmt: skip
     return rows
@@ -88,7 +103,8 @@ def summarise(register: Register, results: Sequence[dict[str, Any]]) -> dict[str
     rows = table_rows(register, results)
     chosen = choose(results)
     graded = [r for _, r in sorted(chosen.items()) if r["status"] == "graded"]
-    marks = [float(result["points"]) for result in graded]
+    marks = [float(row["points"]) for row in rows if row["points"] is not None]
+    held = suspicions(results)
     times = sorted(r["time"] for r in chosen.values() if r["time"])
     return {
         "files": len(results),
@@ -105,9 +121,13 @@ def summarise(register: Register, results: Sequence[dict[str, Any]]) -> dict[str
         "hardest": _hardest(graded),
         "signals": signals(results),
         "manual": [
-            {"who": _name(r), "why": r["manual"], "page": r.get("page", "")}
+            {
+                "who": _name(r),
+                "why": list(dict.fromkeys([*r["manual"], *held.get(r["key"], ())])),
+                "page": r.get("page", ""),
+            }
             for r in results
-            if r["manual"]
+            if r["manual"] or held.get(r["key"])
         ],
         "rows": rows,
     }

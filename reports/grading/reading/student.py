@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -13,16 +13,12 @@ from numpy.typing import NDArray
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.reading.placement import Place, Placement, find_places
 from reports.recalculation.bench import Cells, pinned
-from reports.recalculation.evaluate import BLANK, ERROR, TEXT, Engine
-from reports.recalculation.formulas import Formula, formula_at, is_doubtful
-from reports.recalculation.grid import Area, Column, Grid, Run
+from reports.recalculation.evaluate import BLANK, ERROR, Engine
+from reports.recalculation.formulas import is_doubtful
+from reports.recalculation.grid import Area, Grid, Run
 from reports.recalculation.language import UnknownFormula
-from reports.formula.excel import compile_formula
-from reports.grading.issuing.handout import fill_cells
-from reports.spec.blocks import TableSpec
 from reports.spec.evaluation import Evaluation
-from reports.workbook.inputs import shown
-from reports.workbook.layout import Layout, RowReferences, at_row
+from reports.workbook.layout import Layout
 
 Array = NDArray[np.float64]
 LOST = "x"  # beside the kinds of ``recalculation.evaluate``
@@ -68,111 +64,16 @@ class Student:
     expected: Evaluation
     changed: list[Changed] = field(default_factory=list)
 
-    replaced: list[str] = field(default_factory=list)  # nodes of which a formula was given
-
     @classmethod
     def of(cls, assignment: Assignment, layout: Layout, grid: Grid) -> Student:
-        """Find the tables of a workbook and put the protected cells back as they were issued."""
+        """Find the tables of a workbook; ``restoring.restore`` puts back what was issued."""
         placement = find_places(assignment.kept_model, layout, grid)
-        made = cls(assignment, layout, grid, placement, Evaluation(assignment.model))
-        made._restore()
-        return made
+        return cls(assignment, layout, grid, placement, Evaluation(assignment.model))
 
     @cached_property
     def engine(self) -> Engine:
         """The formulas, calculated with the issued input data."""
         return Engine(self.grid)
-
-    # --- input data -------------------------------------------------------------------
-
-    def _restore(self) -> None:
-        """Input data and given numbers as issued; what was changed is remembered."""
-        model = self.assignment.kept_model
-        for name, item in model.fields.items():
-            place = self.placement.places.get(name)
-            if place is not None:
-                self._put(place, 0, name, shown(item))
-        for node in sorted(self.assignment.given_nodes):
-            place = self.placement.places.get(node)
-            if place is None:
-                continue
-            value = self.expected.value(node)
-            if isinstance(value, str):
-                self._put(place, 0, node, value)
-                continue
-            values = np.ravel(value)
-            if self._as_issued(place, values):
-                continue
-            for index, given in enumerate(values.tolist()):
-                if place.rows[index] is not None:
-                    self._put(place, index, node, given)
-
-        for node, formulas in issued_formulas(self.assignment, self.layout).items():
-            place = self.placement.places.get(node)
-            if place is not None:
-                self._put_formulas(node, place, formulas)
-
-    def _put_formulas(self, node: str, place: Place, formulas: Sequence[Formula]) -> None:
-        """Formulas that were given, where something else stands in their place.
-
-        A formula whose cells were moved reads otherwise and is left: its response tells.
-        """
-        column = self.grid.sheets[place.sheet].setdefault(place.column, Column())
-        if place.span is not None and place.span.whole and not column.constants.keys() & set(
-            place.rows
-        ):
-            runs = column.runs_in(place.span.first, place.span.last)
-            same = {run.formula for run in runs} <= set(formulas) and not column.errors
-            if same and sum(run.count for run in runs) >= len(place.rows):
-                return
-        moved = not self._as_laid_out
-        found = []
-        for row, formula in zip(place.rows, formulas, strict=True):
-            run = next(iter(column.runs_in(row, row)), None) if row is not None else None
-            if row is None or (run is not None and (moved or run.formula is formula)):
-                continue
-            found.append((row, formula, run))
-        for row, formula, run in found:
-            text = "другая формула" if run is not None else column.constants.get(row, "пусто")
-            where = f"{place.sheet}!{address(row, place.column)}"
-            self.changed.append(Changed(where, node, "формула", str(text)))
-            column.cut({row})
-            column.errors.pop(row, None)
-            column.constants.pop(row, None)
-            if not moved:
-                column.runs.append(Run(place.sheet, place.column, row, 1, formula, ""))
-            else:
-                right = np.ravel(np.asarray(self.expected.value(node), dtype=object))
-                value = right[place.rows.index(row)]
-                column.constants[row] = value if isinstance(value, str) else float(value)
-
-    def _as_issued(self, place: Place, values: Array) -> bool:
-        """Whether these very numbers stand in the cells of a place."""
-        column = self.grid.column(place.sheet, place.column)
-        if column.runs or column.errors:
-            return False
-        found = [column.constants.get(row, "") for row in place.rows if row is not None]
-        if len(found) < len(values) or any(type(number) is not float for number in found):
-            return False
-        far = np.abs(np.array(found) - values) > 1e-9 * np.maximum(1, np.abs(values))
-        return not far.any()
-
-    def _put(self, place: Place, index: int, name: str, value: float | str) -> None:
-        row = place.rows[index]
-        column = self.grid.sheets[place.sheet].setdefault(place.column, Column())
-        run = next(iter(column.runs_in(row, row)), None) if row is not None else None
-        found = column.constants.get(row) if row is not None else None
-        if run is None and row not in column.errors and _same(found, value):
-            return
-        if run is None and found is None and value == "":
-            return
-        assert row is not None
-        text = "формула" if run is not None else "пусто" if found is None else str(found)
-        where = f"{place.sheet}!{address(row, place.column)}"
-        self.changed.append(Changed(where, name, value, text))
-        column.cut({row})
-        column.errors.pop(row, None)
-        column.constants[row] = value if isinstance(value, str) else float(value)
 
     # --- answers ----------------------------------------------------------------------
 
@@ -241,31 +142,22 @@ class Student:
 
     def precedents(self, node: str) -> frozenset[str]:
         """Nodes and inputs that a node's formulas refer to, through own helper cells too."""
-        return self._precedents(node, frozenset())
+        return self.refers(node) - {node}
 
-    def refers_to(self, node: str, wanted: frozenset[str]) -> bool:
-        """Whether a node's formulas refer to any of some nodes; quicker than all precedents."""
-        return not wanted.isdisjoint(self._precedents(node, wanted))
-
-    def _precedents(
-        self, node: str, enough: frozenset[str], *, itself: bool = False
-    ) -> frozenset[str]:
-        """Precedents of a node, or those found until one of ``enough`` is among them."""
-        if enough:
-            return self._walk(node, enough)[0] - {node}
-        found = self._seen_from(node)[0]
-        return found if itself else found - {node}
+    def refers(self, node: str) -> frozenset[str]:
+        """Precedents of a node, itself among them where it refers to its own column."""
+        return self._seen_from(node)[0]
 
     def _seen_from(self, node: str) -> tuple[frozenset[str], frozenset[Run]]:
         if node not in self._walked:
-            self._walked[node] = self._walk(node, frozenset())
+            self._walked[node] = self._walk(node)
         return self._walked[node]
 
     @cached_property
     def _walked(self) -> dict[str, tuple[frozenset[str], frozenset[Run]]]:
         return {}
 
-    def _walk(self, node: str, enough: frozenset[str]) -> tuple[frozenset[str], frozenset[Run]]:
+    def _walk(self, node: str) -> tuple[frozenset[str], frozenset[Run]]:
         found: set[str] = set()
         seen: set[Run] = set()
         stack = self.runs(node)
@@ -277,8 +169,6 @@ class Student:
             for area in self.grid.precedents(run):
                 hit, rest = self._nodes_in(area)
                 found |= hit
-                if not enough.isdisjoint(hit - {node}):
-                    return frozenset(found), frozenset(seen)
                 stack += rest
         return frozenset(found), frozenset(seen)
 
@@ -336,92 +226,31 @@ class Student:
 
     # --- what rests on what -----------------------------------------------------------
 
+    def cells_of(self, node: str, values: object) -> list[Cells]:
+        """The cells of a node with values."""
+        place = self.placement.places.get(node)
+        if place is None:
+            return []
+        given = [values] if isinstance(values, str) else np.ravel(np.asarray(values)).tolist()
+        kept = [(r, v) for r, v in zip(place.rows, given, strict=True) if r is not None]
+        if not kept:
+            return []
+        rows, numbers = zip(*kept, strict=True)
+        return [Cells(place.sheet, place.column, rows, numbers)]
+
     @cached_property
-    def circles(self) -> frozenset[str]:
-        """Nodes that are calculated through themselves."""
-        round_ = {
-            node
-            for node, answer in self.answers.items()
-            if ERROR in answer.kinds
-            and answer.place is not None
-            and answer.place.span is not None
-            and self.engine.is_circular(
-                answer.place.sheet, answer.place.column, answer.place.span.first,
-                answer.place.span.last,
-            )
-        }  # fmt: skip
-        if not round_:
-            return frozenset()
-        refers = {node: self._through(node) for node in round_}
-        found = set()
-        for node in round_:
-            seen: set[str] = set()
-            stack = list(refers[node])
-            while stack:
-                name = stack.pop()
-                if name == node:
-                    found.add(node)
-                    break
-                if name not in seen:
-                    seen.add(name)
-                    stack += refers.get(name, ())
-        return frozenset(found)
-
-    def _through(self, node: str) -> frozenset[str]:
-        """Asked nodes that a node refers to, through live formulas too, itself among them."""
-        found: set[str] = set()
-        seen: set[str] = set()
-        stack = [node]
-        while stack:
-            for name in self._precedents(stack.pop(), frozenset(), itself=True):
-                if name in self.answers:
-                    found.add(name)
-                elif name in self.assignment.live_nodes and name not in seen:
-                    seen.add(name)
-                    stack.append(name)
-        return frozenset(found)
-
-    def is_void(self, node: str) -> bool:
-        """Whether there is no value to go on with: blanks, or a text that is no number."""
-        answer = self.answers[node]
-        if answer.place is None or answer.problem:
-            return False
-        nothing = answer.kinds.count(BLANK)
-        if TEXT in answer.kinds and answer.typed.any():
-            column = self.grid.column(answer.place.sheet, answer.place.column)
-            texts = [column.constants.get(row) for row in answer.place.rows if row is not None]
-            nothing += sum(isinstance(t, str) and not is_doubtful(t, in_product=True) for t in texts)
-        return nothing > len(answer.kinds) / 2
-
-    def resting_on(self, nodes: frozenset[str]) -> frozenset[str]:
-        """Nodes whose values would be other ones if some nodes had the right values."""
-        cells = []
-        for node in sorted(nodes):
-            place = self.placement.places.get(node)
-            right = self.expected.value(node)
-            if place is None or isinstance(right, str):
-                continue
-            values = np.ravel(np.asarray(right, dtype=float)).tolist()
-            kept = [(r, v) for r, v in zip(place.rows, values, strict=True) if r is not None]
-            if kept:
-                rows, numbers = zip(*kept, strict=True)
-                cells.append(Cells(place.sheet, place.column, rows, numbers))
-        other = Engine(pinned(self.grid, cells))
-        found = set(nodes)
-        for node, answer in self.answers.items():
-            place = answer.place
-            if place is None or place.span is None or answer.problem:
-                continue
-            try:
-                span = place.span
-                numbers, kinds = other.values(place.sheet, place.column, span.first, span.last)
-            except UnknownFormula:
-                continue
-            was, now = answer.kinds, _at(place, kinds)
-            values = _picked(place, numbers)
-            if was != now or not np.allclose(values, answer.values, 1e-9, 1e-12, equal_nan=True):
-                found.add(node)
-        return frozenset(found)
+    def own_constants(self) -> list[tuple[str, int, int, float]]:
+        """Numbers typed into cells that are none of the work-book's."""
+        taken: dict[tuple[str, int], set[int | None]] = {}
+        for place in self.placement.places.values():
+            taken.setdefault((place.sheet, place.column), set()).update(place.rows)
+        return [
+            (sheet, number, row, value)
+            for sheet, columns in self.grid.sheets.items()
+            for number, column in columns.items()
+            for row, value in column.constants.items()
+            if type(value) is float and row not in taken.get((sheet, number), ())
+        ]
 
     def helpers(self, node: str) -> list[Run]:
         """Formulas of one's own, outside the tables, that a node refers to."""
@@ -429,7 +258,7 @@ class Student:
 
     def signature(self, node: str) -> tuple[object, ...] | None:
         """What a node's formulas are, where they refer to nothing but cells as issued."""
-        if not self._as_laid_out:
+        if not self.as_laid_out:
             return None
         place = self.placement.places[node]
         if place.span is None:
@@ -444,13 +273,17 @@ class Student:
         return tuple(parts)
 
     @cached_property
-    def _as_laid_out(self) -> bool:
+    def as_laid_out(self) -> bool:
         """Whether every cell of the tables stands where it was issued."""
         layout = self.layout
         for name, place in self.placement.places.items():
             if name in layout.cells:
                 cell = layout.cells[name]
-                if (place.sheet, place.column, place.rows) != (cell.sheet, cell.column, (cell.row,)):
+                if (place.sheet, place.column, place.rows) != (
+                    cell.sheet,
+                    cell.column,
+                    (cell.row,),
+                ):
                     return False
             elif name in layout.columns:
                 table, column = layout.columns[name]
@@ -488,17 +321,6 @@ def _read(text: str, otherwise: float) -> float:
         return otherwise
 
 
-def _picked(place: Place, numbers: Array) -> Array:
-    assert place.span is not None
-    first = place.span.first
-    return np.array([np.nan if row is None else numbers[row - first] for row in place.rows])
-
-
-def _at(place: Place, kinds: str) -> str:
-    assert place.span is not None
-    return "".join(LOST if row is None else kinds[row - place.span.first] for row in place.rows)
-
-
 def _covered(low: int, high: int, taken: list[tuple[int, int, Place]]) -> bool:
     """Whether all rows belong to nodes."""
     for first, last, place in taken:
@@ -506,43 +328,6 @@ def _covered(low: int, high: int, taken: list[tuple[int, int, Place]]) -> bool:
             return True
     rows = {row for _, _, place in taken for row in place.rows}
     return all(row in rows for row in range(low, high + 1))
-
-
-def issued_formulas(assignment: Assignment, layout: Layout) -> dict[str, tuple[Formula, ...]]:
-    """Node → the formulas of its cells, of the nodes that were given as formulas."""
-    known = assignment.__dict__.get("issued_formulas")
-    if known is None:
-        known = assignment.__dict__["issued_formulas"] = _issued(assignment, layout)
-    return known  # type: ignore[no-any-return]
-
-
-def _issued(assignment: Assignment, layout: Layout) -> dict[str, tuple[Formula, ...]]:
-    made: dict[str, tuple[Formula, ...]] = {}
-    live = assignment.live_nodes
-    for block in assignment.blocks:
-        table = block if isinstance(block, TableSpec) else None
-        for node, cells in fill_cells(block, layout).items():
-            expr = assignment.graph.expression(node)
-            if node not in live or expr is None:
-                continue
-            text = compile_formula(expr, RowReferences(layout, table))
-            made[node] = tuple(
-                formula_at(
-                    at_row(text, cell.row, last=cell.row == cells[-1].row).removeprefix("="),
-                    cell.row,
-                    cell.column,
-                )
-                for cell in cells
-            )
-    return made
-
-
-def _same(found: float | str | bool | None, wanted: float | str) -> bool:
-    if isinstance(wanted, str):
-        return isinstance(found, str) and found.strip() == wanted.strip()
-    if found is None or isinstance(found, str):
-        return False
-    return abs(float(found) - float(wanted)) <= 1e-9 * max(1.0, abs(float(wanted)))
 
 
 def address(row: int, column: int) -> str:

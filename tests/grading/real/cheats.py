@@ -22,12 +22,14 @@ M, T, S1, V1, J1, N = (
 
 def disguised(name: str, node: str, template: str, **more: object) -> Work:
     """Right numbers in formulas that do not calculate them; ``{v}`` is the number."""
-    return Work(name, lambda here: {node: literals(template, here.column(node))},
-                unpaid=(node,), **more)  # type: ignore[arg-type]
+    return Work(
+        name, lambda here: {node: literals(template, here.column(node))}, unpaid=(node,), **more
+    )  # type: ignore[arg-type]
 
 
 def _pasted(formula: str, node: str) -> Callable[[Workbook, Desk], None]:
     """A look-up on a sheet of pasted numbers."""
+
     def edit(book: Workbook, here: Desk) -> None:
         sheet = book.create_sheet("Расчёт")
         sheet.sheet_state = "veryHidden"
@@ -36,6 +38,7 @@ def _pasted(formula: str, node: str) -> Callable[[Workbook, Desk], None]:
             sheet.cell(row, 2).value = value
             place = here.layout.columns[node]
             book[place[0].sheet].cell(row, place[1]).value = formula.replace("{r}", str(row))
+
     return edit
 
 
@@ -43,6 +46,7 @@ def _scaled(by: str, key: str) -> Callable[[Desk], dict[str, object]]:
     def change(here: Desk) -> dict[str, object]:
         base = here.scalar(key) if key in here.values.scalars else float(here.issued.drawn[key])
         return {J1: literals(f"={{v}}*({by}/{base!r})^2", here.column(J1))}
+
     return change
 
 
@@ -85,6 +89,7 @@ def _blank(*keys: str) -> Callable[[Desk], dict[str, object]]:
 
 def _name_constant(book: Workbook, here: Desk) -> None:
     from openpyxl.workbook.defined_name import DefinedName
+
     for row, value in zip(rows(), here.column(S1), strict=False):
         book.defined_names[f"k_{row}"] = DefinedName(f"k_{row}", attr_text=repr(value))
         book["П3.1"].cell(row, 2).value = f"=k_{row}"
@@ -101,6 +106,7 @@ def _own_name_in_the_ticket(data: bytes, here: Desk) -> bytes:
 
 def _foreign(where: str) -> Callable[[bytes, Desk], bytes]:
     """A friend's filled book: his numbers, his formulas; the identifier as ``where`` says."""
+
     def after(data: bytes, here: Desk) -> bytes:
         friend = desk(here.other.number)
         book = load_workbook(io.BytesIO(empty_book(friend.issued)))
@@ -110,6 +116,7 @@ def _foreign(where: str) -> Callable[[bytes, Desk], bytes]:
         stream = io.BytesIO()
         book.save(stream)
         return reticketed(stream.getvalue(), friend.issued.ticket, mine)
+
     return after
 
 
@@ -161,36 +168,45 @@ ODD = {
 
 _CIRCLE = {"P3_1.s1_mm": "=D{r}-C{r}", "P3_1.s_mm": "=B{r}+C{r}"}
 _RING = {"P3_1.v1_m_s": "=G{r}-F{r}", "P3_1.v2_m_s": "=G{r}-E{r}", "P3_1.v_m_s": "=E{r}+F{r}"}
-_ALL = tuple(COLUMNS)
+_ALL = tuple(node for node in COLUMNS if not node.endswith("sin_MPa"))  # γ1 is nought
 _OF_OMEGA = ("P3_1.v1_m_s", "P3_1.j1_m_s2", "P3_2.omega_rod_approx_1_s", "P4_1.j_m_s2",
              "P3_1.v_m_s", "P4_1.Pj_MPa", "P4_1.T_MPa", "P4_2.Msum_Nm")  # fmt: skip
 
 CHEATS = (
     disguised("plus A minus A", S1, "={v}+A{r}-A{r}"),
-    disguised("plus nought times", S1, "={v}+0*D{r}*TAN(A{r})"),
-    disguised("never the else", S1, "=IF(A{r}<0,D{r},{v})"),
-    disguised("always the error", S1, "=IFERROR(D{r}/0,{v})"),
-    disguised("is a number", V1, "=IF(ISNUMBER(G{r}),{v},0)"),
-    disguised("times one", V1, "={v}*G{r}^0"),
+    disguised("plus nought times", S1, "={v}+0*H{r}*TAN(A{r})"),
+    disguised("never the else", S1, "=IF(A{r}<0,H{r},{v})"),
+    disguised("always the error", S1, "=IFERROR(H{r}/0,{v})"),
+    disguised("is a number", V1, "=IF(ISNUMBER(H{r}),{v},0)"),
+    disguised("times one", V1, "={v}*(H{r}+1)^0"),
     disguised("times omega over omega", V1, "={v}*omega/omega"),
     disguised("the greater", S1, "=MAX({v},-A{r})"),
     disguised("sum with nought", M, "=SUM({v},0*G{r})"),
     disguised("rounded away", M, "=ROUND({v}+G{r}/10^15,6)"),
     disguised("nought to the power", N, "={v}+D{r}*0^9"),
     disguised("sign", N, "={v}*SIGN(A{r}+1)"),
-    disguised("switch", S1, "=SWITCH(A{r},-1,D{r},{v})"),
+    disguised("switch", S1, "=SWITCH(A{r},-1,H{r},{v})"),
     disguised("numbers of the helper", "P4_1.beta_rad", "={v}+A{r}-A{r}"),
     disguised("numbers of the last sum", "P4_2.Msum_Nm", "={v}+0*B{r}"),
     disguised("numbers of R", "P4_3_1.R_MPa", "={v}+0*(H{r}+I{r})"),
     disguised("numbers in a text", S1, '=LEN("")*A{r}+{v}'),
     disguised("numbers by a count", S1, "=COUNT(A{r})*{v}"),
     disguised("a scalar and the rest", "P3_2.eps_rod_exact_1_s2", "={v}+(r_crank-r_crank)"),
-    Work("omega plus nought", lambda here: {"omega": f"={here.scalar('omega')!r}+C5-C5"},
-         unpaid=("geometry.omega",)),
-    Work("area by if", lambda here: {"F_piston": f"=IF(C5>0,{here.scalar('F_piston')!r},C6)"},
-         unpaid=("geometry.F_piston",)),
-    Work("mass of no variant", lambda here: {"m_k": f"={here.scalar('m_k')!r}+0*m_2"},
-         unpaid=("masses.m_k",)),
+    Work(
+        "omega plus nought",
+        lambda here: {"omega": f"={here.scalar('omega')!r}+C5-C5"},
+        unpaid=("geometry.omega",),
+    ),
+    Work(
+        "area by if",
+        lambda here: {"F_piston": f"=IF(C5>0,{here.scalar('F_piston')!r},C6)"},
+        unpaid=("geometry.F_piston",),
+    ),
+    Work(
+        "mass of no variant",
+        lambda here: {"m_k": f"={here.scalar('m_k')!r}+0*m_2"},
+        unpaid=("masses.m_k",),
+    ),
     Work("choose", _choose, unpaid=(S1,)),
     Work("a list of numbers", _list, unpaid=(S1,)),
     Work("an array of numbers", _array_list, unpaid=(S1,)),
@@ -198,31 +214,49 @@ CHEATS = (
     Work("scaled by n", _scaled("regime_speed_rpm", "regime.speed_rpm"), unpaid=(J1,)),
     Work("by the neighbour", _ratio, unpaid=(S1,)),
     Work("only for my variant", _only_mine, unpaid=(S1,)),
-    Work("look-up of pasted numbers", edit=_pasted("=VLOOKUP(A{r},Расчёт!A:B,2,0)", S1),
-         unpaid=(S1,)),
+    Work(
+        "look-up of pasted numbers", edit=_pasted("=VLOOKUP(A{r},Расчёт!A:B,2,0)", S1), unpaid=(S1,)
+    ),
     Work("reading pasted numbers", edit=_pasted("=Расчёт!B{r}", M), unpaid=(M,)),
-    Work("pasted numbers by INDEX", edit=_pasted("=INDEX(Расчёт!B:B,ROWS(A$1:A{r}))", V1),
-         unpaid=(V1,)),
+    Work(
+        "pasted numbers by INDEX",
+        edit=_pasted("=INDEX(Расчёт!B:B,ROWS(A$1:A{r}))", V1),
+        unpaid=(V1,),
+    ),
     Work("names of numbers", edit=_name_constant, unpaid=(S1,)),
     Work("everything pasted", edit=_solved_with_ticket, unpaid=_ALL),
     Work("a circle", lambda here: _CIRCLE, unpaid=tuple(_CIRCLE)),
     Work("a ring of three", lambda here: _RING, unpaid=tuple(_RING)),
-    Work("itself", lambda here: {S1: "=B{r}"}, unpaid=(S1,)),
+    Work("itself", lambda here: {S1: "=B{r}"}, unpaid=(S1, "P3_1.s_mm")),
     Work("blank omega", _blank("omega"), unpaid=("geometry.omega", *_OF_OMEGA)),
-    Work("blank lambda, omega, r", _blank("omega", "lam", "r_crank"),
-         unpaid=("geometry.omega", "geometry.lam", "geometry.r_crank", *_OF_OMEGA)),
-    Work("blank first columns", _blank("P4_1.beta_rad", "P4_1.j_m_s2"),
-         unpaid=("P4_1.beta_rad", "P4_1.j_m_s2", "P4_1.N_MPa", "P4_1.Pj_MPa", "P4_1.T_MPa")),
-    Work("helpers of noughts", lambda here: {"P4_1.beta_rad": 0, "P4_1.j_m_s2": 0},
-         unpaid=("P4_1.beta_rad", "P4_1.j_m_s2")),
-    Work("read from the given table", lambda here: {
-        M: "=INDEX(Цилиндры!L$6:L$30,MATCH(MOD(A{r}+240,720),Цилиндры!A$6:A$30,0))",
-        T: "=INDEX(Цилиндры!J$6:J$30,MATCH(MOD(A{r}+240,720),Цилиндры!A$6:A$30,0))"},
-        unpaid=(M, T)),
-    Work("backwards from typed numbers", _back, unpaid=(T,)),
+    Work(
+        "blank lambda, omega, r",
+        _blank("omega", "lam", "r_crank"),
+        unpaid=("geometry.omega", "geometry.lam", "geometry.r_crank", *_OF_OMEGA),
+    ),
+    Work(
+        "blank first columns",
+        _blank("P4_1.beta_rad", "P4_1.j_m_s2"),
+        unpaid=("P4_1.beta_rad", "P4_1.j_m_s2", "P4_1.N_MPa", "P4_1.Pj_MPa", "P4_1.T_MPa"),
+    ),
+    Work(
+        "helpers of noughts",
+        lambda here: {"P4_1.beta_rad": 0, "P4_1.j_m_s2": 0},
+        unpaid=("P4_1.beta_rad", "P4_1.j_m_s2"),
+    ),
+    Work(
+        "read from the given table",
+        lambda here: {
+            M: "=INDEX(Цилиндры!L$6:L$30,MATCH(MOD(A{r}+240,720),Цилиндры!A$6:A$30,0))",
+            T: "=INDEX(Цилиндры!J$6:J$30,MATCH(MOD(A{r}+240,720),Цилиндры!A$6:A$30,0))",
+        },
+        unpaid=(M, T),
+    ),
+    Work("backwards from typed numbers", _back, unpaid=(T,), verdicts={M: "typed"}),
     Work("the given table overwritten", edit=_given_replaced),
-    Work("an indirect address", lambda here: {"V_c": '=INDIRECT("C10")/17'},
-         unpaid=("geometry.V_c",)),
+    Work(
+        "an indirect address", lambda here: {"V_c": '=INDIRECT("C10")/17'}, unpaid=("geometry.V_c",)
+    ),
     Work("the solved book", after=_solved, held="идентификатор"),
     Work("a friend's book", after=_foreign("none"), held="идентификатор"),
     Work("a friend's book, altered identifier", after=_foreign("altered"), held="идентификатор"),

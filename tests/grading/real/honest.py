@@ -60,7 +60,8 @@ def _by_name(desk: Desk) -> dict[str, Cells]:
     places = {"C5": "r_crank", "C6": "L_rod", "C7": "lam", "C8": "S_stroke", "C9": "F_piston",
               "C13": "omega", "C24": "m_j", "C23": "m_2", "C25": "m_k", "C26": "m_r"}  # fmt: skip
     made = {}
-    for node, text in {**SCALARS, **COLUMNS}.items():
+    for node, written in {**SCALARS, **COLUMNS}.items():
+        text = written
         for address, name in places.items():
             text = text.replace(f"'Массы'!${address[0]}${address[1:]}", name)
             if "." not in node:
@@ -92,6 +93,7 @@ def _own_shift(desk: Desk) -> dict[str, Cells]:
 
 def _row_shift(desk: Desk) -> dict[str, Cells]:
     """The moment of the other cylinders by references to other rows, as one drags them."""
+
     def shifted(by: int) -> list[str]:
         return [f"='П4.1'!I{FIRST + (i - by) % (ROWS - 1)}" for i in range(ROWS)]
 
@@ -181,6 +183,20 @@ def _helper_sheet(book: Workbook, desk: Desk) -> None:
     book["Массы"]["C5"] = "=geometry_crank_radius_mm*Черновик!B2"
 
 
+def _own_copy(book: Workbook, desk: Desk) -> None:
+    """The input data copied to a sheet of one's own, and everything calculated from there."""
+    sheet = book.create_sheet("Мой вариант")
+    drawn = desk.issued.drawn
+    sheet["A1"], sheet["B1"] = "D, мм", drawn["geometry.bore_mm"]
+    sheet["A2"], sheet["B2"] = "l, м", drawn["geometry.rod_length_mm"] / 1000
+    sheet["A3"], sheet["B3"] = "n", drawn["regime.speed_rpm"]
+    sheet["A4"], sheet["B4"] = "m", drawn["masses.reciprocating_kg"]
+    for cell, text in (("C6", "B2"), ("C24", "B4")):
+        book["Массы"][cell] = f"='Мой вариант'!{text}"
+    book["Массы"]["C9"] = "=PI()*('Мой вариант'!B1/1000)^2/4"
+    book["Массы"]["C13"] = "=PI()*'Мой вариант'!B3/30"
+
+
 def _own_names(book: Workbook, desk: Desk) -> None:
     for name, address in (("радиус", "Массы!$C$5"), ("w", "Массы!$C$13"), ("Fп", "Массы!$C$9")):
         book.defined_names[name] = DefinedName(name, attr_text=address)
@@ -232,6 +248,7 @@ HONEST = (
     Work("a helper sheet", edit=_helper_sheet, form="office"),
     Work("look-ups over whole columns", _look_ups),
     Work("look-ups saved by LibreOffice", _look_ups, form="office"),
+    Work("the variant copied to an own sheet", edit=_own_copy),
     Work("own names", edit=_own_names, form="excel"),
     Work("array formulas", _arrays),
     Work("array formulas saved by LibreOffice", _arrays, form="office"),

@@ -130,8 +130,10 @@ def _named(work: Work) -> Work:
     if work.name == "of the wrong rod":
         return replace(work, change=_other_rod)
     if work.name == "typed omega":
+
         def change(desk: Desk) -> dict[str, object]:
             return {"P3_1.v1_m_s": f"={R}*{desk.scalar('omega')!r}*SIN({_RAD})"}
+
         return replace(work, change=change)
     return work
 

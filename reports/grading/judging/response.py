@@ -287,11 +287,11 @@ class Response:
 
     @cached_property
     def tampered(self) -> list[str]:
-        """Given formulas that do not calculate what they should; looked at where cells moved."""
+        """Given formulas that were changed and do not calculate what they should."""
         student = self.student
-        if student.as_laid_out or not self.trials:
+        nodes = [node for node in sorted(student.rewritten) if student.runs(node)]
+        if not nodes or not self.trials:
             return []
-        nodes = [node for node in sorted(student.assignment.live_nodes) if student.runs(node)]
         values = self._run(nodes, rounded=True)
         return [node for node in nodes if not self._calculates(node, values[node])]
 

@@ -118,12 +118,13 @@ def _everything(
     most = _MOST
     while True:
         factors: dict[tuple[str, float], float] = {}
+        up = rng.choice((-1, 1))  # all the same way, so that no sum stays as it was
         made = dict(start)
         for field in fields:
             value = float(field.value)
             key = (field.unit, value)
             if key not in factors:
-                factors[key] = 1 + rng.choice((-1, 1)) * rng.uniform(most / 4, most)
+                factors[key] = 1 + up * rng.uniform(most / 4, most)
             if field.name not in start:
                 made[field.name] = value * factors[key]
         yield made

@@ -139,7 +139,10 @@ def _by_rows(
     good = close(item, made.values, made.expected, allowed)
     fixed = response.fixed(item)
     words = [_word(kinds[i], letters[i], bool(good[i]), bool(fixed[i])) for i in range(len(kinds))]
-    unlinked = not _is_linked(item, student)
+    # What has followed other input data refers to them, if only by a copy.
+    unlinked = bool(fixed.all()) and not _is_linked(item, student)
+    if not fixed.all() and not _is_linked(item, student):
+        unlinked = RIGHT not in words
     if unlinked:  # nothing to respond to: numbers, or references to pasted ones
         runs = [run for node in item.nodes for run in student.runs(node)]
         plain = not any(True for run in runs for _ in student.grid.located(run))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,7 @@ from reports.grading.reading.placement import Place
 from reports.grading.reading.student import Changed, Student, address
 from reports.recalculation.formulas import Formula, formula_at
 from reports.recalculation.grid import Column, Run
+from reports.recalculation.language import unquoted
 from reports.spec.blocks import TableSpec
 from reports.workbook.inputs import shown
 from reports.workbook.layout import Layout, RowReferences, at_row
@@ -52,7 +54,8 @@ def restore(student: Student) -> None:
 def _put_formulas(student: Student, node: str, place: Place, formulas: Sequence[Formula]) -> None:
     """Formulas that were given, where something else stands in their place.
 
-    A formula whose cells were moved reads otherwise and is left: its response tells.
+    A formula that reads otherwise is left, for its cells may have been moved: its response
+    tells whether it is the one that was given.
     """
     column = student.grid.sheets[place.sheet].setdefault(place.column, Column())
     if (
@@ -65,17 +68,17 @@ def _put_formulas(student: Student, node: str, place: Place, formulas: Sequence[
         if same and sum(run.count for run in runs) >= len(place.rows):
             return
     moved = not student.as_laid_out
-    found = []
     for row, formula in zip(place.rows, formulas, strict=True):
         run = next(iter(column.runs_in(row, row)), None) if row is not None else None
-        if row is None or (run is not None and (moved or run.formula is formula)):
+        if run is not None:
+            if run.formula is None or not _alike(run.formula, formula):
+                student.rewritten.add(node)
             continue
-        found.append((row, formula, run))
-    for row, formula, run in found:
-        text = "другая формула" if run is not None else column.constants.get(row, "пусто")
+        if row is None:
+            continue
+        text = column.constants.get(row, "пусто")
         where = f"{place.sheet}!{address(row, place.column)}"
         student.changed.append(Changed(where, node, "формула", str(text)))
-        column.cut({row})
         column.errors.pop(row, None)
         column.constants.pop(row, None)
         if not moved:
@@ -84,6 +87,23 @@ def _put_formulas(student: Student, node: str, place: Place, formulas: Sequence[
             right = np.ravel(np.asarray(student.expected.value(node), dtype=object))
             value = right[place.rows.index(row)]
             column.constants[row] = value if isinstance(value, str) else float(value)
+
+
+def _alike(first: Formula, second: Formula) -> bool:
+    """Whether two formulas are the same, however a program spells numbers and sheets."""
+    return first is second or _plain(first) == _plain(second)
+
+
+@lru_cache(maxsize=20_000)
+def _plain(formula: Formula) -> tuple[object, ...]:
+    return tuple(
+        float(value)
+        if kind == "number"
+        else unquoted(value)
+        if kind == "sheet"
+        else value.casefold()
+        for kind, value in formula.pattern
+    )
 
 
 def _as_issued(student: Student, place: Place, values: Array) -> bool:

@@ -63,6 +63,7 @@ class Student:
     placement: Placement
     expected: Evaluation
     changed: list[Changed] = field(default_factory=list)
+    rewritten: set[str] = field(default_factory=set)  # given formulas that read otherwise
 
     @classmethod
     def of(cls, assignment: Assignment, layout: Layout, grid: Grid) -> Student:

@@ -33,11 +33,10 @@ def with_own_shifts(model: Model, fill: Collection[Block]) -> Model:
         if table in asked or _PHASE not in keys or len(table.rows) < 2:
             continue
         phase = np.asarray(run.value(f"{table.id}.{_PHASE}"), dtype=float)
-        for own in asked:
-            made = _read_from(table, own, phase, run)
-            if made is not table:
-                changed[table.id] = made
-                break
+        tables = [_read_from(table, own, phase, run) for own in asked]
+        best = max(tables, key=lambda made: _count_changed(made, table), default=table)
+        if best is not table:
+            changed[table.id] = best
     if not changed:
         return model
     blocks = tuple(
@@ -45,6 +44,10 @@ def with_own_shifts(model: Model, fill: Collection[Block]) -> Model:
         for block in model.blocks
     )
     return replace(model, blocks=blocks)
+
+
+def _count_changed(made: TableSpec, table: TableSpec) -> int:
+    return sum(mine is not theirs for mine, theirs in zip(made.columns, table.columns, strict=True))
 
 
 def _read_from(table: TableSpec, own: TableSpec, phase: np.ndarray, run: Evaluation) -> TableSpec:
@@ -70,7 +73,7 @@ def _read_from(table: TableSpec, own: TableSpec, phase: np.ndarray, run: Evaluat
                 column = Column(column.key, expr, f"{own.number} в фазе цилиндра", column.helper,
                                 column.of)  # fmt: skip
         columns.append(column)
-    return table if tuple(columns) == table.columns else replace(table, columns=tuple(columns))
+    return table if columns == list(table.columns) else replace(table, columns=tuple(columns))
 
 
 def states(

@@ -41,6 +41,7 @@ from reports.recalculation.grid import BadBook, Grid
 from reports.recalculation.language import UnknownFormula
 from reports.recalculation.read import read_grid
 from reports.shared.errors import InputError
+from reports.spec.evaluation import Evaluation
 from reports.workbook.intake import check_data
 from reports.workbook.layout import Layout
 from reports.workbook.package import Package
@@ -80,6 +81,7 @@ class Marker:
     def __post_init__(self) -> None:
         self._assignments: dict[int, tuple[Assignment, Layout]] = {}
         self._first: tuple[Assignment, Layout] | None = None  # the others are mostly alike
+        self._variants: dict[int, dict[int, Evaluation]] = {}
         self._proofs: dict[int, Proofs] = {}  # by the tables that they are of
 
     def mark(self, submission: Submission, data: bytes) -> Result:
@@ -165,7 +167,9 @@ class Marker:
             text = "изменены выданные формулы: " + ", ".join(tampered[:4])
             result["doubts"].append(text)
             result["manual"].append(text)
-        causes = Causes(student, self.others(book.number), self.titles(assignment))
+        causes = Causes(
+            student, self.others(book.number), self.titles(assignment), self._whole(assignment)
+        )
         items = [_line(student, judgement, causes, assignment) for judgement in judgements]
         result |= {
             "status": "graded",
@@ -211,6 +215,10 @@ class Marker:
             )
         ]
         return ", ".join(found[:4])
+
+    def _whole(self, assignment: Assignment) -> dict[int, Evaluation]:
+        """Other variants as far as they are calculated, for all books of the same tables."""
+        return self._variants.setdefault(id(assignment.fill), {})
 
     def others(self, number: int) -> list[OtherVariant]:
         """What the other students' variants have different."""

@@ -140,9 +140,8 @@ def _by_rows(
     fixed = response.fixed(item)
     words = [_word(kinds[i], letters[i], bool(good[i]), bool(fixed[i])) for i in range(len(kinds))]
     # What has followed other input data refers to them, if only by a copy.
-    unlinked = bool(fixed.all()) and not _is_linked(item, student)
-    if not fixed.all() and not _is_linked(item, student):
-        unlinked = RIGHT not in words
+    follows = RIGHT in words and not fixed.all()
+    unlinked = not follows and not _is_linked(item, student)
     if unlinked:  # nothing to respond to: numbers, or references to pasted ones
         runs = [run for node in item.nodes for run in student.runs(node)]
         plain = not any(True for run in runs for _ in student.grid.located(run))

@@ -13,9 +13,17 @@ from pathlib import Path
 from typing import Any
 
 from reports.grading.batch.cluster import grade_far
+from reports.grading.batch.decisions import (
+    Decision,
+    applied,
+    decided,
+    from_gradebook,
+    load_decisions,
+    save_decisions,
+)
 from reports.grading.batch.pool import TIMEOUT_S, Outcome, grade_all
 from reports.grading.issuing.issue import latin
-from reports.grading.issuing.register import FILE, Register, checked_register
+from reports.grading.issuing.register import FILE, Register, checked_register, load_register
 from reports.grading.issuing.rubric import load_rubric
 from reports.grading.judging.marking import FORMAT, Marker, blank_result
 from reports.grading.pages.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
@@ -38,6 +46,8 @@ class Options:
     dask: str | None = None
     timeout_s: float = TIMEOUT_S
     pdf: bool = False
+    decisions: Sequence[tuple[str, str, str, str]] = ()  # who, what, points, remark
+    author: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,11 +106,25 @@ def grade(
             batch.take(outcome)
             done = len(batch.results)
             progress.step(f"Проверка работ: {done} из {len(submissions)}")
+        batch.decide(options)
         summary = batch.finish()
     if options.pdf:
         batch.write_pdf()
     reused = len(submissions) - len(batch.waiting)
     return Graded(folder, summary, reused, time.monotonic() - started)
+
+
+def decide(folder: Path, options: Options) -> Graded:
+    """Take a person's decisions into the results of an earlier run.
+
+    Raises:
+        InputError: there are no results, or a decision names no student or item.
+    """
+    started = time.monotonic()
+    batch = _Batch(load_register(folder / RESULTS / FILE), folder)
+    batch.take_over()
+    batch.decide(options)
+    return Graded(folder, batch.finish(), len(batch.results), time.monotonic() - started)
 
 
 class _Batch:
@@ -116,6 +140,36 @@ class _Batch:
             f"{FORMAT} {register.json_text()}".encode() + _program().encode()
         ).hexdigest()
         self._hashes: dict[str, str] = {}
+        self.decisions: list[Decision] = []
+
+    def take_over(self) -> None:
+        """All results of an earlier run, whatever was handed in since.
+
+        Raises:
+            InputError: there are none.
+        """
+        for path in sorted((self.folder / RESULTS).glob("*.json")):
+            if path.name != FILE:
+                result = json.loads(path.read_text(encoding="utf-8"))
+                self.results[result["key"]] = result
+        if not self.results:
+            hint = "укажите папку, в которую проверены работы"
+            raise InputError(Problem(str(self.folder), "здесь нет проверенных работ", hint))
+
+    def decide(self, options: Options) -> None:
+        """Decisions kept, written into the gradebook and given with the command."""
+        kept = load_decisions(self.folder)
+        found = from_gradebook(self.folder / "gradebook.xlsx", kept)
+        results = list(self.results.values())
+        found = decided(found, self.register, results, options.decisions, options.author)
+        if found or kept:
+            save_decisions(self.folder, found)
+        self.decisions = found
+        touched = {entry.number for entry in (*kept, *found)}
+        for result in results:
+            if result.get("number") in touched:
+                page = student_page(applied(result, found), self.register.rubric)
+                write_text(self.folder / result["page"], page)
 
     def start(self, submissions: Sequence[Submission]) -> None:
         """Take over what an earlier run has finished of the same files under the same rules."""
@@ -183,7 +237,7 @@ class _Batch:
     @property
     def ordered(self) -> list[dict[str, Any]]:
         """Results in the order of their keys, whatever the order in which they came."""
-        return [self.results[key] for key in sorted(self.results)]
+        return [applied(self.results[key], self.decisions) for key in sorted(self.results)]
 
     def _tables(self) -> list[dict[str, Any]]:
         rows = table_rows(self.register, self.ordered)

@@ -122,7 +122,7 @@ def _of_columns(
             # alike where most of it is, or far more than chance allows.
             size = len(asked[item])
             chance = size * len(given) / 9000
-            if count >= max(_FEWEST, chance + 5 * sqrt(chance) + 2, 0.3 * size):
+            if count >= max(_FEWEST, chance + 5 * sqrt(chance) + 2, 0.5 * size):
                 found.append(Leak(item, place, count))
     return sorted(found, key=lambda leak: (leak.item, leak.place))
 
@@ -138,7 +138,8 @@ def _of_scalars(
         hits = [n for n, d in exact.items() if d & given and not _short(asked[n])]
         few = [n for n, d in shown.items() if d & short and not d & known]
         chance = len(asked) * len(short) / 90_000
-        if not hits and len(few) >= max(3, chance + 5 * sqrt(chance) + 2):
+        alike = set().union(*(shown[n] for n in few)) if few else set()
+        if not hits and len(alike) >= max(3, chance + 5 * sqrt(chance) + 2):
             hits = few
         found += [Leak(name, place, 1) for name in hits]
     return found

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
 from typing import Any
 
@@ -15,19 +15,13 @@ from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.causes import Causes, OtherVariant
-from reports.grading.judging.marks import fingerprint, formula_marks
+from reports.grading.judging.lines import feedback_line
+from reports.grading.judging.marks import formula_marks
 from reports.grading.judging.response import Proofs, Response
 from reports.grading.judging.trials import trials_of
 from reports.grading.judging.verdicts import (
-    BROKEN,
-    CARRIED,
     EMPTY,
-    RIGHT,
-    STILL,
-    TYPED,
     UNKNOWN,
-    WRONG,
-    Judgement,
     judge_all,
 )
 from reports.grading.reading.matching import Match, file_properties, find_by_name, find_owner
@@ -47,7 +41,6 @@ from reports.workbook.layout import Layout
 from reports.workbook.package import Package
 
 FORMAT = 3
-SHOWN_ROWS = 12  # wrong cells shown in the feedback of an item
 Result = dict[str, Any]
 
 
@@ -170,7 +163,7 @@ class Marker:
         causes = Causes(
             student, self.others(book.number), self.titles(assignment), self._whole(assignment)
         )
-        items = [_line(student, judgement, causes, assignment) for judgement in judgements]
+        items = [feedback_line(student, judgement, causes, assignment) for judgement in judgements]
         result |= {
             "status": "graded",
             "feedback": self.register.rubric.feedback.mode,
@@ -193,7 +186,7 @@ class Marker:
             notes.append(f"изменены исходные или защищённые данные: ячеек {len(student.changed)}")
         if result["altered"]:
             notes.append("сохранённые значения не соответствуют формулам: " + result["altered"][0])
-        unknown = [line["id"] for line in items if line["verdict"] == UNKNOWN]
+        unknown = [line["label"] for line in items if line["verdict"] == UNKNOWN]
         if unknown:
             result["manual"].append("не удалось проверить: " + ", ".join(unknown[:8]))
 
@@ -261,79 +254,6 @@ def _take_match(result: Result, match: Match) -> None:
     result["submitter"] = match.submitter.number if match.submitter else None
 
 
-def _line(
-    student: Student, judgement: Judgement, causes: Causes, assignment: Assignment
-) -> dict[str, Any]:
-    """One item of the feedback."""
-    item = judgement.item
-    worth = assignment.points[item.id]
-    share = judgement.paid
-    if judgement.verdict == CARRIED:
-        share *= assignment.rubric.credit.carried
-    tables = assignment.model.tables
-    cause = causes.find(judgement) if judgement.verdict == WRONG else ""
-    line: dict[str, Any] = {
-        "id": item.id,
-        "block": item.block,
-        "table": tables[item.block].number if item.block in tables else "",
-        "title": item.title,
-        "symbol": item.symbol,
-        "unit": item.quantity.unit_label,
-        "source": item.source,
-        "digits": asdict(item.quantity.digits),
-        "verdict": judgement.verdict,
-        "points": round(worth * share, 6),
-        "of": round(worth, 6),
-        "reason": judgement.reason,
-        "cause": cause,
-        "origins": list(judgement.origins),
-        "right_mark": fingerprint(item, judgement.expected),
-        "rows": [item.labels[i] for i in judgement.rows],
-        "typed": [item.labels[i] for i in judgement.typed] if judgement.verdict != RIGHT else [],
-    }
-    if judgement.verdict in (WRONG, CARRIED, TYPED, STILL, BROKEN):
-        line["cells"] = _cells(student, judgement)
-        line["mark"] = fingerprint(item, judgement.values)
-        if item.is_column:
-            line["chart"] = {
-                "x": [float(label) for label in item.labels],
-                "own": _plain(judgement.values),
-                "right": _plain(judgement.expected),
-            }
-    return line
-
-
-def _cells(student: Student, judgement: Judgement) -> list[dict[str, Any]]:
-    item = judgement.item
-    rows = judgement.rows or judgement.typed
-    places = [
-        (student.placement.places.get(node), i)
-        for node in item.nodes
-        for i in range(student.assignment.length(node))
-    ]
-    cells = []
-    for row in rows[:SHOWN_ROWS]:
-        place, index = places[row]
-        at = place.rows[index] if place is not None else None
-        cells.append(
-            {
-                "row": item.labels[row],
-                "cell": f"{place.sheet}!{address(at, place.column)}" if place and at else "",
-                "own": _number(judgement.values[row]),
-                "right": _number(judgement.expected[row]),
-            }
-        )
-    return cells
-
-
-def _number(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None
-
-
-def _plain(values: np.ndarray[Any, np.dtype[np.float64]]) -> list[float | None]:
-    return [float(f"{v:.6g}") if math.isfinite(v) else None for v in values]
-
-
 def altered(student: Student, original: Grid | None) -> list[str]:
     """Cells whose saved value is not what their formula gives."""
     grid = original or student.grid
@@ -369,19 +289,24 @@ def _score(result: Result, rubric: Rubric, time: datetime | None) -> None:
     paid = [line for line in lines if line["of"] > 0]
     filled = [line for line in paid if line["verdict"] != EMPTY]
     result["filled"] = round(len(filled) / len(paid), 4) if paid else 0.0
-    raw = sum(line["points"] for line in lines)
-    result["raw"] = round(raw, 2)
     result["maximum"] = rubric.maximum
-    if result["filled"] < rubric.minimum.filled:
+    result["enough"] = result["filled"] >= rubric.minimum.filled
+    if not result["enough"]:
         result["notes"].append(
             f"заполнено {result['filled']:.0%} при наименьшем {rubric.minimum.filled:.0%}: 0 баллов"
         )
-        raw = 0.0
     factor = late_factor(rubric, time)
     result["late"] = factor
     if factor < 1:
         result["notes"].append(f"сдано после срока: баллы умножены на {factor:g}")
-    result["points"] = round(raw * factor, 2)
+    rescored(result)
+
+
+def rescored(result: Result) -> None:
+    """The sum of a result from the points of its lines."""
+    raw = sum(line["points"] for line in result["items"])
+    result["raw"] = round(raw, 2)
+    result["points"] = round(raw * result["late"], 2) if result["enough"] else 0.0
 
 
 def late_factor(rubric: Rubric, time: datetime | None) -> float:
@@ -394,6 +319,9 @@ def late_factor(rubric: Rubric, time: datetime | None) -> float:
     if late <= timedelta(0):
         return 1.0
     hours = late.total_seconds() / 3600
+    if rubric.late.per_day:
+        days = max(0, math.ceil(hours / 24) - rubric.late.free_days)
+        return max(rubric.late.least, 1 - rubric.late.per_day * days)
     return min(
         [rule.factor for rule in rubric.late.rules if hours >= rule.after_hours], default=1.0
     )

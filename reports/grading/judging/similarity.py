@@ -37,7 +37,7 @@ def suspicions(results: Results) -> dict[str, list[str]]:
     for group, shared in _sharing(graded, odd=True):
         for result in group:
             others = ", ".join(_who(other) for other in group if other is not result)
-            text = f"те же необычные формулы, что у: {others} — {_named(shared)}"
+            text = f"те же необычные формулы, что у: {others} — {_named(shared, result)}"
             found.setdefault(result["key"], []).append(text)
     for result, text in _foreign_values(graded):
         found.setdefault(result["key"], []).append(text)
@@ -54,9 +54,11 @@ def _who(result: dict[str, Any]) -> str:
     return f"{name} ({result['file']})" if name else str(result["file"])
 
 
-def _named(items: Sequence[str], limit: int = 3) -> str:
+def _named(items: Sequence[str], result: dict[str, Any], limit: int = 3) -> str:
+    """Items as the student's page calls them."""
+    labels = {line["id"]: line.get("label", line["id"]) for line in result["items"]}
     more = f" и ещё {len(items) - limit}" if len(items) > limit else ""
-    return ", ".join(items[:limit]) + more
+    return ", ".join(labels[item] for item in items[:limit]) + more
 
 
 def _groups(pairs: list[tuple[str, dict[str, Any]]]) -> dict[str, list[dict[str, Any]]]:
@@ -134,7 +136,7 @@ def _foreign_values(graded: Results) -> list[tuple[dict[str, Any], str]]:
                     sources.setdefault(_who(owner), []).append(line["id"])
         for name, items in sorted(sources.items()):
             if len(items) >= _SHARED:
-                text = f"значения верны для чужого варианта: {name} — {_named(items)}"
+                text = f"значения верны для чужого варианта: {name} — {_named(items, result)}"
                 found.append((result, f"{_who(result)}: {text}"))
     return found
 
@@ -163,7 +165,9 @@ def _same_formulas(graded: Results, *, odd: bool) -> list[str]:
     if len({result["number"] for result in graded}) <= 2 * _FEW:
         return []  # in a small class nothing is rare
     return [
-        "те же формулы, каких нет у других: " + ", ".join(map(_who, group)) + f" — {_named(items)}"
+        "те же формулы, каких нет у других: "
+        + ", ".join(map(_who, group))
+        + f" — {_named(items, group[0])}"
         for group, items in _sharing(graded, odd=odd)
     ]
 

@@ -137,10 +137,11 @@ def _by_rows(
     item = made.item
     allowed = tolerance(item, made.expected, student)
     good = close(item, made.values, made.expected, allowed)
-    fixed = response.fixed(item)
+    # A nought typed in among formulas is one; a column typed in is numbers throughout.
+    fixed = response.fixed(item) & any(letter != say.NOTHING for letter in letters)
     words = [_word(kinds[i], letters[i], bool(good[i]), bool(fixed[i])) for i in range(len(kinds))]
     # What has followed other input data refers to them, if only by a copy.
-    follows = RIGHT in words and not fixed.all()
+    follows = RIGHT in words and not response.fixed(item).all()
     unlinked = not follows and not _is_linked(item, student)
     if unlinked:  # nothing to respond to: numbers, or references to pasted ones
         runs = [run for node in item.nodes for run in student.runs(node)]
@@ -161,6 +162,8 @@ def _by_rows(
     else:
         paid = share * student.assignment.rubric.credit.rows if by_rows else 0.0
     reason = _reason(verdict, words, kinds, letters, unlinked=unlinked)
+    if verdict == BROKEN:
+        reason = _errors(item, student)
     return replace(made, verdict=verdict, rows=rows, paid=paid, reason=reason,
                    coarse=_coarse(item, student, letters, good))  # fmt: skip
 
@@ -200,6 +203,27 @@ def _reason(verdict: str, words: Sequence[str], kinds: str, letters: str, *, unl
     if verdict == WRONG and TEXT in kinds and set(words) == {WRONG}:
         return "вместо числа стоит текст"
     return ""
+
+
+_ERRORS = {
+    "#DIV/0!": "#ДЕЛ/0! — деление на ноль", "#N/A": "#Н/Д — значение не найдено",
+    "#VALUE!": "#ЗНАЧ! — в вычислении текст", "#REF!": "#ССЫЛКА! — ссылка на удалённую ячейку",
+    "#NUM!": "#ЧИСЛО! — вычислить нельзя", "#NAME?": "#ИМЯ? — неизвестное имя",
+    "#CIRC!": "круговая ссылка", "#NULL!": "#ПУСТО! — области не пересекаются",
+}  # fmt: skip
+
+
+def _errors(item: Item, student: Student) -> str:
+    """Which error values stand in the cells."""
+    found: dict[str, None] = {}
+    for node in item.nodes:
+        place = student.placement.places.get(node)
+        for row in place.rows if place is not None else ():
+            if place is not None and row is not None:
+                text = student.engine.shown(place.sheet, place.column, row)
+                if isinstance(text, str) and text.startswith("#"):
+                    found.setdefault(_ERRORS.get(text, text))
+    return ", ".join(found)
 
 
 def _coarse(item: Item, student: Student, letters: str, good: NDArray[np.bool_]) -> bool:

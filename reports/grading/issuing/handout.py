@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zlib
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 
@@ -18,12 +19,15 @@ from reports.spec.blocks import Block, Grid, Model, TableSpec, scalars_of
 from reports.spec.charts import ChartSpec
 from reports.spec.evaluation import Evaluation, Values
 from reports.workbook import styles
+from reports.workbook.inputs import shown
 from reports.workbook.layout import CONTENTS_SHEET, INPUT_SHEET, Cell, Layout, check_names
 from reports.workbook.sheets import Writer
 from reports.workbook.write import assemble, saved
 
 TICKET_NAME = "kshm_ticket"
 TICKET_TITLE = "Идентификатор"
+INPUT_MARKS = "kshm_marks_"  # properties with two signs for each input, for ``kshm check``
+_MARKS_LENGTH = 200  # a property may hold 255
 
 _LEGEND = (
     (styles.ANSWER, "заполните: сюда пишутся формулы, остальные ячейки защищены"),
@@ -84,6 +88,7 @@ def handout_bytes(assignment: Assignment, ticket: str) -> bytes:
         _open_cells(book[block.sheet], block, layout, assignment.fill_nodes)
     _anchors(book, model, layout)
     _identify(book, ticket)
+    _mark_inputs(book, full)
     _lock(book, layout)
     book.properties.title = f"{full.input.engine.name}: рабочая книга"
     return saved(book, writer.caches)
@@ -182,6 +187,24 @@ def _identify(book: Workbook, ticket: str) -> None:
     place = Cell(CONTENTS_SHEET, row, 2)
     book.defined_names[TICKET_NAME] = DefinedName(TICKET_NAME, attr_text=place.absolute)
     book.custom_doc_props.append(StringProperty(name=TICKET_NAME, value=ticket))
+
+
+def input_mark(value: object) -> str:
+    """Two signs by which a value is known again."""
+    text = f"{float(value):.12g}" if isinstance(value, (int, float)) else str(value)
+    return f"{zlib.crc32(text.encode()) % 256:02x}"
+
+
+def _mark_inputs(book: Workbook, model: Model) -> None:
+    """Marks by which the student is told that input data were changed."""
+    texts = [""]
+    for name, item in model.fields.items():
+        entry = f"{name}={input_mark(shown(item))}"
+        if len(texts[-1]) + len(entry) >= _MARKS_LENGTH:
+            texts.append("")
+        texts[-1] = f"{texts[-1]} {entry}".strip()
+    for number, text in enumerate(texts, 1):
+        book.custom_doc_props.append(StringProperty(name=f"{INPUT_MARKS}{number:03d}", value=text))
 
 
 def _lock(book: Workbook, layout: Layout) -> None:

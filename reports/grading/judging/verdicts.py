@@ -141,7 +141,8 @@ def _by_rows(
     fixed = response.fixed(item) & any(letter != say.NOTHING for letter in letters)
     words = [_word(kinds[i], letters[i], bool(good[i]), bool(fixed[i])) for i in range(len(kinds))]
     # What has followed other input data refers to them, if only by a copy.
-    follows = RIGHT in words and not response.fixed(item).all()
+    still = response.fixed(item)
+    follows = any(w == RIGHT and not f for w, f in zip(words, still, strict=True))
     unlinked = not follows and not _is_linked(item, student)
     if unlinked:  # nothing to respond to: numbers, or references to pasted ones
         runs = [run for node in item.nodes for run in student.runs(node)]

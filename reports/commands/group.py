@@ -87,6 +87,7 @@ def grade(
     jobs: int,
     timeout: float,
     dask: str | None,
+    worksheet: Path | None,
     decisions: tuple[tuple[str, str, str, str], ...],
     author: str,
     explain: tuple[str, str] | None,
@@ -120,6 +121,7 @@ def grade(
     done = grade_all(
         issued, submitted, folder, rubric_file=rubric, secret_file=secret,
         options=Options(workers=jobs, timeout_s=timeout, pdf=pdf, dask=dask, decisions=decisions,
+                        worksheet=worksheet,
                         author=author),
     )  # fmt: skip
     found = done.summary

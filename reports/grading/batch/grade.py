@@ -27,6 +27,7 @@ from reports.grading.issuing.register import FILE, Register, checked_register, l
 from reports.grading.issuing.rubric import load_rubric
 from reports.grading.judging.marking import FORMAT, Marker, blank_result
 from reports.grading.pages.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
+from reports.grading.pages.moodle import feedback_zip, filled, read_worksheet
 from reports.grading.pages.pages import class_page, student_page
 from reports.grading.pages.summary import summarise, table_rows
 from reports.grading.reading.submissions import Submission, collect
@@ -48,6 +49,7 @@ class Options:
     pdf: bool = False
     decisions: Sequence[tuple[str, str, str, str]] = ()  # who, what, points, remark
     author: str = ""
+    worksheet: Path | None = None  # of Moodle, to be filled in
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,14 +106,26 @@ def grade(
     with Progress("Проверка работ") as progress:
         for outcome in outcomes:
             batch.take(outcome)
-            done = len(batch.results)
-            progress.step(f"Проверка работ: {done} из {len(submissions)}")
+            progress.step(_progress(len(batch.results), len(submissions), batch.reused, started))
         batch.decide(options)
         summary = batch.finish()
+    if options.worksheet is not None:
+        batch.fill_worksheet(options.worksheet)
     if options.pdf:
         batch.write_pdf()
-    reused = len(submissions) - len(batch.waiting)
-    return Graded(folder, summary, reused, time.monotonic() - started)
+    return Graded(folder, summary, batch.reused, time.monotonic() - started)
+
+
+def _progress(done: int, count: int, reused: int, started: float) -> str:
+    """How far the batch is, and how long it will go on."""
+    text = f"Проверка работ: {done} из {count}"
+    fresh = done - reused
+    if fresh < 3 or done >= count:
+        return text
+    left = (time.monotonic() - started) / fresh * (count - done)
+    return (
+        f"{text}, осталось {left / 60:.0f} мин" if left > 90 else f"{text}, осталось {left:.0f} с"
+    )
 
 
 def decide(folder: Path, options: Options) -> Graded:
@@ -141,6 +155,12 @@ class _Batch:
         ).hexdigest()
         self._hashes: dict[str, str] = {}
         self.decisions: list[Decision] = []
+        self._taken_over = 0
+
+    @property
+    def reused(self) -> int:
+        """Results taken over from an earlier run."""
+        return self._taken_over
 
     def take_over(self) -> None:
         """All results of an earlier run, whatever was handed in since.
@@ -186,6 +206,7 @@ class _Batch:
             earlier = done.get(submission.key)
             if earlier and earlier["fingerprint"] == self._hashes[submission.key]:
                 self.results[submission.key] = earlier
+                self._taken_over += 1
             else:
                 self.waiting.append(submission)
 
@@ -252,11 +273,23 @@ class _Batch:
         maximum = self.register.rubric.maximum
         write_bytes(self.folder / "gradebook.xlsx", gradebook_xlsx(rows, maximum))
         write_text(self.folder / "moodle.csv", moodle_csv(rows))
+        if any(result.get("moodle_id") for result in self.ordered):
+            write_bytes(self.folder / "moodle-feedback.zip", feedback_zip(rows, self.folder))
         write_text(self.folder / "summary.html", class_page(summary))
         data = {**summary, "rows": [{k: v for k, v in r.items() if k != "result"} for r in rows]}
         text = json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1)
         write_text(self.folder / "summary.json", text + "\n")
         return summary
+
+    def fill_worksheet(self, path: Path) -> None:
+        """Moodle's worksheet with the grades.
+
+        Raises:
+            InputError: it is none.
+        """
+        rows = table_rows(self.register, self.ordered)
+        made = filled(read_worksheet(path), rows, self.register.rubric.maximum, path.name)
+        write_text(self.folder / "moodle-worksheet.csv", made.text)
 
     def write_pdf(self) -> None:
         """A PDF beside every page.

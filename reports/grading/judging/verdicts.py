@@ -298,7 +298,7 @@ def _without_ground(found: dict[str, Judgement], student: Student) -> None:
         if not nodes & resting or nodes & void or judgement.paid <= 0:
             continue
         near = frozenset().union(*(student.precedents(node) for node in nodes)) & (void | resting)
-        roots = sorted({names[n].id for n in near if n in names})
+        roots = sorted({names[n].id for n in near & void or void if n in names})[:4]
         circle = near and near <= round_
         why = "опирается на круговую ссылку" if circle else "опирается на незаполненное"
         found[id_] = replace(judgement, verdict=GROUNDLESS, paid=0.0, origins=tuple(roots),

@@ -44,7 +44,11 @@ def student_page(result: dict[str, Any], rubric: Rubric) -> str:
     wrong = [line for line in lines if line["verdict"] not in ("right", "carried")]
     rank = {word: number for number, word in enumerate(WORDS)}
     wrong.sort(key=lambda line: (rank[line["verdict"]], -(line["of"] - line["points"])))
-    empty = [line for line in wrong if line["verdict"] == "empty" and not line["rows"]]
+    empty = [
+        line
+        for line in wrong
+        if (line["verdict"] == "empty" and not line["rows"]) or line["verdict"] == "groundless"
+    ]
     counts = dict.fromkeys(WORDS, 0)
     for line in lines:
         counts[line["verdict"]] += 1

@@ -30,7 +30,7 @@ def circles(student: Student) -> frozenset[str]:
     }  # fmt: skip
     if not round_:
         return frozenset()
-    refers = {node: _through(student, node) for node in round_}
+    refers = {node: through(student, node) for node in round_}
     found = set()
     for node in round_:
         seen: set[str] = set()
@@ -46,7 +46,7 @@ def circles(student: Student) -> frozenset[str]:
     return frozenset(found)
 
 
-def _through(student: Student, node: str) -> frozenset[str]:
+def through(student: Student, node: str) -> frozenset[str]:
     """Asked nodes that a node refers to, through live formulas too, itself among them."""
     found: set[str] = set()
     seen: set[str] = set()

@@ -15,6 +15,7 @@ from reports.exports.build import load_input
 from reports.grading.issuing.assignment import Assignment, assignment_of
 from reports.grading.issuing.handout import INPUT_MARKS, TICKET_NAME, fill_cells, input_mark
 from reports.grading.issuing.rubric import Rubric, Work
+from reports.grading.reading.ground import through
 from reports.grading.reading.restoring import restore
 from reports.grading.reading.student import LOST, Student, address
 from reports.recalculation.evaluate import BLANK, ERROR, TEXT
@@ -76,9 +77,15 @@ def findings(path: Path) -> list[Finding]:
         for node in sorted(student.rewritten)
         if student.as_laid_out
     ]
+    broken = {node for node, answer in student.answers.items() if ERROR in answer.kinds}
+    followers = {node for node in broken if (through(student, node) - {node}) & broken}
     for item in assignment.items:
         for node in item.nodes:
-            found += _of_node(student, node)
+            found += _of_node(student, node, errors=node not in followers)
+    if followers:
+        names = ", ".join(_of(assignment, node) for node in sorted(followers)[:6])
+        more = "" if len(followers) <= 6 else f" и ещё {len(followers) - 6}"
+        found.append(Finding("Ошибки, пришедшие из названных выше", names + more))
     return found
 
 
@@ -168,7 +175,7 @@ def _marks(package: Package) -> dict[str, str]:
     return found
 
 
-def _of_node(student: Student, node: str) -> list[Finding]:
+def _of_node(student: Student, node: str, *, errors: bool) -> list[Finding]:
     answer = student.answers[node]
     place = answer.place
     what = _of(student.assignment, node)
@@ -184,7 +191,7 @@ def _of_node(student: Student, node: str) -> list[Finding]:
             found.append(Finding(what, f"{words}: {_ranges(place.sheet, place.column, rows)}"))
     wrong: dict[str, list[int | None]] = {}
     for row, kind in zip(place.rows, answer.kinds, strict=True):
-        if kind == ERROR and row is not None:
+        if errors and kind == ERROR and row is not None:
             try:
                 text = student.engine.shown(place.sheet, place.column, row)
             except UnknownFormula:

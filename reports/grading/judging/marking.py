@@ -25,7 +25,7 @@ from reports.grading.judging.verdicts import (
     judge_all,
 )
 from reports.grading.reading.matching import Match, file_properties, find_by_name, find_owner
-from reports.grading.reading.restoring import restore
+from reports.grading.reading.restoring import leave_out_unused, restore
 from reports.grading.reading.student import Student, address
 from reports.grading.reading.submissions import Submission
 from reports.inputs.fields import cell_name
@@ -141,6 +141,7 @@ class Marker:
         """The workbook under its assignment."""
         made = Student.of(*self.assignment(book), grid)
         restore(made)
+        leave_out_unused(made)
         return made
 
     def _grade(

@@ -138,10 +138,10 @@ def _by_rows(
     allowed = tolerance(item, made.expected, student)
     good = close(item, made.values, made.expected, allowed)
     # A nought typed in among formulas is one; a column typed in is numbers throughout.
-    fixed = response.fixed(item) & any(letter != say.NOTHING for letter in letters)
+    still = response.fixed(item)
+    fixed = still & any(letter != say.NOTHING for letter in letters)
     words = [_word(kinds[i], letters[i], bool(good[i]), bool(fixed[i])) for i in range(len(kinds))]
     # What has followed other input data refers to them, if only by a copy.
-    still = response.fixed(item)
     follows = any(w == RIGHT and not f for w, f in zip(words, still, strict=True))
     unlinked = not follows and not _is_linked(item, student)
     if unlinked:  # nothing to respond to: numbers, or references to pasted ones

@@ -51,6 +51,26 @@ def restore(student: Student) -> None:
             _put_formulas(student, node, place, formulas)
 
 
+def leave_out_unused(student: Student) -> None:
+    """Take out given formulas that nothing of the student's refers to: nobody asks for them."""
+    live = student.assignment.live_nodes
+    used: set[str] = set()
+    stack = [node for item in student.assignment.items for node in item.nodes]
+    seen = set(stack)
+    while stack:
+        for name in student.refers(stack.pop()):
+            if name in live:
+                used.add(name)
+            if name in live and name not in seen:
+                seen.add(name)
+                stack.append(name)
+    for node in live - used - student.rewritten:
+        place = student.placement.places.get(node)
+        if place is not None:
+            rows = {row for row in place.rows if row is not None}
+            student.grid.column(place.sheet, place.column).cut(rows)
+
+
 def _put_formulas(student: Student, node: str, place: Place, formulas: Sequence[Formula]) -> None:
     """Formulas that were given, where something else stands in their place.
 

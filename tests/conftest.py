@@ -38,6 +38,7 @@ SLOW = (
     "tests/fuzz/test_corpus.py::test_the_command",
     "tests/fuzz/test_properties.py",
     "tests/grading/test_class_of_sixty.py",
+    "tests/grading/test_real_class.py",
     "tests/grading/test_grade.py::test_a_pdf_on_demand",
     "tests/grading/test_grade.py::test_the_command_explains",
     "tests/grading/test_grade.py::test_the_last_of_several",

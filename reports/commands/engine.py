@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -109,8 +110,21 @@ def _chapters(source: Path, loaded: Loaded) -> Sequence[Any]:
 @click.option("--json", "as_json", is_flag=True, help="Результат проверки в JSON.")
 @verbose_option
 def check(source: Path, as_json: bool, verbose: bool) -> int:
-    """Проверить исходные данные, ничего не считая."""
+    """Проверить исходные данные, ничего не считая; рабочую книгу — перед сдачей."""
     import json
+
+    from reports.grading.reading.selfcheck import findings, is_work_book
+
+    if is_work_book(source):
+        found = findings(source)
+        if as_json:
+            data = {"ok": not found, "findings": [asdict(item) for item in found]}
+            click.echo(json.dumps(data, ensure_ascii=False, indent=1))
+        else:
+            for item in found:
+                click.echo(f"{item.where}: {item.what}")
+            click.echo(f"{source}: замечаний {len(found)}; верны ли значения, здесь не проверяется")
+        return LOOK if found else DONE
 
     from reports.exports.build import load_input
     from reports.shared.errors import InputError

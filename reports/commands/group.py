@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from getpass import getuser
 from pathlib import Path
 
 import click
@@ -65,6 +66,15 @@ def issue(
 @click.option("--jobs", default=0, help="Число процессов (по умолчанию все ядра).")
 @click.option("--timeout", default=60.0, show_default=True, help="Секунд на один файл.")
 @dask_option
+@click.option(
+    "--decide",
+    "decisions",
+    nargs=4,
+    multiple=True,
+    metavar="WHO WHAT POINTS REMARK",
+    help="Решение преподавателя: кто, столбец или «всё», баллы, примечание.",
+)
+@click.option("--author", default="", help="Кто решает (по умолчанию имя пользователя).")
 @click.option("--explain", nargs=2, metavar="FILE SHEET!COLUMN", help="Объяснить один вердикт.")
 @verbose_option
 def grade(
@@ -77,6 +87,9 @@ def grade(
     jobs: int,
     timeout: float,
     dask: str | None,
+    worksheet: Path | None,
+    decisions: tuple[tuple[str, str, str, str], ...],
+    author: str,
     explain: tuple[str, str] | None,
     verbose: bool,
 ) -> int:
@@ -91,8 +104,14 @@ def grade(
             click.echo(line)
         return DONE
     from reports.grading.batch.grade import Options
+    from reports.grading.batch.grade import decide as decide_all
     from reports.grading.batch.grade import grade as grade_all
 
+    author = author or getuser()
+    if decisions and issued is None and folder is not None:
+        done = decide_all(folder, Options(decisions=decisions, author=author))
+        click.echo(f"{folder}: решения записаны, ведомость и страницы обновлены")
+        return LOOK if done.needs_a_person else DONE
     if issued is None or submitted is None or folder is None:
         msg = "нужны папка выдачи, сданные работы и папка для результатов (ключ -o)"
         raise KshmError(msg)
@@ -101,7 +120,9 @@ def grade(
         raise KshmError(msg)
     done = grade_all(
         issued, submitted, folder, rubric_file=rubric, secret_file=secret,
-        options=Options(workers=jobs, timeout_s=timeout, pdf=pdf, dask=dask),
+        options=Options(workers=jobs, timeout_s=timeout, pdf=pdf, dask=dask, decisions=decisions,
+                        worksheet=worksheet,
+                        author=author),
     )  # fmt: skip
     found = done.summary
     click.echo(f"{folder}: проверено файлов: {found['files']}, с оценкой: {found['graded']}")

@@ -18,7 +18,7 @@ from reports.recalculation.formulas import is_doubtful
 from reports.recalculation.grid import Area, Grid, Run, is_backwards
 from reports.recalculation.language import UnknownFormula
 from reports.recalculation.lifted import NOT_LIFTED, WRONG, register
-from reports.recalculation.plain_book import formula_text, plain_book
+from reports.recalculation.plain_book import plain_book
 
 if TYPE_CHECKING:
     from formualizer import Workbook
@@ -32,7 +32,6 @@ _ERRORS = {
     "Null": "#NULL!", "Circ": "#CIRC!",
 }  # fmt: skip
 _LIMIT_MS = 40_000
-_SCRATCH = "\N{GREEK SMALL LETTER PHI}"
 
 
 class Engine:
@@ -44,7 +43,6 @@ class Engine:
 
     def __init__(self, grid: Grid) -> None:
         self.grid = grid
-        self._scratch = 0
         self._singly: dict[tuple[str, int, int], Any] = {}  # calculated cell by cell
 
     def values(self, sheet: str, column: int, first: int, last: int) -> tuple[Array, str]:
@@ -88,23 +86,29 @@ class Engine:
             return str(value) if kind == TEXT else float(number)
         return known.errors.get(row, known.constants.get(row))
 
-    def once(self, run: Run) -> Array:
-        """Values that a run's formula would have on this grid, which need not hold the run."""
-        self._check(run)
-        self._scratch += 1
-        title = f"{_SCRATCH}{self._scratch}"
-        self._book.add_sheet(title)
-        count = 1 if run.array else run.count
-        texts = [
-            [f"={formula_text(self.grid, run, run.first + i, run.column, run.sheet)}"]
-            for i in range(count)
-        ]
-        try:
-            self._book.set_formulas_batch(title, run.first, run.column, texts)
-            self._evaluate([(title, run.first + i, run.column) for i in range(count)])
-        except RuntimeError as error:
-            raise UnknownFormula(str(error)) from None
-        return _numbers(self._read(title, run), run)[0]
+    def put(self, cells: Iterable[Any]) -> None:
+        """Other constants in some cells; everything is calculated anew when next asked for."""
+        book = self._book
+        for part in cells:
+            first, last = part.rows[0], part.rows[-1]
+            if last - first + 1 == len(part.rows):
+                values = [[value] for value in part.values]
+                book.set_values_batch(part.sheet, first, part.column, values)
+            else:
+                for row, value in zip(part.rows, part.values, strict=True):
+                    book.set_value(part.sheet, row, part.column, value)
+        for name in ("_values", "_raw"):
+            self.__dict__.pop(name, None)
+        self._singly.clear()
+
+    def is_circular(self, sheet: str, column: int, first: int, last: int) -> bool:
+        """Whether some of a column's formulas go round in a circle."""
+        return any(
+            isinstance(value, dict) and value.get("kind") == "Circ"
+            for run in self.grid.column(sheet, column).runs_in(first, last)
+            if run not in self._unknown
+            for value in self._raw[run]
+        )
 
     # --- what is known --------------------------------------------------------------------
 
@@ -200,16 +204,6 @@ class Engine:
             for row, value in column.constants.items()
             if isinstance(value, str) and is_doubtful(value, in_product=True)
         ]
-
-    def _check(self, run: Run) -> None:
-        """Raise where a run that this grid need not hold cannot be calculated on it."""
-        reason = self._refusal(run)
-        if not reason and self._values is not None:
-            for area in self.grid.precedents(run):
-                for other in self.grid.runs_of(area):
-                    reason = reason or self._unknown.get(other, "")
-        if reason:
-            raise UnknownFormula(reason)
 
     # --- formualizer ----------------------------------------------------------------------
 

@@ -20,6 +20,9 @@ _PACKAGE = "http://schemas.openxmlformats.org/package/2006"
 _TYPES = "application/vnd.openxmlformats-officedocument.spreadsheetml"
 
 
+_CHAIN = 200  # operands in a row; formualizer takes 256
+
+
 def folded(text: str) -> str:
     """A text for comparisons that do not tell capitals; formualizer folds Latin letters only."""
     return text.lower()
@@ -126,7 +129,92 @@ def formula_text(grid: Grid, run: Run, row: int, column: int, own: str = "") -> 
     """Formula of a run in one cell without its ``=``, as formualizer takes it."""
     assert run.formula is not None
     tokens = [_plain(grid, token) for token in run.formula.pattern]
+    if len(tokens) > _CHAIN:
+        tokens = _in_parts(tokens)
     return render(tokens, row, column, own)[1:]
+
+
+def _in_parts(tokens: list[Token]) -> list[Token]:
+    """Long sums and products with their parts in parentheses; what they give is the same.
+
+    ``a+b-c+d`` is ``(a+b)+(-c+d)`` and ``a*b/c*d`` is ``(a*b)*(1/c*d)``.
+    """
+    ends, stack = {}, []
+    for at, token in enumerate(tokens):
+        if token in (("op", "("), ("op", "{")):
+            stack.append(at)
+        elif token in (("op", ")"), ("op", "}")) and stack:
+            ends[stack.pop()] = at
+    return _grouped(tokens, 0, len(tokens), ends)
+
+
+def _grouped(tokens: list[Token], start: int, end: int, ends: dict[int, int]) -> list[Token]:
+    """Tokens between two places, each argument in parts of its own."""
+    made: list[Token] = []
+    argument: list[list[Token]] = [[]]  # operands of a sum and the signs between them
+    at = start
+    while at < end:
+        token = tokens[at]
+        close = ends.get(at, 0)
+        if close and token == ("op", "("):
+            inside = _grouped(tokens, at + 1, close, ends)
+            argument[-1] += [token, *inside, tokens[close]]
+            at = close
+        elif close:
+            argument[-1] += tokens[at : close + 1]
+            at = close
+        elif (token[0] == "op" and token[1] in ",;") or _compares(token):
+            made += [*_sum(argument), token]
+            argument = [[]]
+        elif token[0] == "op" and token[1] in "+-" and _is_binary(argument[-1]):
+            argument.append([token])
+        else:
+            argument[-1].append(token)
+        at += 1
+    return made + _sum(argument)
+
+
+def _compares(token: Token) -> bool:
+    return token[0] == "op" and token[1] in ("=", "<", ">", "<=", ">=", "<>", "&")
+
+
+def _is_binary(before: list[Token]) -> bool:
+    """Whether a sign after these tokens stands between two operands."""
+    return bool(before) and (before[-1][0] != "op" or before[-1][1] in ")}%")
+
+
+def _sum(operands: list[list[Token]]) -> list[Token]:
+    """Operands of a sum, each but the first with its sign, in parentheses by parts."""
+    operands = [_product(operand) for operand in operands]
+    if len(operands) <= _CHAIN:
+        return [token for operand in operands for token in operand]
+    made: list[Token] = []
+    for first in range(0, len(operands), _CHAIN):
+        part = [token for operand in operands[first : first + _CHAIN] for token in operand]
+        made += [*([("op", "+")] if first else []), ("op", "("), *part, ("op", ")")]
+    return made
+
+
+def _product(operand: list[Token]) -> list[Token]:
+    factors: list[list[Token]] = [[]]
+    depth = 0
+    for token in operand:
+        depth += token in (("op", "("), ("op", "{"))
+        depth -= token in (("op", ")"), ("op", "}"))
+        if depth == 0 and token[0] == "op" and token[1] in "*/" and factors[-1]:
+            factors.append([token])
+        else:
+            factors[-1].append(token)
+    if len(factors) <= _CHAIN:
+        return operand
+    sign = factors[0][:1] if factors[0][0] in (("op", "+"), ("op", "-")) else []
+    made = [*sign]
+    for first in range(0, len(factors), _CHAIN):
+        part = factors[first : first + _CHAIN]
+        tokens = [token for factor in part for token in factor]
+        tokens = tokens[len(sign) :] if not first else [("number", "1"), *tokens]
+        made += [*([("op", "*")] if first else []), ("op", "("), *tokens, ("op", ")")]
+    return made
 
 
 def _plain(grid: Grid, token: Token) -> Token:

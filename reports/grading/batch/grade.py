@@ -13,12 +13,21 @@ from pathlib import Path
 from typing import Any
 
 from reports.grading.batch.cluster import grade_far
+from reports.grading.batch.decisions import (
+    Decision,
+    applied,
+    decided,
+    from_gradebook,
+    load_decisions,
+    save_decisions,
+)
 from reports.grading.batch.pool import TIMEOUT_S, Outcome, grade_all
 from reports.grading.issuing.issue import latin
-from reports.grading.issuing.register import FILE, Register, checked_register
+from reports.grading.issuing.register import FILE, Register, checked_register, load_register
 from reports.grading.issuing.rubric import load_rubric
 from reports.grading.judging.marking import FORMAT, Marker, blank_result
 from reports.grading.pages.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
+from reports.grading.pages.moodle import feedback_zip, filled, read_worksheet
 from reports.grading.pages.pages import class_page, student_page
 from reports.grading.pages.summary import summarise, table_rows
 from reports.grading.reading.submissions import Submission, collect
@@ -38,6 +47,9 @@ class Options:
     dask: str | None = None
     timeout_s: float = TIMEOUT_S
     pdf: bool = False
+    decisions: Sequence[tuple[str, str, str, str]] = ()  # who, what, points, remark
+    author: str = ""
+    worksheet: Path | None = None  # of Moodle, to be filled in
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,13 +106,39 @@ def grade(
     with Progress("Проверка работ") as progress:
         for outcome in outcomes:
             batch.take(outcome)
-            done = len(batch.results)
-            progress.step(f"Проверка работ: {done} из {len(submissions)}")
+            progress.step(_progress(len(batch.results), len(submissions), batch.reused, started))
+        batch.decide(options)
         summary = batch.finish()
+    if options.worksheet is not None:
+        batch.fill_worksheet(options.worksheet)
     if options.pdf:
         batch.write_pdf()
-    reused = len(submissions) - len(batch.waiting)
-    return Graded(folder, summary, reused, time.monotonic() - started)
+    return Graded(folder, summary, batch.reused, time.monotonic() - started)
+
+
+def _progress(done: int, count: int, reused: int, started: float) -> str:
+    """How far the batch is, and how long it will go on."""
+    text = f"Проверка работ: {done} из {count}"
+    fresh = done - reused
+    if fresh < 3 or done >= count:
+        return text
+    left = (time.monotonic() - started) / fresh * (count - done)
+    return (
+        f"{text}, осталось {left / 60:.0f} мин" if left > 90 else f"{text}, осталось {left:.0f} с"
+    )
+
+
+def decide(folder: Path, options: Options) -> Graded:
+    """Take a person's decisions into the results of an earlier run.
+
+    Raises:
+        InputError: there are no results, or a decision names no student or item.
+    """
+    started = time.monotonic()
+    batch = _Batch(load_register(folder / RESULTS / FILE), folder)
+    batch.take_over()
+    batch.decide(options)
+    return Graded(folder, batch.finish(), len(batch.results), time.monotonic() - started)
 
 
 class _Batch:
@@ -116,6 +154,42 @@ class _Batch:
             f"{FORMAT} {register.json_text()}".encode() + _program().encode()
         ).hexdigest()
         self._hashes: dict[str, str] = {}
+        self.decisions: list[Decision] = []
+        self._taken_over = 0
+
+    @property
+    def reused(self) -> int:
+        """Results taken over from an earlier run."""
+        return self._taken_over
+
+    def take_over(self) -> None:
+        """All results of an earlier run, whatever was handed in since.
+
+        Raises:
+            InputError: there are none.
+        """
+        for path in sorted((self.folder / RESULTS).glob("*.json")):
+            if path.name != FILE:
+                result = json.loads(path.read_text(encoding="utf-8"))
+                self.results[result["key"]] = result
+        if not self.results:
+            hint = "укажите папку, в которую проверены работы"
+            raise InputError(Problem(str(self.folder), "здесь нет проверенных работ", hint))
+
+    def decide(self, options: Options) -> None:
+        """Decisions kept, written into the gradebook and given with the command."""
+        kept = load_decisions(self.folder)
+        found = from_gradebook(self.folder / "gradebook.xlsx", kept)
+        results = list(self.results.values())
+        found = decided(found, self.register, results, options.decisions, options.author)
+        if found or kept:
+            save_decisions(self.folder, found)
+        self.decisions = found
+        touched = {entry.number for entry in (*kept, *found)}
+        for result in results:
+            if result.get("number") in touched:
+                page = student_page(applied(result, found), self.register.rubric)
+                write_text(self.folder / result["page"], page)
 
     def start(self, submissions: Sequence[Submission]) -> None:
         """Take over what an earlier run has finished of the same files under the same rules."""
@@ -132,6 +206,7 @@ class _Batch:
             earlier = done.get(submission.key)
             if earlier and earlier["fingerprint"] == self._hashes[submission.key]:
                 self.results[submission.key] = earlier
+                self._taken_over += 1
             else:
                 self.waiting.append(submission)
 
@@ -183,7 +258,7 @@ class _Batch:
     @property
     def ordered(self) -> list[dict[str, Any]]:
         """Results in the order of their keys, whatever the order in which they came."""
-        return [self.results[key] for key in sorted(self.results)]
+        return [applied(self.results[key], self.decisions) for key in sorted(self.results)]
 
     def _tables(self) -> list[dict[str, Any]]:
         rows = table_rows(self.register, self.ordered)
@@ -198,11 +273,23 @@ class _Batch:
         maximum = self.register.rubric.maximum
         write_bytes(self.folder / "gradebook.xlsx", gradebook_xlsx(rows, maximum))
         write_text(self.folder / "moodle.csv", moodle_csv(rows))
+        if any(result.get("moodle_id") for result in self.ordered):
+            write_bytes(self.folder / "moodle-feedback.zip", feedback_zip(rows, self.folder))
         write_text(self.folder / "summary.html", class_page(summary))
         data = {**summary, "rows": [{k: v for k, v in r.items() if k != "result"} for r in rows]}
         text = json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1)
         write_text(self.folder / "summary.json", text + "\n")
         return summary
+
+    def fill_worksheet(self, path: Path) -> None:
+        """Moodle's worksheet with the grades.
+
+        Raises:
+            InputError: it is none.
+        """
+        rows = table_rows(self.register, self.ordered)
+        made = filled(read_worksheet(path), rows, self.register.rubric.maximum, path.name)
+        write_text(self.folder / "moodle-worksheet.csv", made.text)
 
     def write_pdf(self) -> None:
         """A PDF beside every page.

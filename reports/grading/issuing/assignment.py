@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
+import ast
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from functools import cached_property
+from math import sqrt
 
 from kshm.nomenclature.quantity import Quantity
+from reports.formula.parse import parse
+from reports.grading.issuing.given import LIVE, NUMBER, states, with_own_shifts
 from reports.grading.issuing.rubric import Rubric
 from reports.shared.errors import InputError, Problem
 from reports.spec.blocks import Block, Column, Grid, Model, Scalar, TableSpec
 from reports.spec.graph import Graph, graph_of, nodes_of
+
+_LIKE = re.compile(r"\s*\(\d+\)$")  # sheets of one kind: «П4.3 (2)»
+_COPY = 0.3
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,7 +27,7 @@ class Item:
     """One line of the feedback.
 
     ``nodes`` are the computed values it consists of: a column ``table.column``, or
-    scalars.  ``helper`` items are filled in for convenience and worth nothing.
+    scalars.  ``helper`` items serve other columns of the book; they are asked and paid too.
     """
 
     id: str
@@ -66,22 +74,57 @@ class Assignment:
     @cached_property
     def points(self) -> Mapping[str, float]:
         """Points of each item; together they make the maximum of the rubric."""
-        raw = {item.id: 0.0 if item.helper else 1.0 for item in self.items}
+        raw = dict(self._usual_points)
         blocks: dict[str, list[Item]] = {}
         for item in self.items:
             blocks.setdefault(item.block, []).append(item)
         for pattern, value in self.rubric.points.items():
             if "." not in pattern:  # points of a whole table, shared by its columns
                 for block, items in blocks.items():
-                    paid = [item for item in items if not item.helper]
-                    if fnmatchcase(block, pattern) and paid:
-                        raw.update({item.id: value / len(paid) for item in paid})
+                    if fnmatchcase(block, pattern):
+                        whole = sum(self._usual_points[item.id] for item in items)
+                        share = value / whole
+                        raw.update({i.id: self._usual_points[i.id] * share for i in items})
         for pattern, value in self.rubric.points.items():
             if "." in pattern:
                 raw.update({id_: value for id_ in raw if fnmatchcase(id_, pattern)})
         total = sum(raw.values())
         scale = self.rubric.maximum / total if total else 0.0
         return {id_: value * scale for id_, value in raw.items()}
+
+    @cached_property
+    def _usual_points(self) -> Mapping[str, float]:
+        """Points where the rubric names none, one a column on the average.
+
+        A sheet is a step of the work, the like sheets of the journals are one.  A large step
+        is worth more, but not as many times more as it has columns.  Within a step an item
+        is worth more the more of what is asked follows from it; a plain copy is worth less.
+        """
+        asks = {item.id: self._asks(item) for item in self.items}
+        followers = dict.fromkeys(self.fill_nodes, 0)
+        for item in self.items:
+            for node in self.ancestors(item) & self.fill_nodes:
+                followers[node] += 1
+        sheets = {block.id: _LIKE.sub("", block.sheet) for block in self.fill}
+        steps: dict[str, list[Item]] = {}
+        for item in self.items:
+            steps.setdefault(sheets[item.block], []).append(item)
+        weights: dict[str, float] = {}
+        for items in steps.values():
+            inside = {
+                item.id: asks[item.id] * sqrt(1 + max(followers[node] for node in item.nodes))
+                for item in items
+            }
+            whole = sqrt(sum(asks[item.id] for item in items))
+            scale = whole / sum(inside.values())
+            weights |= {id_: value * scale for id_, value in inside.items()}
+        mean = sum(weights.values()) / max(1, len(weights))
+        return {id_: value / mean for id_, value in weights.items()}
+
+    def _asks(self, item: Item) -> float:
+        """How much an item asks for: a formula, or only a copy of what stands elsewhere."""
+        texts = [self.graph.expression(node) or "" for node in item.nodes]
+        return _COPY if all(map(_is_copy, texts)) else 1.0
 
     @cached_property
     def blocks(self) -> tuple[Block, ...]:
@@ -97,8 +140,19 @@ class Assignment:
     def with_model(self, model: Model) -> Assignment:
         """The same tables for a model with the same blocks."""
         made = Assignment(model, self.rubric, self.fill, self.given)
-        for name in ("graph", "items", "points", "blocks", "fill_nodes", "given_nodes"):
+        for name in (
+            "graph",
+            "items",
+            "points",
+            "blocks",
+            "fill_nodes",
+            "states",
+            "given_nodes",
+            "live_nodes",
+        ):
             made.__dict__[name] = getattr(self, name)
+        if "issued_formulas" in self.__dict__:
+            made.__dict__["issued_formulas"] = self.__dict__["issued_formulas"]
         made.__dict__["kept_model"] = self.kept_model.with_inputs(model.input, model.inputs)
         return made
 
@@ -114,12 +168,22 @@ class Assignment:
     @cached_property
     def fill_nodes(self) -> frozenset[str]:
         """Computed values that the student fills in."""
-        return frozenset(node for block in self.fill for node in nodes_of(block))
+        return frozenset(node for item in self.items for node in item.nodes)
+
+    @cached_property
+    def states(self) -> Mapping[str, str]:
+        """How each computed value that is not asked stands in the work-book."""
+        return states(self.model, self.graph, self.blocks, self.fill_nodes)
 
     @cached_property
     def given_nodes(self) -> frozenset[str]:
         """Computed values that stand in the work-book as numbers."""
-        return frozenset(node for block in self.given for node in nodes_of(block))
+        return frozenset(node for node, state in self.states.items() if state == NUMBER)
+
+    @cached_property
+    def live_nodes(self) -> frozenset[str]:
+        """Computed values that stand in the work-book as formulas of the student's own."""
+        return frozenset(node for node, state in self.states.items() if state == LIVE)
 
     def formulas_demanded(self, item: Item) -> bool:
         """Whether a number typed in does not do."""
@@ -141,6 +205,8 @@ def assignment_of(model: Model, rubric: Rubric, source: str = "рубрика") 
                 where = f"{source}: work.{key}"
                 hint = "есть: " + ", ".join(ids[:12]) + "…"
                 problems.append(Problem(where, f"нет таблицы {pattern}", hint))
+    fill = [block for block in model.blocks if _wanted(block, rubric.work.fill)]
+    model = with_own_shifts(model, fill)
     fill = [block for block in model.blocks if _wanted(block, rubric.work.fill)]
     filled = {block.id for block in fill}
     needed = _needed(model, fill)
@@ -190,7 +256,7 @@ def _needed(model: Model, fill: Iterable[Block]) -> set[str]:
 def _items(block: Block, model: Model) -> Iterable[Item]:
     if isinstance(block, TableSpec):
         for column in block.columns:
-            if column.expr is not None:
+            if column.expr is not None and not _is_mark(column):
                 yield _column_item(block, column)
     elif isinstance(block, Grid):
         for row in block.rows:
@@ -207,6 +273,19 @@ def _items(block: Block, model: Model) -> Iterable[Item]:
     else:
         for scalar in block.scalars:
             yield _scalar_item(block.id, scalar)
+
+
+def _is_mark(column: Column) -> bool:
+    """A column that only marks where an extreme lies: nobody would make it by hand."""
+    return column.helper and column.quantity.digits.hides == "unused"
+
+
+def _is_copy(text: str) -> bool:
+    """Whether a formula only repeats another value, or its opposite."""
+    tree = parse(text)
+    if isinstance(tree, ast.UnaryOp):
+        tree = tree.operand
+    return isinstance(tree, (ast.Name, ast.Attribute))
 
 
 def _column_item(table: TableSpec, column: Column) -> Item:

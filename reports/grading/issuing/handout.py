@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import zlib
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,23 +19,28 @@ from reports.spec.blocks import Block, Grid, Model, TableSpec, scalars_of
 from reports.spec.charts import ChartSpec
 from reports.spec.evaluation import Evaluation, Values
 from reports.workbook import styles
+from reports.workbook.inputs import shown
 from reports.workbook.layout import CONTENTS_SHEET, INPUT_SHEET, Cell, Layout, check_names
 from reports.workbook.sheets import Writer
 from reports.workbook.write import assemble, saved
 
 TICKET_NAME = "kshm_ticket"
 TICKET_TITLE = "Идентификатор"
+INPUT_MARKS = "kshm_marks_"  # properties with two signs for each input, for ``kshm check``
+_MARKS_LENGTH = 200  # a property may hold 255
 
 _LEGEND = (
     (styles.ANSWER, "заполните: сюда пишутся формулы, остальные ячейки защищены"),
     (styles.INPUT, "исходные данные вашего варианта"),
-    (styles.FORMULA, "дано: готовые числа"),
+    (styles.FORMULA, "дано: числа и формулы от ваших ячеек"),
     (styles.HEADER, "заголовок; в примечании — смысл величины и номер формулы"),
 )
 
 
 class _HandoutWriter(Writer):
-    """Writes numbers where the solved book has formulas, and nothing where they are hidden."""
+    """Writes numbers where the solved book has formulas, formulas of what is asked, or nothing."""
+
+    live: frozenset[Cell] = frozenset()
 
     def column(
         self,
@@ -50,7 +56,10 @@ class _HandoutWriter(Writer):
     def formula(
         self, sheet: Worksheet, row: int, column: int, text: str, value: float | str
     ) -> None:
-        """A given number; a value to be found stays out."""
+        """A given number, or a formula without a saved value; a value to be found stays out."""
+        if Cell(sheet.title, row, column) in self.live:
+            super().formula(sheet, row, column, text, "")
+            return
         known = value if isinstance(value, str) else float(value)
         if isinstance(known, str) or np.isfinite(known):
             sheet.cell(row, column, known or None if isinstance(known, str) else known)
@@ -73,11 +82,13 @@ def handout_bytes(assignment: Assignment, ticket: str) -> bytes:
     check_names(layout)
     model = replace(full, blocks=assignment.blocks, charts=_charts(assignment))
     writer = _HandoutWriter(layout, _given_values(assignment))
+    writer.live = _live_cells(assignment, layout)
     book = assemble(model, writer, _LEGEND)
     for block in assignment.fill:
-        _open_cells(book[block.sheet], block, layout)
+        _open_cells(book[block.sheet], block, layout, assignment.fill_nodes)
     _anchors(book, model, layout)
     _identify(book, ticket)
+    _mark_inputs(book, full)
     _lock(book, layout)
     book.properties.title = f"{full.input.engine.name}: рабочая книга"
     return saved(book, writer.caches)
@@ -85,21 +96,20 @@ def handout_bytes(assignment: Assignment, ticket: str) -> bytes:
 
 def _given_values(assignment: Assignment) -> Values:
     """Values that stand in the work-book; what the student finds is not even calculated."""
-    run = Evaluation(assignment.model)
+    run, given = Evaluation(assignment.model), assignment.given_nodes
     scalars: dict[str, float | str] = {}
     columns: dict[str, dict[str, NDArray[np.float64]]] = {}
     for block in assignment.blocks:
-        hidden = block in assignment.fill
         if isinstance(block, TableSpec):
             columns[block.id] = {
-                column.key: np.full(len(block.rows), np.nan)
-                if hidden and column.expr is not None
-                else run.value(f"{block.id}.{column.key}")
+                column.key: run.value(f"{block.id}.{column.key}")
+                if column.expr is None or f"{block.id}.{column.key}" in given
+                else np.full(len(block.rows), np.nan)
                 for column in block.columns
             }
         else:
             for scalar in scalars_of(block):
-                scalars[scalar.key] = np.nan if hidden else run.value(scalar.key)
+                scalars[scalar.key] = run.value(scalar.key) if scalar.key in given else np.nan
     return Values(scalars, columns)
 
 
@@ -130,8 +140,21 @@ def fill_cells(block: Block, layout: Layout) -> dict[str, list[Cell]]:
     return {cell.key: [layout.cells[cell.key]] for row in rows for cell in row if cell is not None}
 
 
-def _open_cells(sheet: Worksheet, block: Block, layout: Layout) -> None:
-    for cells in fill_cells(block, layout).values():
+def _live_cells(assignment: Assignment, layout: Layout) -> frozenset[Cell]:
+    """Cells that are formulas of the student's own."""
+    return frozenset(
+        cell
+        for block in assignment.blocks
+        for node, cells in fill_cells(block, layout).items()
+        if node in assignment.live_nodes
+        for cell in cells
+    )
+
+
+def _open_cells(sheet: Worksheet, block: Block, layout: Layout, asked: Collection[str]) -> None:
+    for node, cells in fill_cells(block, layout).items():
+        if node not in asked:
+            continue
         for place in cells:
             cell = sheet.cell(place.row, place.column)
             number_format = cell.number_format
@@ -164,6 +187,24 @@ def _identify(book: Workbook, ticket: str) -> None:
     place = Cell(CONTENTS_SHEET, row, 2)
     book.defined_names[TICKET_NAME] = DefinedName(TICKET_NAME, attr_text=place.absolute)
     book.custom_doc_props.append(StringProperty(name=TICKET_NAME, value=ticket))
+
+
+def input_mark(value: object) -> str:
+    """Two signs by which a value is known again."""
+    text = f"{float(value):.12g}" if isinstance(value, (int, float)) else str(value)
+    return f"{zlib.crc32(text.encode()) % 256:02x}"
+
+
+def _mark_inputs(book: Workbook, model: Model) -> None:
+    """Marks by which the student is told that input data were changed."""
+    texts = [""]
+    for name, item in model.fields.items():
+        entry = f"{name}={input_mark(shown(item))}"
+        if len(texts[-1]) + len(entry) >= _MARKS_LENGTH:
+            texts.append("")
+        texts[-1] = f"{texts[-1]} {entry}".strip()
+    for number, text in enumerate(texts, 1):
+        book.custom_doc_props.append(StringProperty(name=f"{INPUT_MARKS}{number:03d}", value=text))
 
 
 def _lock(book: Workbook, layout: Layout) -> None:

@@ -13,6 +13,7 @@ import tomlkit
 
 from reports.grading.issuing.assignment import Assignment, assignment_of
 from reports.grading.issuing.handout import handout_bytes
+from reports.grading.issuing.leaks import check_for_leaks
 from reports.grading.issuing.register import FILE, Issued, Register, ticket_of
 from reports.grading.issuing.roster import Student, read_roster
 from reports.grading.issuing.rubric import Rubric, load_rubric
@@ -83,7 +84,7 @@ def issue(
             book = _issued(number, student, variant, secret, batch)
             assignment = assignment_for(book, rubric, first)
             first = first or assignment
-            _write(temporary, book, assignment)
+            _write(temporary, book, assignment, source)
             books.append(book)
         register = Register(batch, seed, base.source, rubric, tuple(books))
         (temporary / FILE).write_text(register.json_text(), encoding="utf-8")
@@ -113,7 +114,8 @@ def _shape(fields: Iterable[Field]) -> list[tuple[str, Value | None]]:
 
 def _shapes(field: Field) -> bool:
     text = isinstance(field.value, str) and field.path[0] != "report"
-    return field.structural or text
+    phase = field.path[0] == "crankshaft" and field.name.endswith("_deg")  # tables shift by them
+    return field.structural or text or phase
 
 
 def _with_title(raw: dict[str, Any], student: Student, number: int) -> dict[str, Any]:
@@ -129,10 +131,12 @@ def _issued(number: int, student: Student, variant: Variant, secret: bytes, batc
     return Issued(number, student, stem, file, made, variant.drawn, variant.raw)
 
 
-def _write(folder: Path, book: Issued, assignment: Assignment) -> None:
+def _write(folder: Path, book: Issued, assignment: Assignment, source: str) -> None:
     own = folder / book.folder
     own.mkdir()
-    (own / book.file).write_bytes(handout_bytes(assignment, book.ticket))
+    data = handout_bytes(assignment, book.ticket)
+    check_for_leaks(data, assignment, source)
+    (own / book.file).write_bytes(data)
     text = tomlkit.dumps(_with_title(book.raw, book.student, book.number))
     (own / f"{book.folder}.toml").write_text(text, encoding="utf-8")
 

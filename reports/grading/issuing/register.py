@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import hashlib
 import hmac
 import io
 import json
@@ -44,6 +45,11 @@ class Register:
     source: str
     rubric: Rubric
     books: tuple[Issued, ...]
+
+    @property
+    def trial_seed(self) -> str:
+        """Seed of the input data on which formulas are tried; no student has all of it."""
+        return hashlib.sha256(" ".join(book.ticket for book in self.books).encode()).hexdigest()
 
     def json_text(self) -> str:
         """The register as a file."""

@@ -31,10 +31,11 @@ class Work(_Part):
 
 
 class Credit(_Part):
-    """[credit]: share of the points."""
+    """[credit]: share of the points; ``rows`` for the right rows of a column with wrong ones."""
 
     carried: Share = 1.0
     typed: Share = 0.5
+    rows: Share = 1.0
 
 
 class Formulas(_Part):
@@ -60,10 +61,22 @@ class LateRule(_Part):
 
 
 class Late(_Part):
-    """[late]: no deadline, no rule."""
+    """[late]: no deadline, no rule.
+
+    ``per_day`` is taken off for each day begun after the free ones, instead of the rules.
+    """
 
     deadline: datetime | None = None
+    per_day: Share = 0.0
+    free_days: Annotated[int, Field(ge=0, le=365)] = 0
+    least: Share = 0.0
     rules: tuple[LateRule, ...] = (LateRule(after_hours=0, factor=0.9),)
+
+
+class Attempts(_Part):
+    """[attempts]: which of several files counts."""
+
+    count: Literal["last", "best"] = "last"
 
 
 class Minimum(_Part):
@@ -88,6 +101,7 @@ class Rubric(_Part):
     formulas: Formulas = Formulas()
     tolerance: Tolerance = Tolerance()
     late: Late = Late()
+    attempts: Attempts = Attempts()
     minimum: Minimum = Minimum()
     feedback: Feedback = Feedback()
 
@@ -146,7 +160,9 @@ _WANTED = {
     "finite_number": "нужно конечное число",
     "bool_parsing": "нужно true или false",
     "bool_type": "нужно true или false",
-    "literal_error": 'нужно "hints" или "full"',
+    "literal_error": "нужно одно из слов, названных в образце рубрики",
+    "int_type": "нужно целое число",
+    "int_parsing": "нужно целое число",
     "tuple_type": "нужен список",
     "dict_type": "нужен раздел",
     "string_type": "нужен текст",

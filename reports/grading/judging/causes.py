@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -13,7 +14,20 @@ from numpy.typing import NDArray
 from reports.formula.numeric import evaluate_tree
 from reports.formula.parse import names, parse
 from reports.grading.issuing.assignment import Item
-from reports.grading.judging.verdicts import Judgement, close, tolerance
+from reports.grading.judging.rewriting import (
+    SIGNS,
+    Flipped,
+    Renamed,
+    WithoutFactor,
+    WithoutNumber,
+    WithoutPower,
+    WithoutSummand,
+    numbers,
+    summands,
+    without_radians,
+)
+from reports.grading.judging.tolerances import close, tolerance
+from reports.grading.judging.verdicts import Judgement
 from reports.grading.reading.student import Student, known_values
 from reports.inputs.sections.input_file import METHODS
 from reports.spec.blocks import TableSpec
@@ -25,6 +39,8 @@ Array = NDArray[np.float64]
 _FACTORS = (10.0, 100.0, 1000.0, 1e4, 1e5, 1e6, 1e9)
 
 _OTHERS = 200  # variants that are tried
+_PI = re.compile(r"\bpi\b")
+_VARIED = 4  # different values of a column that tells anything
 
 # Quantities that are taken for each other.
 _MIXED = (
@@ -33,6 +49,8 @@ _MIXED = (
     ("r_crank", "L_rod", "длина шатуна L вместо радиуса кривошипа r"),
     ("L_rod", "r_crank", "радиус кривошипа r вместо длины шатуна L"),
     ("omega", "regime_speed_rpm", "частота вращения n в мин⁻¹ вместо угловой скорости ω"),
+    ("m_j", "m_2", "масса m2 вместо mj"),
+    ("m_2", "m_j", "масса mj вместо m2"),
     ("F_piston", "geometry_bore_mm", "диаметр цилиндра вместо площади поршня"),
     ("geometry_bore_mm", "S_stroke", "ход поршня S вместо диаметра цилиндра"),
 )
@@ -50,18 +68,30 @@ class Causes:
     """Tries the usual mistakes on one student's wrong columns."""
 
     def __init__(
-        self, student: Student, others: Sequence[OtherVariant], titles: dict[str, str]
+        self,
+        student: Student,
+        others: Sequence[OtherVariant],
+        titles: dict[str, str],
+        whole: dict[int, Evaluation] | None = None,
     ) -> None:
         self.student, self.others, self.titles = student, others, titles
-        self._others: dict[tuple[str, float], Evaluation] = {}
+        self.whole = {} if whole is None else whole  # other variants, the same for a class
 
     def find(self, judgement: Judgement) -> str:
         """The cause in words, empty where none fits."""
         item, values = judgement.item, judgement.values
-        if not np.isfinite(values).any():
+        finite = values[np.isfinite(values)]
+        if not finite.size:
             return ""
-        bases = [self._known(judgement)] if judgement.own is not None else []
-        bases.append({})
+        moved = self._moved_reference(item)
+        if moved:
+            return moved
+        if item.is_column and np.unique(finite).size < _VARIED:
+            return "все значения равны нулю" if not finite.any() else ""
+        if judgement.coarse:
+            return "округлено грубее, чем печатает книга"
+        known = self._known(judgement)
+        bases = [known, {}] if known else [{}]
         for known in bases:
             run = self.student.expected.fork(known)
             right = self._values(item, run)
@@ -73,8 +103,16 @@ class Causes:
         return ""
 
     def _known(self, judgement: Judgement) -> dict[str, object]:
-        nodes = judgement.precedents - set(judgement.item.nodes)
-        return known_values(self.student.answers, nodes)
+        """The student's own earlier values, where they are not the right ones."""
+        nodes = frozenset().union(*(self.student.precedents(n) for n in judgement.item.nodes))
+        known = known_values(self.student.answers, nodes - set(judgement.item.nodes))
+        return known if any(self._is_off(node, value) for node, value in known.items()) else {}
+
+    def _is_off(self, node: str, value: object) -> bool:
+        right = self.student.expected.value(node)
+        if isinstance(right, str):
+            return False
+        return not np.allclose(np.asarray(value, dtype=float), right, rtol=1e-9, equal_nan=True)
 
     def _fits(self, item: Item, values: Array, attempt: Array, right: Array) -> bool:
         """Whether an attempt explains the values, and differs from what is right."""
@@ -94,9 +132,13 @@ class Causes:
         for factor in _FACTORS:
             yield f"значения больше правильных в {factor:g} раз: проверьте единицы", right * factor
             yield f"значения меньше правильных в {factor:g} раз: проверьте единицы", right / factor
+        if not item.is_column:
+            yield from self._inputs(item, run)
         yield "результат в градусах вместо радиан", np.degrees(right)
         yield "результат в радианах вместо градусов", np.radians(right)
         yield from self._changed_formulas(item, run)
+        if any(_PI.search(self.student.assignment.graph.expression(n) or "") for n in item.nodes):
+            yield "π взято как 3,14", right * (3.14 / np.pi)
         if len(right) > 3 and item.is_column:
             yield "значения сдвинуты на одну строку вниз", _shifted(right, values, 1)
             yield "значения сдвинуты на одну строку вверх", _shifted(right, values, -1)
@@ -113,14 +155,82 @@ class Causes:
     # --- the formula itself -------------------------------------------------------------
 
     def _changed_formulas(self, item: Item, run: Evaluation) -> Iterator[tuple[str, Array | None]]:
-        yield "градусы вместо радиан в sin, cos", self._rewritten(item, run, _without_radians)
+        yield "градусы вместо радиан в sin, cos", self._rewritten(item, run, without_radians)
+        yield from self._shorter(item, run)
         for wrong_for, taken, words in _MIXED:
             uses = any(wrong_for in self._names(node) for node in item.nodes)
             known = self.student.assignment.model
             if uses and (taken in known.scalars or taken in known.fields):
-                yield words, self._rewritten(item, run, _Renamed(wrong_for, taken).visit)
-        for number, words in _SIGNS:
-            yield words, self._rewritten(item, run, _Flipped(number).visit)
+                more = ""
+                twice = {wrong_for, taken} == {"r_crank", "S_stroke"}
+                if twice and numbers(self._tree(item.nodes[0])):
+                    more = " или потерянный делитель 2 (вдвое больше или меньше)"
+                yield words + more, self._rewritten(item, run, Renamed(wrong_for, taken).visit)
+        for number, words in SIGNS:
+            yield words, self._rewritten(item, run, Flipped(number).visit)
+
+    def _shorter(self, item: Item, run: Evaluation) -> Iterator[tuple[str, Array | None]]:
+        """Something left out of the formula: a summand, a factor, a power, a number."""
+        for number, dropped in enumerate(summands(self._tree(item.nodes[0]))):
+            words = f"пропущено слагаемое {self._symbols(item, dropped)}"
+            yield words, self._rewritten(item, run, WithoutSummand(number).visit)
+        for name in sorted(self._names(item.nodes[0])):
+            if name == "pi":
+                continue
+            symbol = self._symbol(item, name)
+            yield (
+                f"пропущен множитель {symbol}",
+                self._rewritten(item, run, WithoutFactor(name).visit),
+            )
+            words = f"{symbol} не возведено в квадрат"
+            yield words, self._rewritten(item, run, WithoutPower(name).visit)
+        for value in numbers(self._tree(item.nodes[0])):
+            words = (
+                "взято целое вместо половины" if value == 0.5
+                else "π·D² вместо π·D²/4" if item.nodes[0] == "F_piston"
+                else f"потеряно число {value:g}".replace(".", ",")
+            )  # fmt: skip
+            yield words, self._rewritten(item, run, WithoutNumber(value).visit)
+
+    def _inputs(self, item: Item, run: Evaluation) -> Iterator[tuple[str, Array | None]]:
+        """An input of the formula taken for its result."""
+        fields = self.student.assignment.model.fields
+        for name in sorted(self._names(item.nodes[0])):
+            if name in fields and isinstance(fields[name].value, (int, float)):
+                title = "частота вращения n" if name == "regime_speed_rpm" else fields[name].title
+                yield f"{title} вместо {item.symbol}", np.array([float(run.value(name))])
+
+    def _moved_reference(self, item: Item) -> str:
+        """A reference to one cell that was filled down without its $."""
+        grid, placement = self.student.grid, self.student.placement
+        single = {
+            (place.sheet, place.column, place.rows[0]): name
+            for name, place in placement.places.items()
+            if len(place.rows) == 1
+        }
+        for node in item.nodes if item.is_column else ():
+            for run in self.student.runs(node):
+                for found, area in grid.located(run) if run.count > 1 else ():
+                    one = found.first == found.last and not found.name
+                    name = single.get((area.sheet, area.first_column, area.first_row))
+                    if one and name and not found.first.row_fixed:
+                        symbol = self._symbol(item, name)
+                        return f"в ссылке на {symbol} нет знака $: при протягивании она сдвигается"
+        return ""
+
+    def _tree(self, node: str) -> ast.expr:
+        return parse(self.student.assignment.graph.expression(node) or "0")
+
+    def _symbol(self, item: Item, name: str) -> str:
+        """Symbol of a name in an item's formula."""
+        model = self.student.assignment.model
+        node = model.nodes.get(node_of(name, item.block, model))
+        if node is not None:
+            return node.quantity.symbol
+        return model.fields[name].title if name in model.fields else name
+
+    def _symbols(self, item: Item, tree: ast.expr) -> str:
+        return "·".join(self._symbol(item, name) for name in sorted(names(ast.unparse(tree))))
 
     def _names(self, node: str) -> frozenset[str]:
         text = self.student.assignment.graph.expression(node)
@@ -195,21 +305,28 @@ class Causes:
 
     def _variants(self, item: Item) -> Iterator[tuple[str, Array | None]]:
         """One parameter of another variant, its λ, then the whole other variant."""
+        expected = self.student.expected
+        graph = self.student.assignment.graph
+        near = frozenset().union(*(graph.references(node) for node in item.nodes))
+        known = {node: expected.value(node) for node in near if "." in node}
+        inside = near | frozenset().union(*(graph.ancestors(n) for n in near if "." not in n))
         tried: set[tuple[str, float]] = set()
         for other in self.others[:_OTHERS]:
             for name, value in other.values.items():
-                if (name, value) in tried:
+                if (name, value) in tried or name not in inside:
                     continue
                 tried.add((name, value))
-                run = self.student.expected.fork({name: value})
+                run = expected.fork({**known, name: value})
                 title = self.titles.get(name, name)
                 words = f"{title} из варианта {other.number}: {value:g}"
                 yield words, self._values(item, run)
         for other in self.others[:_OTHERS]:
-            theirs = self.student.expected.fork(dict(other.values))
-            if "lam" in theirs.nodes:
+            theirs = self.whole.get(other.number)
+            if theirs is None:
+                theirs = self.whole[other.number] = expected.fork(dict(other.values))
+            if "lam" in inside:
                 lam = theirs.value("lam")
-                run = self.student.expected.fork({"lam": lam})
+                run = expected.fork({**known, "lam": lam})
                 yield f"λ из варианта {other.number}: {lam:.4g}", self._values(item, run)
             words = f"исходные данные варианта {other.number}, а не вашего"
             yield words, self._values(item, theirs)
@@ -236,49 +353,3 @@ def _row_indices(own: TableSpec, other: TableSpec) -> NDArray[np.intp] | None:
     if any(angle not in places for angle in own.rows):
         return None
     return np.array([places[angle] for angle in own.rows])
-
-
-def _without_radians(tree: ast.expr) -> ast.expr:
-    result = _NoRadians().visit(tree)
-    assert isinstance(result, ast.expr)
-    return result
-
-
-class _NoRadians(ast.NodeTransformer):
-    def visit_Call(self, node: ast.Call) -> ast.AST:
-        self.generic_visit(node)
-        if isinstance(node.func, ast.Name) and node.func.id == "rad":
-            return node.args[0]
-        return node
-
-
-class _Renamed(ast.NodeTransformer):
-    def __init__(self, old: str, new: str) -> None:
-        self.old, self.new = old, new
-
-    def visit_Name(self, node: ast.Name) -> ast.AST:
-        return (
-            ast.copy_location(ast.Name(self.new, ast.Load()), node) if node.id == self.old else node
-        )
-
-
-_SIGNS = tuple((number, f"знак слагаемого {number + 2}") for number in range(3))
-
-
-class _Flipped(ast.NodeTransformer):
-    """Turns the sign of one sum in the formula."""
-
-    def __init__(self, number: int) -> None:
-        self.number, self.seen = number, -1
-
-    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
-        self.generic_visit(node)
-        if isinstance(node.op, (ast.Add, ast.Sub)):
-            self.seen += 1
-            if self.seen == self.number:
-                node.op = ast.Sub() if isinstance(node.op, ast.Add) else ast.Add()
-        return node
-
-    def visit(self, node: ast.AST) -> Any:  # noqa: ANN401
-        """Count from the left in each formula anew."""
-        return super().visit(node)

@@ -4,29 +4,28 @@ from __future__ import annotations
 
 import hashlib
 import math
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
 from typing import Any
 
 import numpy as np
 
-from reports.grading.issuing.assignment import Assignment, Item
+from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.causes import Causes, OtherVariant
+from reports.grading.judging.lines import feedback_line
+from reports.grading.judging.marks import formula_marks
+from reports.grading.judging.response import Proofs, Response
+from reports.grading.judging.trials import trials_of
 from reports.grading.judging.verdicts import (
-    BROKEN,
-    CARRIED,
     EMPTY,
-    RIGHT,
-    TYPED,
     UNKNOWN,
-    WRONG,
-    Judgement,
     judge_all,
 )
 from reports.grading.reading.matching import Match, file_properties, find_by_name, find_owner
+from reports.grading.reading.restoring import leave_out_unused, restore
 from reports.grading.reading.student import Student, address
 from reports.grading.reading.submissions import Submission
 from reports.inputs.fields import cell_name
@@ -36,12 +35,12 @@ from reports.recalculation.grid import BadBook, Grid
 from reports.recalculation.language import UnknownFormula
 from reports.recalculation.read import read_grid
 from reports.shared.errors import InputError
+from reports.spec.evaluation import Evaluation
 from reports.workbook.intake import check_data
 from reports.workbook.layout import Layout
 from reports.workbook.package import Package
 
-FORMAT = 2
-SHOWN_ROWS = 12  # wrong cells shown in the feedback of an item
+FORMAT = 3
 Result = dict[str, Any]
 
 
@@ -56,6 +55,8 @@ def blank_result(submission: Submission) -> Result:
         "sha256": "",
         "items": [],
         "manual": [],
+        "doubts": [],
+        "submitter": None,
         "notes": [],
         "moved": [],
         "changed": [],
@@ -73,6 +74,8 @@ class Marker:
     def __post_init__(self) -> None:
         self._assignments: dict[int, tuple[Assignment, Layout]] = {}
         self._first: tuple[Assignment, Layout] | None = None  # the others are mostly alike
+        self._variants: dict[int, dict[int, Evaluation]] = {}
+        self._proofs: dict[int, Proofs] = {}  # by the tables that they are of
 
     def mark(self, submission: Submission, data: bytes) -> Result:
         """The result of one file; whatever is wrong with it is part of the result."""
@@ -123,9 +126,23 @@ class Marker:
         result["manual"].append(f"файл не принят: {why}")
         return result
 
+    def response(self, student: Student) -> Response:
+        """How a student's formulas respond to other input data."""
+        assignment = student.assignment
+        key = id(assignment.fill)  # kept by the first assignment with these tables
+        proofs = self._proofs.get(key)
+        if proofs is None:
+            seed = self.register.trial_seed
+            proofs = Proofs(trials_of(assignment, self.register.books, seed))
+            self._proofs[key] = proofs
+        return Response(student, proofs)
+
     def student(self, book: Issued, grid: Grid) -> Student:
         """The workbook under its assignment."""
-        return Student.of(*self.assignment(book), grid)
+        made = Student.of(*self.assignment(book), grid)
+        restore(made)
+        leave_out_unused(made)
+        return made
 
     def _grade(
         self,
@@ -137,9 +154,17 @@ class Marker:
         package: Package,
     ) -> None:
         student = self.student(book, grid)
-        judgements = judge_all(student)
-        causes = Causes(student, self.others(book.number), self.titles(assignment))
-        items = [_line(student, judgement, causes, assignment) for judgement in judgements]
+        response = self.response(student)
+        judgements = judge_all(student, response)
+        tampered = response.tampered
+        if tampered:
+            text = "изменены выданные формулы: " + ", ".join(tampered[:4])
+            result["doubts"].append(text)
+            result["manual"].append(text)
+        causes = Causes(
+            student, self.others(book.number), self.titles(assignment), self._whole(assignment)
+        )
+        items = [feedback_line(student, judgement, causes, assignment) for judgement in judgements]
         result |= {
             "status": "graded",
             "feedback": self.register.rubric.feedback.mode,
@@ -152,13 +177,42 @@ class Marker:
             "altered": altered(student, read_grid(package) if student.changed else None)[:50],
         }
         notes = result["notes"]
+        theirs = self._variant_of(student, book)
+        if theirs:
+            text = f"исходные данные заменены данными другого варианта: {theirs}"
+            result["doubts"].append(text)
+            result["manual"].append(text)
+        result["formulas"] = formula_marks(student)
         if student.changed:
             notes.append(f"изменены исходные или защищённые данные: ячеек {len(student.changed)}")
         if result["altered"]:
             notes.append("сохранённые значения не соответствуют формулам: " + result["altered"][0])
-        unknown = [line["id"] for line in items if line["verdict"] == UNKNOWN]
+        unknown = [line["label"] for line in items if line["verdict"] == UNKNOWN]
         if unknown:
             result["manual"].append("не удалось проверить: " + ", ".join(unknown[:8]))
+
+    def _variant_of(self, student: Student, book: Issued) -> str:
+        """Whose variant the input data are that were typed over those issued."""
+        typed = {change.name: change.now for change in student.changed}
+        names = {key: cell_name(Range.path_of(key)) for key in book.drawn}
+        mine = {key for key, name in names.items() if name in typed}
+        if not mine:
+            return ""
+        found = [
+            f"{other.number} ({other.student.full})"
+            for other in self.register.books
+            if other.number != book.number
+            and all(
+                (typed[names[key]] if key in mine else book.drawn[key]) == str(value)
+                or _equal(typed[names[key]] if key in mine else book.drawn[key], value)
+                for key, value in other.drawn.items()
+            )
+        ]
+        return ", ".join(found[:4])
+
+    def _whole(self, assignment: Assignment) -> dict[int, Evaluation]:
+        """Other variants as far as they are calculated, for all books of the same tables."""
+        return self._variants.setdefault(id(assignment.fill), {})
 
     def others(self, number: int) -> list[OtherVariant]:
         """What the other students' variants have different."""
@@ -181,6 +235,14 @@ class Marker:
         return {name: field.title for name, field in assignment.model.fields.items()}
 
 
+def _equal(text: object, value: object) -> bool:
+    """Whether a cell, as it is shown, holds a value."""
+    try:
+        return abs(float(str(text)) - float(str(value))) <= 1e-9 * max(1.0, abs(float(str(value))))
+    except ValueError:
+        return False
+
+
 def _take_match(result: Result, match: Match) -> None:
     book = match.book
     result["number"] = book.number if book else None
@@ -189,89 +251,8 @@ def _take_match(result: Result, match: Match) -> None:
     result["folder"] = book.folder if book else None
     result["evidence"] = list(match.evidence)
     result["manual"] += list(match.doubts)
-
-
-def _line(
-    student: Student, judgement: Judgement, causes: Causes, assignment: Assignment
-) -> dict[str, Any]:
-    """One item of the feedback."""
-    item = judgement.item
-    worth = assignment.points[item.id]
-    share = {
-        RIGHT: 1.0,
-        CARRIED: assignment.rubric.credit.carried,
-        TYPED: assignment.rubric.credit.typed,
-    }.get(judgement.verdict, 0.0)
-    tables = assignment.model.tables
-    cause = causes.find(judgement) if judgement.verdict == WRONG else ""
-    line: dict[str, Any] = {
-        "id": item.id,
-        "block": item.block,
-        "table": tables[item.block].number if item.block in tables else "",
-        "title": item.title,
-        "symbol": item.symbol,
-        "unit": item.quantity.unit_label,
-        "source": item.source,
-        "digits": asdict(item.quantity.digits),
-        "verdict": judgement.verdict,
-        "points": round(worth * share, 6),
-        "of": round(worth, 6),
-        "reason": judgement.reason,
-        "cause": cause,
-        "rows": [item.labels[i] for i in judgement.rows],
-        "typed": [item.labels[i] for i in judgement.typed] if judgement.verdict != RIGHT else [],
-    }
-    if judgement.verdict in (WRONG, CARRIED, TYPED, BROKEN):
-        line["cells"] = _cells(student, judgement)
-        line["mark"] = _fingerprint(item, judgement.values)
-        line["right_mark"] = _fingerprint(item, judgement.expected)
-        if item.is_column:
-            line["chart"] = {
-                "x": [float(label) for label in item.labels],
-                "own": _plain(judgement.values),
-                "right": _plain(judgement.expected),
-            }
-    return line
-
-
-def _cells(student: Student, judgement: Judgement) -> list[dict[str, Any]]:
-    item = judgement.item
-    rows = judgement.rows or judgement.typed
-    places = [
-        (student.placement.places.get(node), i)
-        for node in item.nodes
-        for i in range(student.assignment.length(node))
-    ]
-    cells = []
-    for row in rows[:SHOWN_ROWS]:
-        place, index = places[row]
-        at = place.rows[index] if place is not None else None
-        cells.append(
-            {
-                "row": item.labels[row],
-                "cell": f"{place.sheet}!{address(at, place.column)}" if place and at else "",
-                "own": _number(judgement.values[row]),
-                "right": _number(judgement.expected[row]),
-                "carried": _number(judgement.own[row]) if judgement.own is not None else None,
-            }
-        )
-    return cells
-
-
-def _number(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None
-
-
-def _plain(values: np.ndarray[Any, np.dtype[np.float64]]) -> list[float | None]:
-    return [float(f"{v:.6g}") if math.isfinite(v) else None for v in values]
-
-
-def _fingerprint(item: Item, values: np.ndarray[Any, np.dtype[np.float64]]) -> str:
-    """The same for equal values, whatever the book: for the signals of similarity."""
-    if item.is_column and np.unique(values[np.isfinite(values)]).size < 4:
-        return ""  # zeros and constants are alike by themselves
-    text = ";".join(f"{value:.6g}" for value in values)
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
+    result["doubts"] += list(match.doubts)
+    result["submitter"] = match.submitter.number if match.submitter else None
 
 
 def altered(student: Student, original: Grid | None) -> list[str]:
@@ -309,19 +290,24 @@ def _score(result: Result, rubric: Rubric, time: datetime | None) -> None:
     paid = [line for line in lines if line["of"] > 0]
     filled = [line for line in paid if line["verdict"] != EMPTY]
     result["filled"] = round(len(filled) / len(paid), 4) if paid else 0.0
-    raw = sum(line["points"] for line in lines)
-    result["raw"] = round(raw, 2)
     result["maximum"] = rubric.maximum
-    if result["filled"] < rubric.minimum.filled:
+    result["enough"] = result["filled"] >= rubric.minimum.filled
+    if not result["enough"]:
         result["notes"].append(
             f"заполнено {result['filled']:.0%} при наименьшем {rubric.minimum.filled:.0%}: 0 баллов"
         )
-        raw = 0.0
     factor = late_factor(rubric, time)
     result["late"] = factor
     if factor < 1:
         result["notes"].append(f"сдано после срока: баллы умножены на {factor:g}")
-    result["points"] = round(raw * factor, 2)
+    rescored(result)
+
+
+def rescored(result: Result) -> None:
+    """The sum of a result from the points of its lines."""
+    raw = sum(line["points"] for line in result["items"])
+    result["raw"] = round(raw, 2)
+    result["points"] = round(raw * result["late"], 2) if result["enough"] else 0.0
 
 
 def late_factor(rubric: Rubric, time: datetime | None) -> float:
@@ -334,6 +320,9 @@ def late_factor(rubric: Rubric, time: datetime | None) -> float:
     if late <= timedelta(0):
         return 1.0
     hours = late.total_seconds() / 3600
+    if rubric.late.per_day:
+        days = max(0, math.ceil(hours / 24) - rubric.late.free_days)
+        return max(rubric.late.least, 1 - rubric.late.per_day * days)
     return min(
         [rule.factor for rule in rubric.late.rules if hours >= rule.after_hours], default=1.0
     )

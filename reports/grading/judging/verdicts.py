@@ -1,33 +1,41 @@
-"""The verdict on each item: right, carried forward, typed in, wrong, empty, error or unknown."""
+"""The verdict on each item, from what its cells hold and how its formulas respond."""
 
 from __future__ import annotations
 
-import re
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Item
+from reports.grading.judging import response as say
+from reports.grading.judging.response import Response
+from reports.grading.judging.tolerances import close, tolerance
+from reports.grading.reading.ground import circles, is_void, resting_on
 from reports.grading.reading.student import LOST, Answer, Student, known_values
-from reports.recalculation.evaluate import BLANK, ERROR, NUMBER, TEXT
+from reports.recalculation.evaluate import BLANK, ERROR, TEXT
 from reports.recalculation.language import UnknownFormula
 
 Array = NDArray[np.float64]
 
-RIGHT, CARRIED, TYPED, WRONG, EMPTY, BROKEN, UNKNOWN = (
-    "right", "carried", "typed", "wrong", "empty", "error", "unknown",
+RIGHT, CARRIED, TYPED, STILL, WRONG, EMPTY, GROUNDLESS, BROKEN, UNKNOWN = (
+    "right", "carried", "typed", "still", "wrong", "empty", "groundless", "error", "unknown",
 )  # fmt: skip
 
 WORDS = {
-    RIGHT: "верно",
-    CARRIED: "верно по вашим предыдущим значениям",
-    TYPED: "число вместо формулы",
     WRONG: "неверно",
-    EMPTY: "не заполнено",
     BROKEN: "ошибка в ячейке",
+    STILL: "формула не считает",
+    GROUNDLESS: "считает по пустым ячейкам",
+    EMPTY: "не заполнено",
+    TYPED: "число вместо формулы",
     UNKNOWN: "нужна ручная проверка",
+    CARRIED: "верно по вашим предыдущим значениям",
+    RIGHT: "верно",
 }
+_ROUND = "круговая ссылка: величина считается через саму себя"
+_ENOUGH = 0.5  # share of right rows from which a column is paid by rows
 
 
 @dataclass(frozen=True)
@@ -42,39 +50,47 @@ class Judgement:
     typed: tuple[int, ...] = ()  # rows with numbers instead of formulas
     reason: str = ""
     precedents: frozenset[str] = field(default_factory=frozenset)
-    own: Array | None = None  # right for the student's own earlier values
-    path: str = ""  # how a carried verdict was reached: "expression" or "formula"
+    origins: tuple[str, ...] = ()  # items that it is carried from
+    paid: float = 0.0  # share of the points, before the rubric's share for the verdict
+    coarse: bool = False  # rounded more than the book prints
+
+    @property
+    def finite(self) -> bool:
+        """Whether there is any number."""
+        return bool(np.isfinite(self.values).any())
 
 
-def tolerance(item: Item, expected: Array, student: Student) -> float:
-    """Largest difference that the book's rounding allows.
-
-    Half a unit of the last digit that the book prints, but never more than a small
-    share of the column: some quantities are smaller than their printed digits.
-    """
-    rules = student.assignment.rubric.tolerance
-    for pattern, value in rules.items.items():
-        if re.fullmatch(pattern.replace(".", r"\.").replace("*", ".*"), item.id):
-            return float(value)
-    digits = item.quantity.digits
-    unit = 10.0**-digits.decimals
-    finite = np.abs(expected[np.isfinite(expected)])
-    largest = float(finite.max()) if finite.size else 0.0
-    # A double carries about sixteen digits: results that differ in the tenth are equal.
-    return max(min(rules.units * unit * (1 + 1e-9), rules.share * largest), 1e-10 * largest, 1e-12)
-
-
-def close(item: Item, values: Array, expected: Array, allowed: float) -> NDArray[np.bool_]:
-    """Where two columns agree; directions agree also a full turn apart."""
-    difference = np.abs(values - expected)
-    if item.quantity.unit == "deg":
-        difference = np.minimum(difference, np.abs(360.0 - difference))
-    with np.errstate(invalid="ignore"):
-        return np.asarray(difference <= allowed)
+def judge_all(student: Student, response: Response) -> list[Judgement]:
+    """Verdicts on all items, in the order of the book."""
+    items = student.assignment.items
+    student.assume(
+        {
+            node
+            for item in items
+            for node in item.nodes
+            if student.answers[node].problem and response.problem(node)
+        }
+    )
+    found = {item.id: _judged(item, student, response) for item in items}
+    _without_ground(found, student)
+    _backwards(found, student, response)
+    _carried(found, student)
+    return [found[item.id] for item in items]
 
 
-def judge(item: Item, student: Student) -> Judgement:
-    """The verdict on one item."""
+# --- one item by itself ----------------------------------------------------------------------
+
+
+def _judged(item: Item, student: Student, response: Response) -> Judgement:
+    try:
+        return _of_cells(item, student, response)
+    except UnknownFormula as problem:
+        count = sum(student.assignment.length(node) for node in item.nodes)
+        nothing = np.full(count, np.nan)
+        return Judgement(item, UNKNOWN, nothing, nothing, reason=str(problem))
+
+
+def _of_cells(item: Item, student: Student, response: Response) -> Judgement:
     answers = [student.answers[node] for node in item.nodes]
     right = [student.expected.value(node) for node in item.nodes]
     if any(isinstance(value, str) for value in right):
@@ -82,45 +98,146 @@ def judge(item: Item, student: Student) -> Judgement:
     expected = np.asarray(np.concatenate([np.ravel(value) for value in right]), dtype=float)
     values = np.concatenate([answer.values for answer in answers])
     kinds = "".join(answer.kinds for answer in answers)
-    typed = tuple(np.flatnonzero(np.concatenate([answer.typed for answer in answers])).tolist())
-
-    def verdict(word: str, rows: tuple[int, ...] = (), **more: object) -> Judgement:
-        return Judgement(item, word, expected, values, rows, typed, **more)  # type: ignore[arg-type]
-
-    problem = next((answer.problem for answer in answers if answer.problem), "")
-    if problem:
-        return verdict(UNKNOWN, reason=f"формулу не удалось пересчитать: {problem}")
+    typed = np.concatenate([answer.typed for answer in answers])
+    made = Judgement(item, RIGHT, expected, values, typed=_where(typed))
+    letters = response.letters(item)
+    if say.UNKNOWN in letters:
+        why = next(filter(None, map(response.problem, item.nodes)), "")
+        return replace(made, verdict=UNKNOWN, reason=f"формулу не удалось пересчитать: {why}")
     if LOST in kinds:
-        return verdict(UNKNOWN, _where(kinds, LOST), reason="ячейки не найдены в книге")
+        rows = _where([kind == LOST for kind in kinds])
+        return replace(made, verdict=UNKNOWN, rows=rows, reason="ячейки не найдены в книге")
     if set(kinds) == {BLANK}:
-        return verdict(EMPTY)
-    if BLANK in kinds:
-        return verdict(EMPTY, _where(kinds, BLANK), reason="заполнены не все строки")
-    if TEXT in kinds:
-        return verdict(WRONG, _where(kinds, TEXT), reason="вместо числа стоит текст")
-    allowed = tolerance(item, expected, student)
-    good = close(item, values, expected, allowed)
-    demanded = student.assignment.formulas_demanded(item)
+        return replace(made, verdict=EMPTY)
+    if not student.assignment.formulas_demanded(item) and typed.all():
+        return _free(made, student)
+    return _by_rows(made, student, response, kinds, letters)
+
+
+def _free(made: Judgement, student: Student) -> Judgement:
+    """Numbers where no formula is demanded: right, or right for the student's own others."""
+    item = made.item
+    allowed = tolerance(item, made.expected, student)
+    good = close(item, made.values, made.expected, allowed)
     if good.all():
-        linked = _is_linked(item, student)
-        if demanded and (typed or not linked):
-            why = "" if typed else "формула состоит из одних чисел"
-            return verdict(TYPED, typed, reason=why)
-        return verdict(RIGHT)
-    precedents = frozenset().union(*(student.precedents(node) for node in item.nodes))
-    linked = _is_linked(item, student)
-    rows = tuple(np.flatnonzero(~good).tolist())
-    own, path = None, ""
-    if linked and not typed:
-        own, path = _carried(item, student, values, expected, allowed, precedents)
-    elif not demanded:
-        own = _own(item, student, None)
-        path = "expression" if close(item, values, own, allowed).all() else ""
-    if path and _has_wrong(student, item, precedents if precedents else None):
-        return verdict(CARRIED, rows, precedents=precedents, own=own, path=path)
-    if ERROR in kinds:
-        return verdict(BROKEN, _where(kinds, ERROR), precedents=precedents, own=own)
-    return verdict(WRONG, rows, precedents=precedents, own=own)
+        return replace(made, typed=(), paid=1.0)
+    own = own_values(item, student, None)
+    if close(item, made.values, own, allowed).all():
+        return replace(made, verdict=CARRIED, rows=_where(~good), typed=(), paid=1.0)
+    return replace(made, verdict=WRONG, rows=_where(~good), paid=float(good.mean()) * 0.0)
+
+
+# How a cell that is not right is called, the worst first.
+_WORST = (STILL, WRONG, BROKEN, EMPTY, TYPED)
+
+
+def _by_rows(
+    made: Judgement, student: Student, response: Response, kinds: str, letters: str
+) -> Judgement:
+    item = made.item
+    allowed = tolerance(item, made.expected, student)
+    good = close(item, made.values, made.expected, allowed)
+    # A nought typed in among formulas is one; a column typed in is numbers throughout.
+    still = response.fixed(item)
+    fixed = still & any(letter != say.NOTHING for letter in letters)
+    words = [_word(kinds[i], letters[i], bool(good[i]), bool(fixed[i])) for i in range(len(kinds))]
+    # What has followed other input data refers to them, if only by a copy.
+    follows = any(w == RIGHT and not f for w, f in zip(words, still, strict=True))
+    unlinked = not follows and not _is_linked(item, student)
+    if unlinked:  # nothing to respond to: numbers, or references to pasted ones
+        runs = [run for node in item.nodes for run in student.runs(node)]
+        plain = not any(True for run in runs for _ in student.grid.located(run))
+        words = [(TYPED if plain else STILL) if w in (RIGHT, STILL) else w for w in words]
+    counts = {word: words.count(word) for word in dict.fromkeys(words)}
+    if set(words) == {RIGHT}:
+        return replace(made, paid=1.0, typed=(), coarse=say.ROUNDED in letters)
+    bad = [word for word in _WORST if word in counts]
+    verdict = max(bad, key=lambda word: (word == STILL, counts[word] if word != TYPED else 0))
+    rows = _where([word != RIGHT for word in words])
+    share = (counts.get(RIGHT, 0) + student.assignment.rubric.credit.typed * counts.get(TYPED, 0)
+             ) / len(words)  # fmt: skip
+    rights = counts.get(RIGHT, 0) + counts.get(TYPED, 0)
+    by_rows = STILL not in counts and rights >= _ENOUGH * len(words)
+    if verdict == TYPED:
+        paid = share
+    else:
+        paid = share * student.assignment.rubric.credit.rows if by_rows else 0.0
+    reason = _reason(verdict, words, kinds, letters, unlinked=unlinked)
+    if verdict == BROKEN:
+        reason = _errors(item, student)
+    return replace(made, verdict=verdict, rows=rows, paid=paid, reason=reason,
+                   coarse=_coarse(item, student, letters, good))  # fmt: skip
+
+
+def _word(kind: str, letter: str, good: bool, fixed: bool) -> str:
+    """What a cell is: its formula right, or what is wrong with it."""
+    if kind == BLANK:
+        return EMPTY
+    if letter == say.NOTHING:  # typed in
+        if kind == TEXT:
+            return WRONG
+        if kind == ERROR:
+            return BROKEN
+        return (RIGHT if fixed else TYPED) if good else WRONG
+    if letter in (say.RIGHT, say.ROUNDED):
+        return RIGHT
+    if kind == ERROR:
+        return BROKEN
+    if not good:
+        return WRONG
+    return STILL if letter == say.STILL else TYPED
+
+
+def _reason(verdict: str, words: Sequence[str], kinds: str, letters: str, *, unlinked: bool) -> str:
+    if verdict == STILL:
+        return (
+            "значения верны только для вашего варианта: при других исходных данных формула даёт "
+            "те же числа"
+        )
+    if verdict == EMPTY:
+        return "заполнены не все строки"
+    if verdict == TYPED:
+        if unlinked:
+            return "формула состоит из одних чисел"
+        if say.PARTLY in letters:
+            return "вместо ссылки в формуле стоит число: при других данных она неверна"
+    if verdict == WRONG and TEXT in kinds and set(words) == {WRONG}:
+        return "вместо числа стоит текст"
+    return ""
+
+
+_ERRORS = {
+    "#DIV/0!": "#ДЕЛ/0! — деление на ноль", "#N/A": "#Н/Д — значение не найдено",
+    "#VALUE!": "#ЗНАЧ! — в вычислении текст", "#REF!": "#ССЫЛКА! — ссылка на удалённую ячейку",
+    "#NUM!": "#ЧИСЛО! — вычислить нельзя", "#NAME?": "#ИМЯ? — неизвестное имя",
+    "#CIRC!": "круговая ссылка", "#NULL!": "#ПУСТО! — области не пересекаются",
+}  # fmt: skip
+
+
+def _errors(item: Item, student: Student) -> str:
+    """Which error values stand in the cells."""
+    found: dict[str, None] = {}
+    for node in item.nodes:
+        place = student.placement.places.get(node)
+        for row in place.rows if place is not None else ():
+            if place is not None and row is not None:
+                text = student.engine.shown(place.sheet, place.column, row)
+                if isinstance(text, str) and text.startswith("#"):
+                    found.setdefault(_ERRORS.get(text, text))
+    return ", ".join(found)
+
+
+def _coarse(item: Item, student: Student, letters: str, good: NDArray[np.bool_]) -> bool:
+    """Whether a column is wrong only because it is rounded more than the book prints."""
+    from reports.recalculation.bench import rounded_to
+
+    digits = [
+        rounded_to(run.formula)
+        for node in item.nodes
+        for run in student.runs(node)
+        if run.formula is not None
+    ]
+    return any(d is not None and d < item.quantity.digits.decimals for d in digits)
 
 
 def _judge_text(item: Item, student: Student, answers: list[Answer]) -> Judgement:
@@ -138,70 +255,131 @@ def _judge_text(item: Item, student: Student, answers: list[Answer]) -> Judgemen
         elif str(found).casefold() != str(student.expected.value(node)).casefold():
             wrong.append(i)
     verdict = EMPTY if empty else WRONG if wrong else RIGHT
-    return Judgement(item, verdict, nothing, nothing, tuple(empty or wrong))
+    return Judgement(item, verdict, nothing, nothing, tuple(empty or wrong),
+                     paid=float(verdict == RIGHT))  # fmt: skip
 
 
-def _where(kinds: str, kind: str) -> tuple[int, ...]:
-    return tuple(i for i, found in enumerate(kinds) if found == kind)
+def _where(flags: Sequence[bool] | NDArray[np.bool_]) -> tuple[int, ...]:
+    return tuple(np.flatnonzero(np.asarray(flags)).tolist())
 
 
 def _is_linked(item: Item, student: Student) -> bool:
-    """Whether the formulas refer to cells on which the result depends.
+    """Whether the formulas refer to any cell of the work-book but titles.
 
-    Other cells of the work-book do as well: there is more than one right way to a value.
+    Which cells does not matter: there is more than one way to a value.
     """
-    needed = student.assignment.ancestors(item)
-    if not needed or any(student.refers_to(node, needed) for node in item.nodes):
+    if not student.assignment.ancestors(item):
         return True
     names = frozenset().union(*(student.precedents(node) for node in item.nodes))
     return any(not name.startswith("report_") for name in names)
 
 
-def _has_wrong(student: Student, item: Item, precedents: frozenset[str] | None) -> bool:
-    """Whether there is an earlier value of the student's that is not the right one."""
-    if precedents is None:
-        precedents = student.assignment.ancestors(item)
-    for name in precedents:
-        answer = student.answers.get(name)
-        if answer is None:
+# --- what an item rests on -------------------------------------------------------------------
+
+
+def _without_ground(found: dict[str, Judgement], student: Student) -> None:
+    """Blanks and circles pass nothing on: what rests on them is no result."""
+    round_ = circles(student)
+    for id_, judgement in found.items():
+        if round_ & set(judgement.item.nodes) and judgement.verdict != UNKNOWN:
+            found[id_] = replace(judgement, verdict=BROKEN, paid=0.0,
+                                 reason=_ROUND)  # fmt: skip
+    void = set(round_)
+    for judgement in found.values():
+        for node in judgement.item.nodes:
+            if is_void(student, node):
+                void.add(node)
+    if not void:
+        return
+    resting = resting_on(student, frozenset(void))
+    names = {node: j.item for j in found.values() for node in j.item.nodes}
+    for id_, judgement in found.items():
+        nodes = set(judgement.item.nodes)
+        if not nodes & resting or nodes & void or judgement.paid <= 0:
             continue
-        right = student.expected.value(name)
-        if isinstance(right, str):
+        near = frozenset().union(*(student.precedents(node) for node in nodes)) & (void | resting)
+        roots = sorted({names[n].id for n in near & void or void if n in names})[:4]
+        circle = near and near <= round_
+        why = "опирается на круговую ссылку" if circle else "опирается на незаполненное"
+        found[id_] = replace(judgement, verdict=GROUNDLESS, paid=0.0, origins=tuple(roots),
+                             reason=why)  # fmt: skip
+
+
+def _backwards(found: dict[str, Judgement], student: Student, response: Response) -> None:
+    """Nothing is earned by going back from numbers that were typed in or given.
+
+    A column that the textbook's way leads to must not be where its own values come from,
+    unless it is calculated itself.
+    """
+    owner = {node: j.item.id for j in found.values() for node in j.item.nodes}
+    live = student.assignment.live_nodes
+    changed = True
+    while changed:
+        changed = False
+        suspects: dict[str, list[str]] = {}
+        for judgement in found.values():
+            if judgement.verdict != RIGHT or judgement.paid <= 0:
+                continue
+            ancestors = student.assignment.ancestors(judgement.item)
+            for node in judgement.item.nodes:
+                if not student.runs(node):
+                    continue
+                for name in student.precedents(node) - ancestors - set(judgement.item.nodes):
+                    bad = name in live or (
+                        name in owner and found[owner[name]].verdict in (TYPED, STILL)
+                    )
+                    if bad:
+                        suspects.setdefault(name, []).append(node)
+        for name, nodes in sorted(suspects.items()):
+            depends = response.depends(nodes, name)
+            for node in nodes:
+                if depends[node] and found[owner[node]].verdict == RIGHT:
+                    why = "взято из готовой таблицы" if name in live else "получено из чисел"
+                    origin = (owner[name],) if name in owner else ()
+                    found[owner[node]] = replace(
+                        found[owner[node]], verdict=STILL, paid=0.0, origins=origin,
+                        reason=f"{why}, а не рассчитано",
+                    )  # fmt: skip
+                    changed = True
+
+
+def _carried(found: dict[str, Judgement], student: Student) -> None:
+    """Right formulas on earlier values that are not right name the columns these came from."""
+    owner = {node: j.item.id for j in found.values() for node in j.item.nodes}
+    for id_, judgement in found.items():
+        if judgement.verdict != RIGHT or np.isnan(judgement.expected).all():
             continue
-        if answer.kinds != NUMBER * len(answer.kinds):
-            return True
-        scale = max(1e-300, float(np.nanmax(np.abs(right))))
-        if not (np.abs(answer.values - np.ravel(right)) <= 1e-9 * scale).all():
-            return True
-    return False
+        allowed = tolerance(judgement.item, judgement.expected, student)
+        good = close(judgement.item, judgement.values, judgement.expected, allowed)
+        if good.all():
+            continue
+        names = frozenset().union(*(student.precedents(n) for n in judgement.item.nodes))
+        near = sorted({owner[n] for n in names if n in owner} - {id_})
+        live = [n for n in names if n in student.assignment.live_nodes]
+        through = student.assignment.graph
+        for name in live:
+            near += sorted({owner[n] for n in through.ancestors(name) if n in owner} - set(near))
+        guilty = [
+            n
+            for n in near
+            if found[n].verdict not in (RIGHT, UNKNOWN) or _is_off(found[n], student)
+        ]
+        if not guilty:
+            continue  # roundings on the way, or a value that is not known
+        wrong = [n for n in guilty if found[n].verdict not in (RIGHT, CARRIED)]
+        found[id_] = replace(judgement, verdict=CARRIED, rows=_where(~good),
+                             origins=tuple((wrong or guilty)[:4]), precedents=names)  # fmt: skip
 
 
-def _carried(
-    item: Item,
-    student: Student,
-    values: Array,
-    expected: Array,
-    allowed: float,
-    precedents: frozenset[str],
-) -> tuple[Array | None, str]:
-    """What the student's own earlier values give, and how the column was found to follow them."""
-    own = _own(item, student, precedents)
-    if own is not None:
-        scale = np.abs(own[np.isfinite(own)])
-        own_allowed = max(allowed, 1e-10 * float(scale.max())) if scale.size else allowed
-        if close(item, values, own, own_allowed).all():
-            return own, "expression"
-    # The textbook's formula is not the only right one: whatever is written here, does it
-    # give the right column from right earlier columns?
-    parts = [student.with_right_precedents(node) for node in item.nodes]
-    if all(part is not None for part in parts):
-        made = np.concatenate([part for part in parts if part is not None])
-        if close(item, made, expected, allowed).all():
-            return own, "formula"
-    return own, ""
+def _is_off(judgement: Judgement, student: Student) -> bool:
+    """Whether a right formula's values are not the right ones for more than roundings."""
+    if judgement.verdict != RIGHT:
+        return judgement.verdict != UNKNOWN
+    allowed = 20 * tolerance(judgement.item, judgement.expected, student)
+    return not close(judgement.item, judgement.values, judgement.expected, allowed).all()
 
 
-def _own(item: Item, student: Student, precedents: frozenset[str] | None) -> Array:
+def own_values(item: Item, student: Student, precedents: frozenset[str] | None) -> Array:
     """The textbook's formula on the student's own values of the cells that are referred to.
 
     Cells that the formula does not refer to are calculated from those that it does:
@@ -217,14 +395,6 @@ def _own(item: Item, student: Student, precedents: frozenset[str] | None) -> Arr
     return np.concatenate(parts)
 
 
-def judge_all(student: Student) -> list[Judgement]:
-    """Verdicts on all items, in the order of the book."""
-    found = []
-    for item in student.assignment.items:
-        try:
-            found.append(judge(item, student))
-        except UnknownFormula as problem:
-            count = sum(student.assignment.length(node) for node in item.nodes)
-            nothing = np.full(count, np.nan)
-            found.append(Judgement(item, UNKNOWN, nothing, nothing, reason=str(problem)))
-    return found
+def verdicts_of(judgements: Sequence[Judgement]) -> Mapping[str, str]:
+    """Item → verdict."""
+    return {judgement.item.id: judgement.verdict for judgement in judgements}

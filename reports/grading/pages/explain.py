@@ -13,7 +13,8 @@ from reports.grading.issuing.register import FILE, checked_register
 from reports.grading.issuing.rubric import load_rubric
 from reports.grading.judging.causes import Causes
 from reports.grading.judging.marking import Marker
-from reports.grading.judging.verdicts import WORDS, WRONG, Judgement, judge, tolerance
+from reports.grading.judging.tolerances import tolerance
+from reports.grading.judging.verdicts import CARRIED, WORDS, WRONG, Judgement, judge_all, own_values
 from reports.grading.pages.pages import number, rows
 from reports.grading.reading.matching import find_owner
 from reports.grading.reading.student import Student
@@ -57,7 +58,8 @@ def explain(
     marker = Marker(register)
     student = marker.student(match.book, grid)
     item = _find_item(student, target)
-    judgement = judge(item, student)
+    judgements = judge_all(student, marker.response(student))
+    judgement = next(j for j in judgements if j.item is item)
     yield f"Студент: {match.book.student.full}, вариант {match.book.number}"
     yield "Основание: " + "; ".join(match.evidence)
     others = marker.others(match.book.number)
@@ -131,8 +133,10 @@ def _about(student: Student, item: Item, judgement: Judgement, causes: Causes) -
     allowed = tolerance(item, judgement.expected, student)
     printed = short(10.0**-item.quantity.digits.decimals)
     yield f"Допуск: {number(allowed)} (округление учебника {printed})"
+    carried = judgement.verdict == CARRIED
+    mine = own_values(item, student, judgement.precedents - set(item.nodes)) if carried else None
     for index in _rows_to_show(judgement):
-        own = judgement.own[index] if judgement.own is not None else None
+        own = mine[index] if mine is not None else None
         line = (
             f"  {item.labels[index] or 'значение'}: у студента {number(judgement.values[index])}, "
             f"правильно {number(judgement.expected[index])}"
@@ -141,12 +145,10 @@ def _about(student: Student, item: Item, judgement: Judgement, causes: Causes) -
     yield f"Вердикт: {WORDS[judgement.verdict]}"
     if judgement.reason:
         yield f"Пояснение: {judgement.reason}"
-    if judgement.path:
-        ways = {
-            "expression": "формула учебника на его предыдущих значениях даёт тот же столбец",
-            "formula": "его формула на правильных предыдущих значениях даёт правильный столбец",
-        }
-        yield f"Почему перенос: {ways[judgement.path]}"
+    if judgement.origins:
+        yield "Откуда: " + ", ".join(judgement.origins)
+    if carried:
+        yield "Почему перенос: при других исходных данных его формула даёт правильный столбец"
     if judgement.typed:
         yield "Числа вместо формул: " + rows([item.labels[i] for i in judgement.typed])
     if judgement.verdict == WRONG:

@@ -10,6 +10,8 @@ from typing import Any
 from reports.exports.numbers import neutralised
 
 _HEAD = ("Вариант", "Студент", "Группа", "Баллы", "Из", "Состояние", "Файл", "Замечания")
+# Filled in by the instructor, read back by the next run.
+DECISION = ("Решение: баллы", "Решение: примечание")
 
 
 def gradebook_csv(rows: Sequence[dict[str, Any]], maximum: float) -> str:
@@ -54,9 +56,10 @@ def moodle_csv(rows: Sequence[dict[str, Any]]) -> str:
 
 
 def gradebook_xlsx(rows: Sequence[dict[str, Any]], maximum: float) -> bytes:
-    """The gradebook as a workbook with a filter."""
+    """The gradebook as a workbook: marks on one printed page, points by tables on the next."""
     from openpyxl import Workbook
-    from openpyxl.styles import Alignment, Font, PatternFill
+    from openpyxl.styles import Alignment, Font, PatternFill, Protection
+    from openpyxl.worksheet.pagebreak import Break, ColBreak
 
     from reports.workbook.caches import finish
     from reports.workbook.styles import as_text
@@ -65,25 +68,42 @@ def gradebook_xlsx(rows: Sequence[dict[str, Any]], maximum: float) -> bytes:
     sheet = book.active
     sheet.title = "Оценки"
     blocks = _blocks(rows)
-    sheet.append([*_HEAD, *blocks])
+    head = ("Вариант", "Студент", "Группа", "Баллы", "Из", "Состояние", "Замечания", *DECISION)
+    sheet.append([*head, *blocks, "Файл"])
+    wrapped = Alignment(wrap_text=True, vertical="top")
+    yellow = PatternFill("solid", fgColor="FFF9DB")
     for row in rows:
-        shares = _shares(row)
+        shares, word = _shares(row), row["decision"] or {}
+        points = "+" if word and word["points"] is None else word.get("points")
         sheet.append(
             [row["number"], row["student"], row["group"], row["points"], maximum, row["status"],
-             row["file"], row["remark"], *(shares.get(block) for block in blocks)]
+             row["remark"], points, word.get("remark"), *(shares.get(block) for block in blocks),
+             row["file"]]
         )  # fmt: skip
         for cell in sheet[sheet.max_row]:
             as_text(cell)
+            cell.alignment = wrapped
+        for column in (8, 9):
+            sheet.cell(sheet.max_row, column).fill = yellow
+            sheet.cell(sheet.max_row, column).protection = Protection(locked=False)
         if row["manual"]:
             sheet.cell(sheet.max_row, 6).fill = PatternFill("solid", fgColor="F8CBAD")
     for cell in sheet[1]:
         cell.font = Font(bold=True)
-        cell.alignment = Alignment(wrap_text=True, vertical="top")
-    widths = (9, 34, 14, 10, 8, 24, 40, 60, *(12 for _ in blocks))
+        cell.alignment = wrapped
+    widths = (9, 28, 11, 9, 7, 17, 58, 10, 26, *(10 for _ in blocks), 30)
     for cell, width in zip(sheet[1], widths, strict=True):
         sheet.column_dimensions[cell.column_letter].width = width
     sheet.freeze_panes = sheet.cell(2, 3)
     sheet.auto_filter.ref = sheet.dimensions
+    sheet.page_setup.orientation, sheet.page_setup.paperSize = "landscape", sheet.PAPERSIZE_A4
+    sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight = 2, 0
+    sheet.sheet_properties.pageSetUpPr.fitToPage = True
+    sheet.print_title_rows, sheet.print_title_cols = "1:1", "A:B"
+    sheet.col_breaks = ColBreak()
+    sheet.col_breaks.append(Break(id=len(head)))
+    sheet.oddFooter.center.text = "Лист &P из &N"
+    sheet.page_margins.left = sheet.page_margins.right = 0.4
     stream = io.BytesIO()
     book.save(stream)
     return finish(stream.getvalue())
@@ -94,7 +114,7 @@ def _blocks(rows: Sequence[dict[str, Any]]) -> list[str]:
     for row in rows:
         for line in (row["result"] or {}).get("items", []):
             if line["of"]:
-                found.setdefault(line["block"])
+                found.setdefault(line["heading"])
     return list(found)
 
 
@@ -103,7 +123,7 @@ def _shares(row: dict[str, Any]) -> dict[str, float]:
     found: dict[str, float] = {}
     for line in (row["result"] or {}).get("items", []):
         if line["of"]:
-            found[line["block"]] = found.get(line["block"], 0.0) + line["points"]
+            found[line["heading"]] = found.get(line["heading"], 0.0) + line["points"]
     return {block: round(value, 2) for block, value in found.items()}
 
 

@@ -36,21 +36,30 @@ def _environment() -> Environment:
 
 
 def student_page(result: dict[str, Any], rubric: Rubric) -> str:
-    """Feedback of one submission as a page that needs no other file."""
-    lines = result.get("items", [])
+    """Feedback of one submission as a page that needs no other file: what is wrong first."""
     full = rubric.feedback.mode == "full"
-    blocks: dict[str, list[dict[str, Any]]] = {}
-    for line in lines:
-        if line["verdict"] != "empty" or line["of"] > 0:
-            blocks.setdefault(_heading(line), []).append({**line, "svg": _chart(line, full)})
+    lines = [{**line, "svg": _chart(line, full)} for line in result.get("items", [])]
+    labels = {line["id"]: line["label"] for line in lines}
+    wrong = [line for line in lines if line["verdict"] not in ("right", "carried")]
+    rank = {word: number for number, word in enumerate(WORDS)}
+    wrong.sort(key=lambda line: (rank[line["verdict"]], -(line["of"] - line["points"])))
+    empty = [
+        line
+        for line in wrong
+        if (line["verdict"] == "empty" and not line["rows"]) or line["verdict"] == "groundless"
+    ]
     counts = dict.fromkeys(WORDS, 0)
     for line in lines:
-        if line["of"] > 0:
-            counts[line["verdict"]] += 1
+        counts[line["verdict"]] += 1
     template = _environment().get_template("student.html.j2")
     return template.render(
         result=result,
-        blocks=blocks,
+        wrong=[line for line in wrong if line not in empty],
+        empty=_by_heading(empty),
+        carried=_by_heading([line for line in lines if line["verdict"] == "carried"]),
+        right=_by_heading([line for line in lines if line["verdict"] == "right"]),
+        totals=_totals(lines),
+        labels=labels,
         counts={key: n for key, n in counts.items() if n},
         words=WORDS,
         full=full,
@@ -58,13 +67,30 @@ def student_page(result: dict[str, Any], rubric: Rubric) -> str:
     )
 
 
+def _by_heading(lines: list[dict[str, Any]]) -> dict[str, list[dict[str, Any]]]:
+    found: dict[str, list[dict[str, Any]]] = {}
+    for line in lines:
+        found.setdefault(line["heading"], []).append(line)
+    return found
+
+
+def _totals(lines: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Points of each table."""
+    return [
+        {
+            "heading": heading,
+            "points": sum(line["points"] for line in own),
+            "of": sum(line["of"] for line in own),
+            "wrong": sum(line["verdict"] not in ("right", "carried") for line in own),
+            "count": len(own),
+        }
+        for heading, own in _by_heading(lines).items()
+    ]
+
+
 def class_page(summary: dict[str, Any]) -> str:
     """The summary of a class."""
     return _environment().get_template("summary.html.j2").render(summary=summary, words=WORDS)
-
-
-def _heading(line: dict[str, Any]) -> str:
-    return f"Таблица {line['table']}" if line["table"] else "Отдельные величины"
 
 
 def _chart(line: dict[str, Any], full: bool) -> Markup:

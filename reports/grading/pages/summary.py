@@ -8,35 +8,62 @@ from statistics import mean, median
 from typing import Any
 
 from reports.grading.issuing.register import Register
-from reports.grading.judging.similarity import signals
+from reports.grading.judging.similarity import signals, suspicions
 from reports.grading.judging.verdicts import CARRIED, EMPTY, RIGHT, TYPED
 
 _BAR = 160  # px of the longest bar
 _STEPS = 10
 
 
-def choose(results: Sequence[dict[str, Any]]) -> dict[int, dict[str, Any]]:
-    """The result that counts for each student: of several graded files the last one."""
+def choose(results: Sequence[dict[str, Any]], count: str = "last") -> dict[int, dict[str, Any]]:
+    """The result that counts for each student: of several graded files the last or the best.
+
+    One's own file comes before one that came under another's name.
+    """
     chosen: dict[int, dict[str, Any]] = {}
-    for result in sorted(results, key=_order):
+
+    def order(result: dict[str, Any]) -> tuple[Any, ...]:
+        points = result.get("points") or 0.0
+        return (
+            result.get("submitter") is None,
+            result["status"] == "graded",
+            points if count == "best" else 0.0,
+            result["time"] or "",
+            result["key"],
+        )
+
+    for result in sorted(results, key=order):
         if result.get("number") is not None:
             chosen[result["number"]] = result
     return chosen
 
 
-def _order(result: dict[str, Any]) -> tuple[bool, str, str]:
-    """A graded file counts before any other, a later one before an earlier."""
-    return result["status"] == "graded", result["time"] or "", result["key"]
-
-
 def table_rows(register: Register, results: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     """A row for each student of the register, then one for each file without an owner."""
-    chosen = choose(results)
-    copies = Counter(r["number"] for r in results if r.get("number") is not None)
+    count = register.rubric.attempts.count
+    chosen, held = choose(results, count), suspicions(results)
+    copies = Counter(
+        r["number"] for r in results if r.get("number") is not None and r.get("submitter") is None
+    )
+    strange = {r["submitter"]: r for r in results if r.get("submitter") is not None}
     rows = []
     for book in register.books:
         result = chosen.get(book.number)
-        remarks = _remarks(result, copies[book.number])
+        other = strange.get(book.number) if result is None else None
+        doubts = held.get((result or other or {}).get("key", ""), [])
+        word = (result or {}).get("decision")
+        if word:  # a person has looked
+            doubts = []
+        foreign = result is not None and result.get("submitter") is not None
+        if result is not None and foreign and not doubts and not word:
+            doubts = list(result["manual"])
+        points = result.get("points") if result else None
+        remarks = _remarks(result, copies[book.number], count)
+        if other is not None:
+            remarks = list(doubts)
+        remarks = list(dict.fromkeys([*doubts, *remarks]))
+        if doubts and points is not None:
+            remarks.append(f"баллы до решения преподавателя: {points:g}")
         rows.append(
             {
                 "number": book.number,
@@ -44,23 +71,25 @@ def table_rows(register: Register, results: Sequence[dict[str, Any]]) -> list[di
                 "group": book.student.group,
                 "id": book.student.number,
                 "email": book.student.email,
-                "file": result["file"] if result else "",
-                "status": _status(result),
-                "points": result.get("points") if result else None,
+                "file": (result or other or {}).get("file", ""),
+                "status": "ждёт решения" if doubts else _status(result),
+                "points": None if doubts else points,
+                "provisional": points,
                 "result": result,
                 "page": result.get("page", "") if result else "",
-                "manual": bool(result and result["manual"]),
+                "manual": bool(doubts or (result and result["manual"])),
                 "remark": "; ".join(remarks),
+                "decision": word,
             }
         )
     for result in results:
-        if result.get("number") is None:
+        if result.get("number") is None and result.get("submitter") is None:
             rows.append(
                 {
                     "number": None, "student": f"? ({result['file']})", "group": "", "id": "",
                     "email": "", "file": result["file"], "status": _status(result), "points": None,
-                    "result": result, "page": result.get("page", ""), "manual": True,
-                    "remark": "; ".join(result["manual"]),
+                    "provisional": None, "result": result, "page": result.get("page", ""),
+                    "manual": True, "remark": "; ".join(result["manual"]), "decision": None,
                 }
             )  # fmt: skip
     return rows
@@ -74,21 +103,26 @@ def _status(result: dict[str, Any] | None) -> str:
     return "нужна ручная проверка" if result["status"] == "graded" and result["manual"] else word
 
 
-def _remarks(result: dict[str, Any] | None, copies: int) -> list[str]:
+def _remarks(result: dict[str, Any] | None, copies: int, count: str) -> list[str]:
     if result is None:
         return ["работа не сдана"]
     found = [*result["manual"], *result["notes"]]
+    for entry in result.get("decisions", ()):
+        what = f" ({entry['item']})" if entry["item"] else ""
+        found.append(f"решение преподавателя{what}: {entry['remark'] or 'без примечания'}")
     if copies > 1:
-        found.append(f"сдано файлов: {copies}, оценён последний ({result['file']})")
+        which = "лучший" if count == "best" else "последний"
+        found.append(f"сдано файлов: {copies}, оценён {which} ({result['file']})")
     return found
 
 
 def summarise(register: Register, results: Sequence[dict[str, Any]]) -> dict[str, Any]:
     """Everything that the page of the class shows."""
     rows = table_rows(register, results)
-    chosen = choose(results)
+    chosen = choose(results, register.rubric.attempts.count)
     graded = [r for _, r in sorted(chosen.items()) if r["status"] == "graded"]
-    marks = [float(result["points"]) for result in graded]
+    marks = [float(row["points"]) for row in rows if row["points"] is not None]
+    held = suspicions(results)
     times = sorted(r["time"] for r in chosen.values() if r["time"])
     return {
         "files": len(results),
@@ -105,9 +139,13 @@ def summarise(register: Register, results: Sequence[dict[str, Any]]) -> dict[str
         "hardest": _hardest(graded),
         "signals": signals(results),
         "manual": [
-            {"who": _name(r), "why": r["manual"], "page": r.get("page", "")}
+            {
+                "who": _name(r),
+                "why": list(dict.fromkeys([*r["manual"], *held.get(r["key"], ())])),
+                "page": r.get("page", ""),
+            }
             for r in results
-            if r["manual"]
+            if (r["manual"] or held.get(r["key"])) and not r.get("decision")
         ],
         "rows": rows,
     }
@@ -139,10 +177,9 @@ def _hardest(graded: list[dict[str, Any]], limit: int = 15) -> list[dict[str, An
         for line in result["items"]:
             if not line["of"]:
                 continue
-            where = f"{line['table']}, " if line["table"] else ""
             entry = lines.setdefault(
                 line["id"],
-                {"title": f"{where}{line['symbol']} — {line['title']}", "right": 0, "carried": 0,
+                {"title": f"{line['label']} — {line['title']}", "right": 0, "carried": 0,
                  "typed": 0, "wrong": 0, "empty": 0},
             )  # fmt: skip
             verdict = line["verdict"]

@@ -19,11 +19,16 @@ from reports.workbook.package import Package
 
 @dataclass(frozen=True, slots=True)
 class Match:
-    """The issued work-book a file belongs to, why, and what speaks against it."""
+    """The issued work-book a file belongs to, why, and what speaks against it.
+
+    ``submitter`` is the other student under whose name the file came.  While there are
+    doubts, a person decides before any points are given.
+    """
 
     book: Issued | None
     evidence: tuple[str, ...]
     doubts: tuple[str, ...]
+    submitter: Issued | None = None
 
 
 def find_owner(register: Register, submission: Submission, grid: Grid, package: Package) -> Match:
@@ -40,11 +45,12 @@ def find_owner(register: Register, submission: Submission, grid: Grid, package: 
     ]
     if len(known) > 1:
         names = ", ".join(by_ticket[text].student.full for text in known)
-        return Match(
-            None, tuple(evidence), (*doubts, f"в файле идентификаторы разных работ: {names}")
-        )
+        text = f"в файле идентификаторы разных работ: {names}"
+        submitter = named[0] if named is not None else None
+        return Match(None, tuple(evidence), (*doubts, text), submitter)
     if len(known) == 1:
         book = by_ticket[next(iter(known))]
+        other = named[0] if named is not None and named[0] is not book else None
         if named is not None and named[0] is not book:
             doubts.append(
                 f"файл сдал(а) {named[0].student.full} ({named[1]}), "
@@ -52,12 +58,13 @@ def find_owner(register: Register, submission: Submission, grid: Grid, package: 
             )
         elif named is not None:
             evidence.append(named[1])
-        return Match(book, tuple(evidence), tuple(doubts))
+        return Match(book, tuple(evidence), tuple(doubts), other)
     if named is None:
         return Match(None, (), (*doubts, "нет идентификатора, имя файла не указывает на студента"))
     if tickets:
-        return Match(None, (named[1],), tuple(doubts))
-    return Match(named[0], (f"идентификатора нет; {named[1]}",), ())
+        return Match(None, (named[1],), tuple(doubts), named[0])
+    doubts.append("в файле нет идентификатора: это не выданная книга или он удалён")
+    return Match(named[0], (f"идентификатора нет; {named[1]}",), tuple(doubts))
 
 
 def find_by_name(register: Register, submission: Submission) -> Match:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -11,11 +12,12 @@ from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.reading.placement import Place, Placement, find_places
+from reports.recalculation.bench import Cells, pinned
 from reports.recalculation.evaluate import BLANK, ERROR, Engine
-from reports.recalculation.grid import Area, Column, Grid, Run
+from reports.recalculation.formulas import is_doubtful
+from reports.recalculation.grid import Area, Grid, Run
 from reports.recalculation.language import UnknownFormula
 from reports.spec.evaluation import Evaluation
-from reports.workbook.inputs import shown
 from reports.workbook.layout import Layout
 
 Array = NDArray[np.float64]
@@ -61,71 +63,18 @@ class Student:
     placement: Placement
     expected: Evaluation
     changed: list[Changed] = field(default_factory=list)
+    rewritten: set[str] = field(default_factory=set)  # given formulas that read otherwise
 
     @classmethod
     def of(cls, assignment: Assignment, layout: Layout, grid: Grid) -> Student:
-        """Find the tables of a workbook and put the protected cells back as they were issued."""
+        """Find the tables of a workbook; ``restoring.restore`` puts back what was issued."""
         placement = find_places(assignment.kept_model, layout, grid)
-        made = cls(assignment, layout, grid, placement, Evaluation(assignment.model))
-        made._restore()
-        return made
+        return cls(assignment, layout, grid, placement, Evaluation(assignment.model))
 
     @cached_property
     def engine(self) -> Engine:
         """The formulas, calculated with the issued input data."""
         return Engine(self.grid)
-
-    # --- input data -------------------------------------------------------------------
-
-    def _restore(self) -> None:
-        """Input data and given numbers as issued; what was changed is remembered."""
-        model = self.assignment.kept_model
-        for name, item in model.fields.items():
-            place = self.placement.places.get(name)
-            if place is not None:
-                self._put(place, 0, name, shown(item))
-        for node in sorted(self.assignment.given_nodes):
-            place = self.placement.places.get(node)
-            if place is None:
-                continue
-            value = self.expected.value(node)
-            if isinstance(value, str):
-                self._put(place, 0, node, value)
-                continue
-            values = np.ravel(value)
-            if self._as_issued(place, values):
-                continue
-            for index, given in enumerate(values.tolist()):
-                if place.rows[index] is not None:
-                    self._put(place, index, node, given)
-
-    def _as_issued(self, place: Place, values: Array) -> bool:
-        """Whether these very numbers stand in the cells of a place."""
-        column = self.grid.column(place.sheet, place.column)
-        if column.runs or column.errors:
-            return False
-        found = [column.constants.get(row, "") for row in place.rows if row is not None]
-        if len(found) < len(values) or any(type(number) is not float for number in found):
-            return False
-        far = np.abs(np.array(found) - values) > 1e-9 * np.maximum(1, np.abs(values))
-        return not far.any()
-
-    def _put(self, place: Place, index: int, name: str, value: float | str) -> None:
-        row = place.rows[index]
-        column = self.grid.sheets[place.sheet].setdefault(place.column, Column())
-        run = next(iter(column.runs_in(row, row)), None) if row is not None else None
-        found = column.constants.get(row) if row is not None else None
-        if run is None and row not in column.errors and _same(found, value):
-            return
-        if run is None and found is None and value == "":
-            return
-        assert row is not None
-        text = "формула" if run is not None else "пусто" if found is None else str(found)
-        where = f"{place.sheet}!{address(row, place.column)}"
-        self.changed.append(Changed(where, name, value, text))
-        column.cut({row})
-        column.errors.pop(row, None)
-        column.constants[row] = value if isinstance(value, str) else float(value)
 
     # --- answers ----------------------------------------------------------------------
 
@@ -133,8 +82,8 @@ class Student:
     def answers(self) -> dict[str, Answer]:
         """Answer of every node to fill in."""
         found = {}
-        for block in self.assignment.fill:
-            for node in self.assignment.nodes(block):
+        for item in self.assignment.items:
+            for node in item.nodes:
                 found[node] = self._answer(node)
         return found
 
@@ -194,14 +143,22 @@ class Student:
 
     def precedents(self, node: str) -> frozenset[str]:
         """Nodes and inputs that a node's formulas refer to, through own helper cells too."""
-        return self._precedents(node, frozenset())
+        return self.refers(node) - {node}
 
-    def refers_to(self, node: str, wanted: frozenset[str]) -> bool:
-        """Whether a node's formulas refer to any of some nodes; quicker than all precedents."""
-        return not wanted.isdisjoint(self._precedents(node, wanted))
+    def refers(self, node: str) -> frozenset[str]:
+        """Precedents of a node, itself among them where it refers to its own column."""
+        return self._seen_from(node)[0]
 
-    def _precedents(self, node: str, enough: frozenset[str]) -> frozenset[str]:
-        """Precedents of a node, or those found until one of ``enough`` is among them."""
+    def _seen_from(self, node: str) -> tuple[frozenset[str], frozenset[Run]]:
+        if node not in self._walked:
+            self._walked[node] = self._walk(node)
+        return self._walked[node]
+
+    @cached_property
+    def _walked(self) -> dict[str, tuple[frozenset[str], frozenset[Run]]]:
+        return {}
+
+    def _walk(self, node: str) -> tuple[frozenset[str], frozenset[Run]]:
         found: set[str] = set()
         seen: set[Run] = set()
         stack = self.runs(node)
@@ -213,11 +170,8 @@ class Student:
             for area in self.grid.precedents(run):
                 hit, rest = self._nodes_in(area)
                 found |= hit
-                if not enough.isdisjoint(hit - {node}):
-                    return frozenset(found - {node})
                 stack += rest
-        found.discard(node)
-        return frozenset(found)
+        return frozenset(found), frozenset(seen)
 
     def _nodes_in(self, area: Area) -> tuple[set[str], list[Run]]:
         nodes: set[str] = set()
@@ -240,51 +194,132 @@ class Student:
                     helpers.append(run)
         return nodes, helpers
 
-    # --- what would have been -----------------------------------------------------------
+    def assume(self, unknown: Collection[str]) -> None:
+        """Go on where a formula cannot be calculated: with its saved numbers, else right ones.
 
-    def with_right_precedents(self, node: str) -> Array | None:
-        """Values that a node's own formulas give from right precedents; None if they cannot."""
+        What cannot be calculated is one person's look; what follows from it is judged.
+        """
+        waiting = [n for n, a in self.answers.items() if a.problem and n not in unknown]
+        if not waiting:
+            return
+        cells = []
+        for node, answer in self.answers.items():
+            place, right = answer.place, self.expected.value(node)
+            if place is None or isinstance(right, str):
+                continue
+            column = self.grid.column(place.sheet, place.column)
+            saved = dict(zip(column.saved_rows, column.saved, strict=True))
+            found = {}
+            for row, number in zip(place.rows, np.ravel(right).tolist(), strict=True):
+                text = column.constants.get(row) if row is not None else None
+                if row is not None and node in unknown:
+                    claim = saved.get(row, np.nan)
+                    found[row] = number if np.isnan(claim) else claim
+                elif row is not None and isinstance(text, str) and is_doubtful(text):
+                    found[row] = _read(text, number)
+            if found:
+                rows = tuple(found)
+                values = tuple(found.values())
+                cells.append(Cells(place.sheet, place.column, rows, values))
+        self.engine = Engine(pinned(self.grid, cells))
+        for node in waiting:
+            self.answers[node] = self._answer(node)
+
+    # --- what rests on what -----------------------------------------------------------
+
+    def cells_of(self, node: str, values: object) -> list[Cells]:
+        """The cells of a node with values."""
         place = self.placement.places.get(node)
-        runs = self.runs(node)
-        if place is None or not runs:
-            return None
-        index = {row: i for i, row in enumerate(place.rows) if row is not None}
-        values = np.full(len(place.rows), np.nan)
-        try:
-            for run in runs:
-                part = self._pinned.once(run)
-                for row in range(run.first, run.last + 1):
-                    if row in index:
-                        values[index[row]] = part[row - run.first]
-        except UnknownFormula:
-            return None
-        return values
+        if place is None:
+            return []
+        given = [values] if isinstance(values, str) else np.ravel(np.asarray(values)).tolist()
+        kept = [(r, v) for r, v in zip(place.rows, given, strict=True) if r is not None]
+        if not kept:
+            return []
+        rows, numbers = zip(*kept, strict=True)
+        return [Cells(place.sheet, place.column, rows, numbers)]
 
     @cached_property
-    def _pinned(self) -> Engine:
-        """The workbook with the right values typed into all cells to fill in."""
-        sheets = {
-            title: {
-                number: Column(dict(c.constants), dict(c.errors), list(c.runs))
-                for number, c in columns.items()
-            }
-            for title, columns in self.grid.sheets.items()
-        }
-        grid = Grid(sheets, self.grid.names, self.grid.areas)
-        for node in self.assignment.fill_nodes:
-            place = self.placement.places.get(node)
-            if place is None:
-                continue
-            right = self.expected.value(node)
-            column = sheets[place.sheet].setdefault(place.column, Column())
-            rows = {r for r in place.rows if r is not None}
-            column.cut(rows)
-            for i, row in enumerate(place.rows):
-                if row is not None:
-                    column.errors.pop(row, None)
-                    value = right if isinstance(right, str) else float(np.ravel(right)[i])
-                    column.constants[row] = value
-        return Engine(grid)
+    def own_constants(self) -> list[tuple[str, int, int, float]]:
+        """Numbers typed into cells that are none of the work-book's."""
+        taken: dict[tuple[str, int], set[int | None]] = {}
+        for place in self.placement.places.values():
+            taken.setdefault((place.sheet, place.column), set()).update(place.rows)
+        return [
+            (sheet, number, row, value)
+            for sheet, columns in self.grid.sheets.items()
+            for number, column in columns.items()
+            for row, value in column.constants.items()
+            if type(value) is float and row not in taken.get((sheet, number), ())
+        ]
+
+    def helpers(self, node: str) -> list[Run]:
+        """Formulas of one's own, outside the tables, that a node refers to."""
+        return [run for run in self._seen_from(node)[1] if run not in self.runs(node)]
+
+    def signature(self, node: str) -> tuple[object, ...] | None:
+        """What a node's formulas are, where they refer to nothing but cells as issued."""
+        if not self.as_laid_out:
+            return None
+        place = self.placement.places[node]
+        if place.span is None:
+            return None
+        parts: list[object] = [node]
+        for run in self.runs(node):
+            if run.formula is None or run.problem or run.array is not None:
+                return None
+            if not all(self._is_known(area) for area in self.grid.precedents(run)):
+                return None
+            parts.append((run.first, run.count, run.formula))
+        return tuple(parts)
+
+    @cached_property
+    def as_laid_out(self) -> bool:
+        """Whether every cell of the tables stands where it was issued."""
+        layout = self.layout
+        for name, place in self.placement.places.items():
+            if name in layout.cells:
+                cell = layout.cells[name]
+                if (place.sheet, place.column, place.rows) != (
+                    cell.sheet,
+                    cell.column,
+                    (cell.row,),
+                ):
+                    return False
+            elif name in layout.columns:
+                table, column = layout.columns[name]
+                if (place.sheet, place.column) != (table.sheet, column):
+                    return False
+                if place.rows != tuple(layout.rows_of(table)):
+                    return False
+        return True
+
+    def _is_known(self, area: Area) -> bool:
+        """Whether all cells of a rectangle belong to the tables or the input."""
+        key = (area.sheet, area.first_row, area.last_row, area.first_column, area.last_column)
+        found = self._areas_known.get(key)
+        if found is None:
+            found = self._areas_known[key] = all(
+                _covered(
+                    area.first_row,
+                    area.last_row,
+                    [entry[1:] for entry in self._columns_at.get((area.sheet, number), [])],
+                )
+                for number in range(area.first_column, min(area.last_column, 200) + 1)
+            )
+        return found
+
+    @cached_property
+    def _areas_known(self) -> dict[tuple[object, ...], bool]:
+        return {}
+
+
+def _read(text: str, otherwise: float) -> float:
+    """A number written as a text."""
+    try:
+        return float(re.sub(r"\s", "", text).replace(",", "."))
+    except ValueError:
+        return otherwise
 
 
 def _covered(low: int, high: int, taken: list[tuple[int, int, Place]]) -> bool:
@@ -294,14 +329,6 @@ def _covered(low: int, high: int, taken: list[tuple[int, int, Place]]) -> bool:
             return True
     rows = {row for _, _, place in taken for row in place.rows}
     return all(row in rows for row in range(low, high + 1))
-
-
-def _same(found: float | str | bool | None, wanted: float | str) -> bool:
-    if isinstance(wanted, str):
-        return isinstance(found, str) and found.strip() == wanted.strip()
-    if found is None or isinstance(found, str):
-        return False
-    return abs(float(found) - float(wanted)) <= 1e-9 * max(1.0, abs(float(wanted)))
 
 
 def address(row: int, column: int) -> str:

@@ -96,8 +96,10 @@ def _single(file: Path, key: str) -> Submission:
 
 
 def _is_hidden(key: str) -> bool:
-    """Names of the system's own files and of Excel's locks."""
-    return any(part.startswith((".", "~$")) or part == "__MACOSX" for part in key.split("/"))
+    """Names of the system's own files, of Excel's locks, and texts typed into Moodle."""
+    return "_assignsubmission_onlinetext_" in key or any(
+        part.startswith((".", "~$")) or part == "__MACOSX" for part in key.split("/")
+    )
 
 
 def _is_archive(path: Path) -> bool:

@@ -1,0 +1,186 @@
+"""A person's word on a work: kept beside the results, stronger than the program's."""
+
+from __future__ import annotations
+
+import copy
+import json
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+from reports.grading.issuing.register import Issued, Register
+from reports.grading.judging.marking import rescored
+from reports.shared.errors import InputError, Problem, one_line
+from reports.shared.files import write_text
+
+FILE = "decisions.json"
+WHOLE = ""  # in the place of an item: the whole work
+ACCEPT, WITHDRAW = "+", "-"  # in the place of points
+_MOST = 500  # signs of a remark
+_WHOLE_WORDS = ("", "-", "всё", "все", "работа", "*")
+_TABLE_HEADS = ("Решение: баллы", "Решение: примечание")
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """Points for an item or a whole work; None accepts the points of the program."""
+
+    number: int
+    item: str
+    points: float | None
+    remark: str
+    author: str
+    date: str
+
+
+def load_decisions(folder: Path) -> list[Decision]:
+    """Decisions of a folder of results.
+
+    Raises:
+        InputError: the file is damaged: a person's word is never dropped silently.
+    """
+    path = folder / FILE
+    if not path.exists():
+        return []
+    try:
+        data = json.loads(path.read_text(encoding="utf-8"))
+        return [Decision(**entry) for entry in data["decisions"]]
+    except (OSError, ValueError, TypeError, KeyError):
+        what = "файл решений преподавателя повреждён"
+        raise InputError(Problem(str(path), what, "верните его копию или удалите его")) from None
+
+
+def save_decisions(folder: Path, decisions: Sequence[Decision]) -> None:
+    """Write the decisions of a folder."""
+    ordered = sorted(decisions, key=lambda d: (d.number, d.item))
+    data = {"format": "kshm-decisions", "decisions": [asdict(entry) for entry in ordered]}
+    write_text(folder / FILE, json.dumps(data, ensure_ascii=False, indent=1) + "\n")
+
+
+def decided(
+    kept: Sequence[Decision], register: Register, results: Sequence[dict[str, Any]],
+    words: Sequence[tuple[str, str, str, str]], author: str,
+) -> list[Decision]:  # fmt: skip
+    """Decisions with those of a command added: who, what, points, remark.
+
+    Raises:
+        InputError: no such student or item, or points that are none.
+    """
+    made = {(entry.number, entry.item): entry for entry in kept}
+    for who, what, points, remark in words:
+        book = _student(register, results, who)
+        item = WHOLE if what.strip().casefold() in _WHOLE_WORDS else what.strip()
+        known = {
+            line["id"] for r in results if r.get("number") == book.number for line in r["items"]
+        }
+        if item and item not in known:
+            hint = "имена столбцов — на странице студента в results/*.json: P3_1.s_mm"
+            raise InputError(Problem(item, "в работе нет такого столбца", hint))
+        if points.strip() == WITHDRAW:
+            made.pop((book.number, item), None)
+            continue
+        value = None if points.strip() == ACCEPT else _points(points, register.rubric.maximum)
+        made[book.number, item] = Decision(
+            book.number, item, value, one_line(remark, _MOST), one_line(author, 100),
+            datetime.now().isoformat(timespec="minutes"),
+        )  # fmt: skip
+    return list(made.values())
+
+
+def _points(text: str, maximum: float) -> float:
+    try:
+        value = float(text.replace(",", "."))
+    except ValueError:
+        value = -1.0
+    if not 0 <= value <= maximum:
+        hint = f"нужно число от 0 до {maximum:g}, «+» — принять баллы программы, «-» — отменить"
+        raise InputError(Problem(text or "баллы", "это не баллы", hint))
+    return value
+
+
+def _student(register: Register, results: Sequence[dict[str, Any]], who: str) -> Issued:
+    wanted = who.strip().casefold()
+    hits = [
+        book
+        for book in register.books
+        if wanted in (str(book.number), book.student.full.casefold(), book.folder.casefold())
+    ]
+    hits = hits or [b for b in register.books if b.student.surname.casefold() == wanted]
+    if not hits:
+        numbers = {r["number"] for r in results if r["file"] == who or r["key"] == who}
+        hits = [book for book in register.books if book.number in numbers]
+    if len(hits) != 1:
+        what = "таких студентов несколько" if hits else "нет такого студента"
+        raise InputError(Problem(who, what, "назовите номер варианта или фамилию с именем"))
+    return hits[0]
+
+
+def from_gradebook(path: Path, kept: Sequence[Decision]) -> list[Decision]:
+    """Decisions with those that a person has written into the gradebook."""
+    from openpyxl import load_workbook
+
+    if not path.exists():
+        return list(kept)
+    try:
+        book = load_workbook(path, read_only=True, data_only=True)
+        lines = list(book.worksheets[0].iter_rows(values_only=True))
+        author = book.properties.lastModifiedBy or "ведомость"
+        date = datetime.fromtimestamp(int(path.stat().st_mtime)).isoformat(timespec="minutes")
+        book.close()
+    except Exception:  # a gradebook that someone has broken is written anew
+        return list(kept)
+    if not lines or any(head not in lines[0] for head in ("Вариант", *_TABLE_HEADS)):
+        return list(kept)
+    number_at, points_at, remark_at = (lines[0].index(head) for head in ("Вариант", *_TABLE_HEADS))
+    made = {(entry.number, entry.item): entry for entry in kept}
+    for line in lines[1:]:
+        number, points, remark = line[number_at], line[points_at], line[remark_at]
+        if not isinstance(number, (int, float)):
+            continue
+        key = int(number), WHOLE
+        earlier = made.get(key)
+        text = one_line(str(remark or ""), _MOST)
+        if points is None or str(points).strip() == "":
+            if earlier is not None and not text:  # taken out by hand
+                del made[key]
+            continue
+        try:
+            accept = str(points).strip() == ACCEPT
+            value = None if accept else float(str(points).replace(",", "."))
+        except ValueError:
+            continue
+        if earlier is None or (earlier.points, earlier.remark) != (value, text):
+            made[key] = Decision(*key, value, text, one_line(author, 100), date)
+    return list(made.values())
+
+
+def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, Any]:
+    """A result as the person has decided; without decisions the same."""
+    own = [entry for entry in decisions if entry.number == result.get("number")]
+    if not own:
+        return result
+    made = copy.deepcopy(result)
+    made["decisions"] = [asdict(entry) for entry in own]
+    lines = {line["id"]: line for line in made["items"]}
+    settled = set()
+    for entry in own:
+        line = lines.get(entry.item)
+        if line is not None:
+            if entry.points is not None:
+                line["points"] = entry.points
+            line["decision"] = asdict(entry)
+            settled.add(entry.item)
+    if made["status"] == "graded":
+        rescored(made)
+    whole = next((entry for entry in own if entry.item == WHOLE), None)
+    open_ = [i for i, line in lines.items() if line["verdict"] == "unknown" and i not in settled]
+    if whole is not None:
+        made["decision"] = asdict(whole)
+        if whole.points is not None:
+            made["points"] = whole.points
+        made["manual"], made["doubts"] = [], []
+    elif not open_:
+        made["manual"] = [text for text in made["manual"] if not text.startswith("не удалось")]
+    return made

@@ -1,0 +1,138 @@
+"""One judgement as a line of the feedback: plain data for pages and tables."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from reports.grading.issuing.assignment import Assignment, Item
+from reports.grading.judging.causes import Causes
+from reports.grading.judging.marks import fingerprint
+from reports.grading.judging.verdicts import (
+    BROKEN,
+    CARRIED,
+    RIGHT,
+    STILL,
+    TYPED,
+    WRONG,
+    Judgement,
+)
+from reports.grading.reading.student import Student, address
+
+SHOWN_ROWS = 12  # wrong cells shown in the feedback of an item
+
+
+def feedback_line(
+    student: Student, judgement: Judgement, causes: Causes, assignment: Assignment
+) -> dict[str, Any]:
+    """One item of the feedback."""
+    item = judgement.item
+    worth = assignment.points[item.id]
+    share = judgement.paid
+    if judgement.verdict == CARRIED:
+        share *= assignment.rubric.credit.carried
+    tables = assignment.model.tables
+    cause = causes.find(judgement) if judgement.verdict == WRONG else ""
+    line: dict[str, Any] = {
+        "id": item.id,
+        "block": item.block,
+        "table": tables[item.block].number if item.block in tables else "",
+        "heading": _heading(item, assignment),
+        "label": f"{_short_heading(item, assignment)} {item.symbol}",
+        "title": item.title,
+        "symbol": item.symbol,
+        "unit": item.quantity.unit_label,
+        "source": item.source,
+        "digits": asdict(item.quantity.digits),
+        "verdict": judgement.verdict,
+        "points": round(worth * share, 6),
+        "of": round(worth, 6),
+        "reason": judgement.reason,
+        "cause": cause,
+        "origins": list(judgement.origins),
+        "right_mark": fingerprint(item, judgement.expected),
+        "rows": [item.labels[i] for i in judgement.rows],
+        "where": _where(student, judgement),
+        "typed": [item.labels[i] for i in judgement.typed] if judgement.verdict != RIGHT else [],
+    }
+    if judgement.verdict in (WRONG, CARRIED, TYPED, STILL, BROKEN):
+        line["cells"] = _cells(student, judgement)
+        line["mark"] = fingerprint(item, judgement.values)
+        if item.is_column:
+            line["chart"] = {
+                "x": [float(label) for label in item.labels],
+                "own": _plain(judgement.values),
+                "right": _plain(judgement.expected),
+            }
+    return line
+
+
+def _heading(item: Item, assignment: Assignment) -> str:
+    """The table or list of an item as a person calls it."""
+    block = next(block for block in assignment.fill if block.id == item.block)
+    if item.block in assignment.model.tables:
+        return f"Таблица {assignment.model.tables[item.block].number}"
+    return f"{block.title} ({block.sheet})"
+
+
+def _short_heading(item: Item, assignment: Assignment) -> str:
+    block = next(block for block in assignment.fill if block.id == item.block)
+    tables = assignment.model.tables
+    return tables[item.block].number if item.block in tables else block.sheet
+
+
+def _cells(student: Student, judgement: Judgement) -> list[dict[str, Any]]:
+    item = judgement.item
+    rows = judgement.rows or judgement.typed
+    places = [
+        (student.placement.places.get(node), i)
+        for node in item.nodes
+        for i in range(student.assignment.length(node))
+    ]
+    cells = []
+    for row in rows[:SHOWN_ROWS]:
+        place, index = places[row]
+        at = place.rows[index] if place is not None else None
+        cells.append(
+            {
+                "row": item.labels[row],
+                "cell": f"{place.sheet}!{address(at, place.column)}" if place and at else "",
+                "own": _number(judgement.values[row]),
+                "right": _number(judgement.expected[row]),
+            }
+        )
+    return cells
+
+
+def _where(student: Student, judgement: Judgement) -> list[str]:
+    """The cells that a verdict is about, those below each other as ranges."""
+    item = judgement.item
+    rows = set(judgement.rows or judgement.typed)
+    found: list[tuple[str, int, int, int]] = []  # sheet, column, first and last row
+    number = 0
+    for node in item.nodes:
+        place = student.placement.places.get(node)
+        for index in range(student.assignment.length(node)):
+            row = place.rows[index] if place is not None else None
+            if number in rows and place is not None and row is not None:
+                last = found[-1] if found else None
+                if last and last[:2] == (place.sheet, place.column) and last[3] == row - 1:
+                    found[-1] = (*last[:3], row)
+                else:
+                    found.append((place.sheet, place.column, row, row))
+            number += 1
+    return [
+        f"{sheet}!{address(first, column)}" + (f":{address(last, column)}" if last > first else "")
+        for sheet, column, first, last in found
+    ]
+
+
+def _number(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None
+
+
+def _plain(values: np.ndarray[Any, np.dtype[np.float64]]) -> list[float | None]:
+    return [float(f"{v:.6g}") if math.isfinite(v) else None for v in values]

@@ -1,0 +1,378 @@
+"""Whether a student's formulas follow what they refer to, cell by cell.
+
+Every formula is tried alone: the cells that it refers to hold the right values of another
+engine, whatever the student has in them.  So a column is judged by itself: an error before
+it costs it nothing, and a number in the guise of a formula does not follow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reports.grading.issuing.assignment import Item
+from reports.grading.judging.tolerances import close, tolerance
+from reports.grading.judging.trials import Trial
+from reports.grading.reading.student import Student
+from reports.recalculation.bench import (
+    ROUNDINGS,
+    Bench,
+    Cells,
+    pinned,
+    rounded_to,
+    unrounded_grid,
+)
+from reports.recalculation.formulas import Formula
+from reports.recalculation.grid import Run
+from reports.recalculation.language import UnknownFormula
+
+Array = NDArray[np.float64]
+
+# What is said of a cell.
+RIGHT, ROUNDED, PARTLY, STILL, WRONG, NOTHING, UNKNOWN = "prtsw-u"
+_ALIKE = 3  # formulas that differ in nothing but their numbers, to be a list of numbers
+_MANY = 8  # long numbers in one formula, to be a list of numbers
+_LONG = 5  # digits of a number that nobody knows by heart
+_INSIDE = 2e-3  # share of a column that roundings inside a formula may cost
+
+
+@dataclass
+class Proofs:
+    """What is known of formulas that refer to nothing but cells of the work-book.
+
+    Many students write the same formulas: they are tried once for a class.
+    """
+
+    trials: tuple[Trial, ...]
+    known: dict[tuple[object, ...], str] = field(default_factory=dict)
+
+
+@dataclass
+class Response:
+    """How the formulas of one student respond."""
+
+    student: Student
+    proofs: Proofs
+
+    @property
+    def trials(self) -> tuple[Trial, ...]:
+        """The sets of inputs."""
+        return self.proofs.trials
+
+    @cached_property
+    def _nodes(self) -> list[str]:
+        """Nodes with formulas."""
+        return [node for node in sorted(self.student.answers) if self.student.runs(node)]
+
+    @cached_property
+    def _keys(self) -> dict[str, tuple[object, ...]]:
+        """What the response of a node follows from, where it may be known of another book."""
+        return {
+            node: key for node in self._nodes if (key := self.student.signature(node)) is not None
+        }
+
+    @cached_property
+    def _tried(self) -> list[str]:
+        return [node for node in self._nodes if self._keys.get(node) not in self.proofs.known]
+
+    @cached_property
+    def _values(self) -> dict[str, list[Array] | str]:
+        """Values of the tried nodes for every trial, or why they are unknown."""
+        return self._run(self._tried, rounded=True)
+
+    @cached_property
+    def _unrounded(self) -> dict[str, list[Array] | str]:
+        wanted = [
+            node
+            for node in self._tried
+            if any(
+                run.formula is not None and not run.formula.functions.isdisjoint(ROUNDINGS)
+                for run in self._with_helpers(node)
+            )
+        ]
+        return self._run(wanted, rounded=False) if wanted else {}
+
+    def _with_helpers(self, node: str) -> list[Run]:
+        return [*self.student.runs(node), *self.student.helpers(node)]
+
+    def _run(self, nodes: Sequence[str], *, rounded: bool) -> dict[str, list[Array] | str]:
+        if not nodes or not self.trials:
+            return {node: [] for node in nodes}
+        student = self.student
+        first = pinned(student.grid, self.cells(self.trials[0], everything=True))
+        if not rounded:
+            first = unrounded_grid(first)
+        bench = Bench(first, {node: student.runs(node) for node in nodes}, rounded=rounded)
+        found: dict[str, list[Array] | str] = {node: [] for node in nodes}
+        for trial in self.trials:
+            if trial is not self.trials[0]:
+                bench.put(self.cells(trial, everything=False))
+            for node in nodes:
+                values = found[node]
+                if isinstance(values, str):
+                    continue
+                try:
+                    place = student.placement.places[node]
+                    values.append(bench.values(node, place.rows))
+                except UnknownFormula as error:
+                    found[node] = str(error) or "?"
+        return found
+
+    def cells(
+        self,
+        trial: Trial,
+        *,
+        everything: bool,
+        changed: Mapping[str, Array] | None = None,
+    ) -> list[Cells]:
+        """The cells of inputs and nodes with the right values of a trial."""
+        made = []
+        student = self.student
+        for name, value in trial.inputs.items():
+            place = student.placement.places.get(name)
+            if place is not None and place.rows[0] is not None:
+                made.append(Cells(place.sheet, place.column, (place.rows[0],), (value,)))
+            made += [
+                Cells(sheet, column, (row,), (value * factor,))
+                for sheet, column, row, factor in self._copies.get(name, ())
+            ]
+        assignment = student.assignment
+        for node in sorted(assignment.fill_nodes | assignment.live_nodes | assignment.given_nodes):
+            right = trial.expected.value(node)
+            if isinstance(right, str) and not everything:
+                continue
+            if changed is not None and node in changed:
+                right = changed[node]
+            made += student.cells_of(node, right)
+        return made
+
+    @cached_property
+    def _copies(self) -> dict[str, list[tuple[str, int, int, float]]]:
+        """Cells of the student's own that repeat an input, in its unit or in metres.
+
+        Who copies the input data to a sheet of his own and calculates from there has not
+        typed in a result.
+        """
+        fields = self.student.assignment.model.fields
+        wanted: dict[float, tuple[str, float]] = {}
+        for name in self.trials[0].inputs if self.trials else ():
+            value = float(fields[name].value)
+            for factor in (1.0, 1e-3) if fields[name].unit == "мм" else (1.0,):
+                wanted[float(f"{value * factor:.12g}")] = (name, factor)
+        found: dict[str, list[tuple[str, int, int, float]]] = {}
+        for sheet, number, row, value in self.student.own_constants:
+            hit = wanted.get(float(f"{value:.12g}"))
+            if hit is not None:
+                found.setdefault(hit[0], []).append((sheet, number, row, hit[1]))
+        return found
+
+    # --- what it says -----------------------------------------------------------------
+
+    def letters(self, item: Item) -> str:
+        """A letter for each value of an item: how its formula responds, whatever its value."""
+        return "".join(self._of_node(item, node) for node in item.nodes)
+
+    def fixed(self, item: Item) -> NDArray[np.bool_]:
+        """Where the right value is the same whatever the engine: 0 at dead centre."""
+        parts = []
+        for node in item.nodes:
+            own = np.ravel(np.asarray(self.student.expected.value(node), dtype=float))
+            largest = float(np.nanmax(np.abs(own))) if own.size else 0.0
+            same = np.ones(len(own), dtype=bool)
+            for right in self._right(item, node):
+                same &= np.abs(right - own) <= 1e-9 * largest
+            parts.append(same & (len(self.trials) > 0))
+        return np.concatenate(parts)
+
+    def problem(self, node: str) -> str:
+        """Why a node's formulas cannot be tried, empty where they can."""
+        values = self._values.get(node, "")
+        return values if isinstance(values, str) else ""
+
+    def _of_node(self, item: Item, node: str) -> str:
+        count = self.student.assignment.length(node)
+        if node not in self._nodes:
+            return NOTHING * count
+        key = self._keys.get(node)
+        if key is not None and key in self.proofs.known:
+            return self.proofs.known[key]
+        found = self._judged(item, node, count)
+        if key is not None:
+            self.proofs.known[key] = found
+        return found
+
+    def _judged(self, item: Item, node: str, count: int) -> str:
+        values = self._values[node]
+        if isinstance(values, str):
+            return UNKNOWN * count
+        place = self.student.placement.places[node]
+        index = {row: i for i, row in enumerate(place.rows) if row is not None}
+        letters = [NOTHING] * count
+        listed = _listed(self.student.runs(node))
+        right = self._right(item, node)
+        good = self._good(item, values, right)
+        roughly = self._rounded_good(item, node, values, right)
+        for run in self.student.runs(node):
+            at = [index[row] for row in range(run.first, run.last + 1) if row in index]
+            word = ""
+            if all(good[0][i] for i in at):
+                word = RIGHT
+            elif roughly is not None and all(roughly[i] for i in at):
+                word = ROUNDED
+            for i in at:
+                letters[i] = self._word(i, word, values, right, good, listed=id(run) in listed)
+        return "".join(letters)
+
+    def _word(
+        self,
+        i: int,
+        word: str,
+        values: Sequence[Array],
+        right: Sequence[Array],
+        good: tuple[NDArray[np.bool_], NDArray[np.bool_]],
+        *,
+        listed: bool,
+    ) -> str:
+        """The letter of a cell whose run has passed as ``word``, or not at all."""
+        moves = any(_differ(right[0][i], other[i]) for other in right[1:])
+        stands = all(not _differ(values[0][i], other[i]) for other in values[1:])
+        if word:
+            # What all variants have in common is a number or a list of numbers only where
+            # nothing follows from anything.
+            everything = good[1][i]
+            return STILL if not everything and (stands or listed) and moves else word
+        if not np.isfinite(values[0][i]):
+            return WRONG
+        return STILL if (stands and moves) or listed else PARTLY
+
+    def _right(self, item: Item, node: str) -> list[Array]:
+        return [np.ravel(np.asarray(t.expected.value(node), dtype=float)) for t in self.trials]
+
+    def _good(
+        self, item: Item, values: Sequence[Array], right: Sequence[Array]
+    ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Where all trials that decide agree, and where the others do."""
+        decided = np.ones(len(right[0]), dtype=bool)
+        others = decided.copy()
+        for trial, own, wanted in zip(self.trials, values, right, strict=True):
+            allowed = tolerance(item, wanted, self.student)
+            found = close(item, own, wanted, allowed) | (np.isnan(own) & np.isnan(wanted))
+            if trial.decides:
+                decided &= found
+            else:
+                others &= found
+        return decided, others
+
+    def _rounded_good(
+        self, item: Item, node: str, values: Sequence[Array], right: Sequence[Array]
+    ) -> NDArray[np.bool_] | None:
+        """Where a formula would be right without its roundings, and these are fine enough."""
+        plain = self._unrounded.get(node)
+        if not plain or isinstance(plain, str):
+            return None
+        found = self._good(item, plain, right)[0]
+        half = self.student.assignment.rubric.tolerance.units * 10.0**-item.quantity.digits.decimals
+        whole = [rounded_to(r.formula) for r in self.student.runs(node) if r.formula is not None]
+        coarse = any(d is not None and d < item.quantity.digits.decimals for d in whole)
+        for trial, own, wanted in zip(self.trials, values, right, strict=True):
+            if trial.decides:
+                largest = float(np.nanmax(np.abs(wanted))) if wanted.size else 0.0
+                allowed = half if coarse else max(half, _INSIDE * largest)
+                found &= close(item, own, wanted, allowed * (1 + 1e-9))
+        return found
+
+    @cached_property
+    def tampered(self) -> list[str]:
+        """Given formulas that were changed and do not calculate what they should."""
+        student = self.student
+        nodes = [node for node in sorted(student.rewritten) if student.runs(node)]
+        if not nodes or not self.trials:
+            return []
+        values = self._run(nodes, rounded=True)
+        return [node for node in nodes if not self._calculates(node, values[node])]
+
+    def _calculates(self, node: str, values: list[Array] | str) -> bool:
+        if isinstance(values, str):
+            return False
+        for trial, own in zip(self.trials, values, strict=False):
+            right = trial.expected.value(node)
+            if isinstance(right, str):
+                continue
+            wanted = np.ravel(np.asarray(right, dtype=float))
+            scale = float(np.nanmax(np.abs(wanted))) if wanted.size else 1.0
+            if not np.allclose(own, wanted, rtol=0, atol=1e-6 * max(scale, 1e-12), equal_nan=True):
+                return False
+        return True
+
+    # --- what depends on what ---------------------------------------------------------
+
+    def depends(self, nodes: Sequence[str], on: str) -> dict[str, bool]:
+        """Whether the values of some nodes change with those of another."""
+        if not self.trials:
+            return dict.fromkeys(nodes, False)
+        trial = self.trials[0]
+        right = np.ravel(np.asarray(trial.expected.value(on), dtype=float))
+        other = {on: right * 1.37 + 1.0}
+        student = self.student
+        grid = pinned(student.grid, self.cells(trial, everything=True))
+        bench = Bench(grid, {node: student.runs(node) for node in nodes})
+        before = {node: self._at(bench, node) for node in nodes}
+        bench.put(self.cells(trial, everything=False, changed=other))
+        found = {}
+        for node in nodes:
+            after, was = self._at(bench, node), before[node]
+            found[node] = (
+                after is None or was is None or not np.allclose(after, was, 1e-12, equal_nan=True)
+            )
+        return found
+
+    def _at(self, bench: Bench, node: str) -> Array | None:
+        try:
+            return bench.values(node, self.student.placement.places[node].rows)
+        except UnknownFormula:
+            return None
+
+
+def _differ(first: float, second: float) -> bool:
+    if np.isnan(first) or np.isnan(second):
+        return bool(np.isnan(first) != np.isnan(second))
+    return bool(abs(first - second) > 1e-9 * max(abs(first), abs(second)) + 1e-12)
+
+
+def _listed(runs: Sequence[Run]) -> set[int]:
+    """Runs that are a list of numbers: alike but for them, or full of them."""
+    alike: dict[tuple[tuple[str, str], ...], list[Run]] = {}
+    found = set()
+    for run in runs:
+        if run.formula is None:
+            continue
+        alike.setdefault(_skeleton(run.formula), []).append(run)
+        if _long_numbers(run.formula) >= _MANY:
+            found.add(id(run))
+    for group in alike.values():
+        numbers = {
+            tuple(v for kind, v in run.formula.pattern if kind == "number")
+            for run in group
+            if run.formula is not None
+        }
+        if len(numbers) >= _ALIKE:
+            found |= {id(run) for run in group}
+    return found
+
+
+def _skeleton(formula: Formula) -> tuple[tuple[str, str], ...]:
+    return tuple((kind, "") if kind == "number" else (kind, v) for kind, v in formula.pattern)
+
+
+def _long_numbers(formula: Formula) -> int:
+    return len(
+        {
+            value
+            for kind, value in formula.pattern
+            if kind == "number" and len(value.replace(".", "").strip("0")) >= _LONG
+        }
+    )

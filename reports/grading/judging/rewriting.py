@@ -1,0 +1,161 @@
+"""Formulas as people get them wrong: something left out, turned round, taken for another."""
+
+from __future__ import annotations
+
+import ast
+from typing import Any
+
+
+def summands(tree: ast.expr) -> list[ast.expr]:
+    """Summands of a sum; none where it is no sum of two or more."""
+    found: list[ast.expr] = []
+
+    def take(node: ast.expr) -> None:
+        if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Sub)):
+            take(node.left)
+            take(node.right)
+        else:
+            found.append(node)
+
+    take(tree)
+    return found if len(found) > 1 else []
+
+
+def numbers(tree: ast.expr) -> list[float]:
+    """Numbers by which a formula multiplies or divides."""
+    found = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Mult, ast.Div)):
+            for side in (node.left, node.right):
+                if isinstance(side, ast.Constant) and isinstance(side.value, (int, float)):
+                    found.append(float(side.value))
+    return sorted(set(found) - {1.0})
+
+
+class WithoutSummand(ast.NodeTransformer):
+    """Leaves one summand of the whole sum out."""
+
+    def __init__(self, number: int) -> None:
+        self.number = number
+
+    def visit(self, node: ast.AST) -> Any:  # noqa: ANN401
+        """Nought in the place of the summand."""
+        assert isinstance(node, ast.expr)
+        wanted = summands(node)[self.number]
+        return _replaced(node, wanted, ast.Constant(0))
+
+
+def _replaced(tree: ast.expr, wanted: ast.expr, by: ast.expr) -> ast.expr:
+    if tree is wanted:
+        return by
+    if isinstance(tree, ast.BinOp) and isinstance(tree.op, (ast.Add, ast.Sub)):
+        left, right = (_replaced(side, wanted, by) for side in (tree.left, tree.right))
+        return ast.BinOp(left, tree.op, right)
+    return tree
+
+
+class WithoutFactor(ast.NodeTransformer):
+    """Leaves a factor or a divisor out, with its power."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def _is(self, node: ast.expr) -> bool:
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
+            node = node.left
+        return isinstance(node, ast.Name) and node.id == self.name
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        """The other side of a product, one in the place of what is divided."""
+        if isinstance(node.op, (ast.Mult, ast.Div)):
+            if self._is(node.right):
+                return self.visit(node.left)  # type: ignore[no-any-return]
+            if self._is(node.left):
+                node.left = ast.Constant(1)
+        self.generic_visit(node)
+        return node
+
+
+class WithoutPower(ast.NodeTransformer):
+    """Takes the power from a name."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        """The name alone."""
+        self.generic_visit(node)
+        named = isinstance(node.left, ast.Name) and node.left.id == self.name
+        return node.left if isinstance(node.op, ast.Pow) and named else node
+
+
+class WithoutNumber(ast.NodeTransformer):
+    """Leaves a factor or divisor that is a number out."""
+
+    def __init__(self, value: float) -> None:
+        self.value = value
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        """The other side."""
+        self.generic_visit(node)
+        if isinstance(node.op, (ast.Mult, ast.Div)):
+            for side, other in ((node.right, node.left), (node.left, node.right)):
+                is_factor = side is node.right or isinstance(node.op, ast.Mult)
+                same = isinstance(side, ast.Constant) and side.value == self.value
+                if is_factor and same:
+                    return other
+        return node
+
+
+def without_radians(tree: ast.expr) -> ast.expr:
+    """Degrees where radians are wanted."""
+    result = NoRadians().visit(tree)
+    assert isinstance(result, ast.expr)
+    return result
+
+
+class NoRadians(ast.NodeTransformer):
+    """Leaves the conversion out."""
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        """The angle as it is."""
+        self.generic_visit(node)
+        if isinstance(node.func, ast.Name) and node.func.id == "rad":
+            return node.args[0]
+        return node
+
+
+class Renamed(ast.NodeTransformer):
+    """Takes one name for another."""
+
+    def __init__(self, old: str, new: str) -> None:
+        self.old, self.new = old, new
+
+    def visit_Name(self, node: ast.Name) -> ast.AST:
+        """The other name."""
+        return (
+            ast.copy_location(ast.Name(self.new, ast.Load()), node) if node.id == self.old else node
+        )
+
+
+SIGNS = tuple((number, f"знак слагаемого {number + 2}") for number in range(3))
+
+
+class Flipped(ast.NodeTransformer):
+    """Turns the sign of one sum in the formula."""
+
+    def __init__(self, number: int) -> None:
+        self.number, self.seen = number, -1
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        """The other sign."""
+        self.generic_visit(node)
+        if isinstance(node.op, (ast.Add, ast.Sub)):
+            self.seen += 1
+            if self.seen == self.number:
+                node.op = ast.Sub() if isinstance(node.op, ast.Add) else ast.Add()
+        return node
+
+    def visit(self, node: ast.AST) -> Any:  # noqa: ANN401
+        """Count from the left in each formula anew."""
+        return super().visit(node)

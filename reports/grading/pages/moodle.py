@@ -1,0 +1,171 @@
+"""Moodle's own forms: the offline grading worksheet filled in, feedback files in a zip.
+
+The rules are those of Moodle's import (``mod/assign/feedback/offline`` and ``file``): a line is
+found by the number in its first column, all columns stay as they were downloaded, a grade
+is written as the language of the worksheet writes it; a file goes to the participant whose
+number is the second part of its folder's name, of five divided by ``_``.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+import zipfile
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from reports.exports.numbers import neutralised
+from reports.shared.errors import InputError, Problem
+from reports.shared.files import reason
+
+MAX_BYTES = 20_000_000
+FEEDBACK = "feedback.html"
+_EPOCH = (1980, 1, 1, 0, 0, 0)
+_HEADS = {
+    "id": ("identifier", "идентификатор"),
+    "grade": ("grade", "оценка"),
+    "maximum": ("maximum grade", "максимальная оценка", "максимальный балл"),
+    "open": ("grade can be changed", "оценка может быть изменена", "оценку можно изменить"),
+    "feedback": ("feedback comments", "отзыв в виде комментария", "отзыв в комментариях",
+                 "комментарии к отзыву"),
+    "email": ("email address", "адрес электронной почты"),
+    "name": ("full name", "полное имя", "фамилия и имя", "имя / фамилия", "фио"),
+}  # fmt: skip
+_NO = ("no", "нет")
+
+
+@dataclass(frozen=True, slots=True)
+class Filled:
+    """A worksheet with grades, and what could not be written."""
+
+    text: str
+    graded: int
+    left: tuple[str, ...]
+
+
+def read_worksheet(path: Path) -> str:
+    """The text of a worksheet.
+
+    Raises:
+        InputError: it cannot be read.
+    """
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        hint = "скачайте её в задании Moodle: «Скачать ведомость оценивания»"
+        what = f"ведомость не читается: {reason(error)}"
+        raise InputError(Problem(str(path), what, hint)) from None
+    try:
+        if len(data) > MAX_BYTES:
+            raise UnicodeError
+        return data.decode("utf-8-sig")
+    except UnicodeError:
+        hint = "возьмите файл таким, каким его отдал Moodle"
+        raise InputError(Problem(path.name, "это не ведомость Moodle", hint)) from None
+
+
+def filled(text: str, rows: Sequence[dict[str, Any]], maximum: float, source: str) -> Filled:
+    """Moodle's worksheet with the grades and remarks of a gradebook.
+
+    Raises:
+        InputError: the columns of Moodle's worksheet are not there.
+    """
+    delimiter = max(",;\t", key=text.partition("\n")[0].count)
+    lines = list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter))
+    at = _columns(lines[0] if lines else [])
+    if "id" not in at or "grade" not in at:
+        hint = "нужны столбцы Identifier и Grade (Идентификатор и Оценка)"
+        raise InputError(Problem(source, "это не ведомость оценивания Moodle", hint))
+    russian = lines[0][at["grade"]].strip().casefold() == "оценка"
+    graded, left = 0, []
+    by_key = _by_key(rows)
+    for line in lines[1:]:
+        if len(line) <= max(at.values()):
+            continue
+        row = next((by_key[key] for key in _keys(line, at) if key in by_key), None)
+        who = line[at["name"]] if "name" in at else line[at["id"]]
+        if row is None:
+            continue
+        if row["points"] is None or row["manual"]:
+            left.append(f"{who}: {row['status']}")
+            continue
+        if "open" in at and line[at["open"]].strip().casefold() in _NO:
+            left.append(f"{who}: оценка в Moodle закрыта")
+            continue
+        most = _number(line[at["maximum"]]) if "maximum" in at else None
+        points = round(row["points"] * most / maximum, 2) if most else row["points"]
+        grade = f"{points:.2f}"
+        line[at["grade"]] = grade.replace(".", ",") if russian else grade
+        if "feedback" in at:
+            line[at["feedback"]] = neutralised(row["remark"])
+        graded += 1
+    stream = io.StringIO()
+    csv.writer(stream, delimiter=delimiter, lineterminator="\n").writerows(lines)
+    return Filled("\ufeff" + stream.getvalue(), graded, tuple(left))
+
+
+def _columns(head: Sequence[str]) -> dict[str, int]:
+    found: dict[str, int] = {}
+    for index, cell in enumerate(head):
+        word = " ".join(cell.casefold().split())
+        for key, words in _HEADS.items():
+            if word in words:
+                found.setdefault(key, index)
+    return found
+
+
+def _by_key(rows: Sequence[dict[str, Any]]) -> dict[str, dict[str, Any]]:
+    """Rows by all that a line of Moodle's may name; what two rows share names none."""
+    found: dict[str, dict[str, Any] | None] = {}
+    for row in rows:
+        if row["number"] is None:
+            continue
+        moodle = (row["result"] or {}).get("moodle_id", "")
+        keys = (f"id {moodle}" if moodle else "", f"mail {row['email'].casefold()}",
+                f"name {_words(row['student'])}")  # fmt: skip
+        for key in keys:
+            if key and not key.endswith(" "):
+                found[key] = None if key in found else row
+    return {key: row for key, row in found.items() if row is not None}
+
+
+def _keys(line: Sequence[str], at: Mapping[str, int]) -> Iterator[str]:
+    number = re.search(r"(\d+)\s*$", line[at["id"]])
+    if number:
+        yield f"id {number[1]}"
+    if "email" in at and line[at["email"]].strip():
+        yield f"mail {line[at['email']].strip().casefold()}"
+    if "name" in at:
+        yield f"name {_words(line[at['name']])}"
+
+
+def _words(name: str) -> str:
+    """A name whichever part of it stands first."""
+    return " ".join(sorted(name.casefold().replace("ё", "е").split()))
+
+
+def _number(text: str) -> float | None:
+    try:
+        value = float(text.replace(",", ".").replace("\u00a0", ""))
+    except ValueError:
+        return None
+    return value if value > 0 else None
+
+
+def feedback_zip(rows: Sequence[dict[str, Any]], pages: Path) -> bytes:
+    """Pages of the students in the folders of Moodle's own zip of submissions."""
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
+        for row in rows:
+            result = row["result"] or {}
+            if not result.get("moodle_id") or row["number"] is None or not row["page"]:
+                continue
+            name = row["student"].replace("_", " ").replace("/", " ")
+            folder = f"{name}_{result['moodle_id']}_assignsubmission_file_"
+            data = (pages / row["page"]).read_bytes()
+            info = zipfile.ZipInfo(f"{folder}/{FEEDBACK}", _EPOCH)
+            archive.writestr(info, data, zipfile.ZIP_DEFLATED)
+    return stream.getvalue()

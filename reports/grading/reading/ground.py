@@ -1,0 +1,110 @@
+"""What a student's values rest on: blanks and circles pass nothing on."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reports.grading.reading.placement import Place
+from reports.grading.reading.student import LOST, Student
+from reports.recalculation.bench import Cells, pinned
+from reports.recalculation.evaluate import BLANK, ERROR, TEXT, Engine
+from reports.recalculation.formulas import is_doubtful
+from reports.recalculation.language import UnknownFormula
+
+Array = NDArray[np.float64]
+
+
+def circles(student: Student) -> frozenset[str]:
+    """Nodes that are calculated through themselves."""
+    round_ = {
+        node
+        for node, answer in student.answers.items()
+        if ERROR in answer.kinds
+        and answer.place is not None
+        and answer.place.span is not None
+        and student.engine.is_circular(
+            answer.place.sheet, answer.place.column, answer.place.span.first,
+            answer.place.span.last,
+        )
+    }  # fmt: skip
+    if not round_:
+        return frozenset()
+    refers = {node: through(student, node) for node in round_}
+    found = set()
+    for node in round_:
+        seen: set[str] = set()
+        stack = list(refers[node])
+        while stack:
+            name = stack.pop()
+            if name == node:
+                found.add(node)
+                break
+            if name not in seen:
+                seen.add(name)
+                stack += refers.get(name, ())
+    return frozenset(found)
+
+
+def through(student: Student, node: str) -> frozenset[str]:
+    """Asked nodes that a node refers to, through live formulas too, itself among them."""
+    found: set[str] = set()
+    seen: set[str] = set()
+    stack = [node]
+    while stack:
+        for name in student.refers(stack.pop()):
+            if name in student.answers:
+                found.add(name)
+            elif name in student.assignment.live_nodes and name not in seen:
+                seen.add(name)
+                stack.append(name)
+    return frozenset(found)
+
+
+def is_void(student: Student, node: str) -> bool:
+    """Whether there is no value to go on with: blanks, or a text that is no number."""
+    answer = student.answers[node]
+    if answer.place is None or answer.problem:
+        return False
+    nothing = answer.kinds.count(BLANK)
+    if TEXT in answer.kinds and answer.typed.any():
+        column = student.grid.column(answer.place.sheet, answer.place.column)
+        texts = [column.constants.get(row) for row in answer.place.rows if row is not None]
+        nothing += sum(isinstance(t, str) and not is_doubtful(t, in_product=True) for t in texts)
+    return nothing > len(answer.kinds) / 2
+
+
+def resting_on(student: Student, nodes: frozenset[str]) -> frozenset[str]:
+    """Nodes whose values would be other ones if some nodes had the right values."""
+    cells: list[Cells] = []
+    for node in sorted(nodes):
+        right = student.expected.value(node)
+        if not isinstance(right, str):
+            cells += student.cells_of(node, right)
+    other = Engine(pinned(student.grid, cells))
+    found = set(nodes)
+    for node, answer in student.answers.items():
+        place = answer.place
+        if place is None or place.span is None or answer.problem:
+            continue
+        try:
+            span = place.span
+            numbers, kinds = other.values(place.sheet, place.column, span.first, span.last)
+        except UnknownFormula:
+            continue
+        was, now = answer.kinds, _at(place, kinds)
+        values = _picked(place, numbers)
+        if was != now or not np.allclose(values, answer.values, 1e-9, 1e-12, equal_nan=True):
+            found.add(node)
+    return frozenset(found)
+
+
+def _picked(place: Place, numbers: Array) -> Array:
+    assert place.span is not None
+    first = place.span.first
+    return np.array([np.nan if row is None else numbers[row - first] for row in place.rows])
+
+
+def _at(place: Place, kinds: str) -> str:
+    assert place.span is not None
+    return "".join(LOST if row is None else kinds[row - place.span.first] for row in place.rows)

@@ -1,0 +1,193 @@
+"""What was issued put back: input data, given numbers and given formulas, and what was changed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reports.formula.excel import compile_formula
+from reports.grading.issuing.assignment import Assignment
+from reports.grading.issuing.handout import fill_cells
+from reports.grading.reading.placement import Place
+from reports.grading.reading.student import Changed, Student, address
+from reports.recalculation.formulas import Formula, formula_at
+from reports.recalculation.grid import Column, Run
+from reports.recalculation.language import unquoted
+from reports.spec.blocks import TableSpec
+from reports.workbook.inputs import shown
+from reports.workbook.layout import Layout, RowReferences, at_row
+
+Array = NDArray[np.float64]
+
+
+def restore(student: Student) -> None:
+    """Input data and given numbers as issued; what was changed is remembered."""
+    model = student.assignment.kept_model
+    for name, item in model.fields.items():
+        place = student.placement.places.get(name)
+        if place is not None:
+            _put(student, place, 0, name, shown(item))
+    for node in sorted(student.assignment.given_nodes):
+        place = student.placement.places.get(node)
+        if place is None:
+            continue
+        value = student.expected.value(node)
+        if isinstance(value, str):
+            _put(student, place, 0, node, value)
+            continue
+        values = np.ravel(value)
+        if _as_issued(student, place, values):
+            continue
+        for index, given in enumerate(values.tolist()):
+            if place.rows[index] is not None:
+                _put(student, place, index, node, given)
+
+    for node, formulas in issued_formulas(student.assignment, student.layout).items():
+        place = student.placement.places.get(node)
+        if place is not None:
+            _put_formulas(student, node, place, formulas)
+
+
+def leave_out_unused(student: Student) -> None:
+    """Take out given formulas that nothing of the student's refers to: nobody asks for them."""
+    live = student.assignment.live_nodes
+    used: set[str] = set()
+    stack = [node for item in student.assignment.items for node in item.nodes]
+    seen = set(stack)
+    while stack:
+        for name in student.refers(stack.pop()):
+            if name in live:
+                used.add(name)
+            if name in live and name not in seen:
+                seen.add(name)
+                stack.append(name)
+    for node in live - used - student.rewritten:
+        place = student.placement.places.get(node)
+        if place is not None:
+            rows = {row for row in place.rows if row is not None}
+            student.grid.column(place.sheet, place.column).cut(rows)
+
+
+def _put_formulas(student: Student, node: str, place: Place, formulas: Sequence[Formula]) -> None:
+    """Formulas that were given, where something else stands in their place.
+
+    A formula that reads otherwise is left, for its cells may have been moved: its response
+    tells whether it is the one that was given.
+    """
+    column = student.grid.sheets[place.sheet].setdefault(place.column, Column())
+    if (
+        place.span is not None
+        and place.span.whole
+        and not column.constants.keys() & set(place.rows)
+    ):
+        runs = column.runs_in(place.span.first, place.span.last)
+        same = {run.formula for run in runs} <= set(formulas) and not column.errors
+        if same and sum(run.count for run in runs) >= len(place.rows):
+            return
+    moved = not student.as_laid_out
+    for row, formula in zip(place.rows, formulas, strict=True):
+        run = next(iter(column.runs_in(row, row)), None) if row is not None else None
+        if run is not None:
+            if run.formula is None or not _alike(run.formula, formula):
+                student.rewritten.add(node)
+            continue
+        if row is None:
+            continue
+        text = column.constants.get(row, "пусто")
+        where = f"{place.sheet}!{address(row, place.column)}"
+        student.changed.append(Changed(where, node, "формула", str(text)))
+        column.errors.pop(row, None)
+        column.constants.pop(row, None)
+        if not moved:
+            column.runs.append(Run(place.sheet, place.column, row, 1, formula, ""))
+        else:
+            right = np.ravel(np.asarray(student.expected.value(node), dtype=object))
+            value = right[place.rows.index(row)]
+            column.constants[row] = value if isinstance(value, str) else float(value)
+
+
+def _alike(first: Formula, second: Formula) -> bool:
+    """Whether two formulas are the same, however a program spells numbers and sheets."""
+    return first is second or _plain(first) == _plain(second)
+
+
+@lru_cache(maxsize=20_000)
+def _plain(formula: Formula) -> tuple[object, ...]:
+    return tuple(
+        float(value)
+        if kind == "number"
+        else unquoted(value)
+        if kind == "sheet"
+        else value.casefold()
+        for kind, value in formula.pattern
+    )
+
+
+def _as_issued(student: Student, place: Place, values: Array) -> bool:
+    """Whether these very numbers stand in the cells of a place."""
+    column = student.grid.column(place.sheet, place.column)
+    if column.runs or column.errors:
+        return False
+    found = [column.constants.get(row, "") for row in place.rows if row is not None]
+    if len(found) < len(values) or any(type(number) is not float for number in found):
+        return False
+    far = np.abs(np.array(found) - values) > 1e-9 * np.maximum(1, np.abs(values))
+    return not far.any()
+
+
+def _put(student: Student, place: Place, index: int, name: str, value: float | str) -> None:
+    row = place.rows[index]
+    column = student.grid.sheets[place.sheet].setdefault(place.column, Column())
+    run = next(iter(column.runs_in(row, row)), None) if row is not None else None
+    found = column.constants.get(row) if row is not None else None
+    if run is None and row not in column.errors and _same(found, value):
+        return
+    if run is None and found is None and value == "":
+        return
+    assert row is not None
+    text = "формула" if run is not None else "пусто" if found is None else str(found)
+    where = f"{place.sheet}!{address(row, place.column)}"
+    student.changed.append(Changed(where, name, value, text))
+    column.cut({row})
+    column.errors.pop(row, None)
+    column.constants[row] = value if isinstance(value, str) else float(value)
+
+
+def issued_formulas(assignment: Assignment, layout: Layout) -> dict[str, tuple[Formula, ...]]:
+    """Node → the formulas of its cells, of the nodes that were given as formulas."""
+    known = assignment.__dict__.get("issued_formulas")
+    if known is None:
+        known = assignment.__dict__["issued_formulas"] = _issued(assignment, layout)
+    return known
+
+
+def _issued(assignment: Assignment, layout: Layout) -> dict[str, tuple[Formula, ...]]:
+    made: dict[str, tuple[Formula, ...]] = {}
+    live = assignment.live_nodes
+    for block in assignment.blocks:
+        table = block if isinstance(block, TableSpec) else None
+        for node, cells in fill_cells(block, layout).items():
+            expr = assignment.graph.expression(node)
+            if node not in live or expr is None:
+                continue
+            text = compile_formula(expr, RowReferences(layout, table))
+            made[node] = tuple(
+                formula_at(
+                    at_row(text, cell.row, last=cell.row == cells[-1].row).removeprefix("="),
+                    cell.row,
+                    cell.column,
+                )
+                for cell in cells
+            )
+    return made
+
+
+def _same(found: float | str | bool | None, wanted: float | str) -> bool:
+    if isinstance(wanted, str):
+        return isinstance(found, str) and found.strip() == wanted.strip()
+    if found is None or isinstance(found, str):
+        return False
+    return abs(float(found) - float(wanted)) <= 1e-9 * max(1.0, abs(float(wanted)))

@@ -1,0 +1,233 @@
+"""What a student may be told of a work-book before it is handed in: nothing about right or wrong.
+
+It needs no register and no secret: which cells are to be filled in is seen from the book,
+what must not be changed follows from its input data and from marks put there at issue.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+from reports.exports.build import load_input
+from reports.grading.issuing.assignment import Assignment, assignment_of
+from reports.grading.issuing.handout import INPUT_MARKS, TICKET_NAME, fill_cells, input_mark
+from reports.grading.issuing.rubric import Rubric, Work
+from reports.grading.reading.ground import through
+from reports.grading.reading.restoring import restore
+from reports.grading.reading.student import LOST, Student, address
+from reports.recalculation.evaluate import BLANK, ERROR, TEXT
+from reports.recalculation.grid import BadBook
+from reports.recalculation.language import UnknownFormula
+from reports.recalculation.read import read_grid
+from reports.recalculation.sheets import MAIN, parse_xml
+from reports.shared.errors import InputError, Problem
+from reports.spec.blocks import Model
+from reports.tables.registry import build_model
+from reports.workbook.inputs import shown
+from reports.workbook.intake import check_package
+from reports.workbook.layout import Layout
+from reports.workbook.package import Package
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """Cells and what is odd about them."""
+
+    where: str
+    what: str
+
+
+def is_work_book(path: Path) -> bool:
+    """Whether a file is a work-book that was issued to a student."""
+    if path.suffix.lower() not in (".xlsx", ".xlsm"):
+        return False
+    try:
+        package = Package(check_package(path))
+        return TICKET_NAME.encode() in package.read("xl/workbook.xml")
+    except (InputError, KeyError):
+        return False
+
+
+def findings(path: Path) -> list[Finding]:
+    """What is empty, typed in, an error, not understood, or locked and changed.
+
+    Raises:
+        InputError: the file cannot be read as a workbook.
+    """
+    package = Package(check_package(path))
+    try:
+        grid = read_grid(package)
+    except BadBook as error:
+        raise InputError(Problem(path.name, str(error), "откройте и сохраните её заново")) from None
+    model = build_model(load_input(path).model)
+    assignment = _assignment(model, package)
+    student = Student.of(assignment, Layout.of(assignment.model), grid)
+    found = list(_changed_inputs(student, package))
+    restore(student)
+    found += [
+        Finding(change.where, f"ячейка заперта, а изменена: теперь {change.now}")
+        for change in student.changed
+        if change.name not in model.fields
+    ]
+    found += [
+        Finding(_of(assignment, node), "выданная формула изменена")
+        for node in sorted(student.rewritten)
+        if student.as_laid_out
+    ]
+    broken = {node for node, answer in student.answers.items() if ERROR in answer.kinds}
+    followers = {node for node in broken if (through(student, node) - {node}) & broken}
+    for item in assignment.items:
+        for node in item.nodes:
+            found += _of_node(student, node, errors=node not in followers)
+    if followers:
+        names = ", ".join(_of(assignment, node) for node in sorted(followers)[:6])
+        more = "" if len(followers) <= 6 else f" и ещё {len(followers) - 6}"
+        found.append(Finding("Ошибки, пришедшие из названных выше", names + more))
+    return found
+
+
+def _assignment(model: Model, package: Package) -> Assignment:
+    """What is to be filled in: the tables with open cells."""
+    layout = Layout.of(model)
+    open_ = _open_cells(package)
+    fill = [
+        block.id
+        for block in model.blocks
+        if any(
+            (cell.sheet, cell.coordinate) in open_
+            for cells in fill_cells(block, layout).values()
+            for cell in cells
+        )
+    ]
+    sheets = {name.casefold() for name in _names(package)}
+    given = [
+        table.id
+        for table in model.tables.values()
+        if table.id not in fill and f"col_{table.id}_1".casefold() in sheets
+    ]
+    return assignment_of(model, Rubric(work=Work(fill=tuple(fill), given=tuple(given))))
+
+
+def _names(package: Package) -> Iterator[str]:
+    root = parse_xml(package.read("xl/workbook.xml"))
+    yield from (str(name.get("name")) for name in root.iter(f"{MAIN}definedName"))
+
+
+def _open_cells(package: Package) -> set[tuple[str, str]]:
+    """Sheet and address of all cells that are not locked."""
+    styles = parse_xml(package.read("xl/styles.xml")).find(f"{MAIN}cellXfs")
+    unlocked = {
+        str(number)
+        for number, style in enumerate(styles if styles is not None else ())
+        if any(
+            part.tag == f"{MAIN}protection" and part.get("locked") in ("0", "false")
+            for part in style
+        )
+    }
+    found = set()
+    for title, part in _parts(package):
+        for cell in parse_xml(package.read(part)).iter(f"{MAIN}c"):
+            if cell.get("s") in unlocked:
+                found.add((title, str(cell.get("r"))))
+    return found
+
+
+def _parts(package: Package) -> Iterable[tuple[str, str]]:
+    rels = parse_xml(package.read("xl/_rels/workbook.xml.rels"))
+    targets = {rel.get("Id"): str(rel.get("Target")) for rel in rels.iter("{*}Relationship")}
+    book = parse_xml(package.read("xl/workbook.xml"))
+    for sheet in book.iter(f"{MAIN}sheet"):
+        key = next((v for k, v in sheet.attrib.items() if str(k).endswith("}id")), "")
+        target = targets.get(str(key), "")
+        yield str(sheet.get("name")), target[1:] if target.startswith("/") else f"xl/{target}"
+
+
+def _changed_inputs(student: Student, package: Package) -> Iterator[Finding]:
+    """Input data that are not those issued, as far as the marks in the file tell."""
+    marks = _marks(package)
+    model = student.assignment.model
+    for name, item in model.fields.items():
+        place = student.placement.places.get(name)
+        if name in marks and marks[name] != input_mark(shown(item)):
+            where = f"{place.sheet}!{address(place.rows[0] or 0, place.column)}" if place else name
+            yield Finding(where, f"исходное данное «{item.title}» изменено")
+
+
+def _marks(package: Package) -> dict[str, str]:
+    try:
+        root = parse_xml(package.read("docProps/custom.xml"))
+    except (KeyError, BadBook):
+        return {}
+    texts = {
+        str(item.get("name")): "".join(item.itertext())
+        for item in root.iter("{*}property")
+        if fnmatchcase(str(item.get("name")), f"{INPUT_MARKS}*")
+    }
+    found: dict[str, str] = {}
+    for _, text in sorted(texts.items()):
+        for entry in text.split(" "):
+            name, _, mark = entry.partition("=")
+            if mark:
+                found[name] = mark
+    return found
+
+
+def _of_node(student: Student, node: str, *, errors: bool) -> list[Finding]:
+    answer = student.answers[node]
+    place = answer.place
+    what = _of(student.assignment, node)
+    if place is None:
+        return [Finding(what, "ячейки не найдены: верните таблице её заголовки")]
+    found = []
+    if answer.problem:
+        found.append(Finding(what, f"формулу программа не пересчитает: {answer.problem}"))
+    for kind, words in ((LOST, "строка не найдена: верните угол в первый столбец"),
+                        (BLANK, "пусто"), (TEXT, "текст вместо числа")):  # fmt: skip
+        rows = [r for r, k in zip(place.rows, answer.kinds, strict=True) if k == kind]
+        if rows:
+            found.append(Finding(what, f"{words}: {_ranges(place.sheet, place.column, rows)}"))
+    wrong: dict[str, list[int | None]] = {}
+    for row, kind in zip(place.rows, answer.kinds, strict=True):
+        if errors and kind == ERROR and row is not None:
+            try:
+                text = student.engine.shown(place.sheet, place.column, row)
+            except UnknownFormula:
+                continue
+            wrong.setdefault(str(text), []).append(row)
+    for text, rows in wrong.items():
+        where = _ranges(place.sheet, place.column, rows)
+        found.append(Finding(what, f"ошибка {text}: {where}"))
+    typed = [r for r, t in zip(place.rows, answer.typed, strict=True) if t]
+    typed = [r for r, k in zip(place.rows, answer.kinds, strict=True) if r in typed and k == "n"]
+    if typed:
+        where = _ranges(place.sheet, place.column, typed)
+        found.append(Finding(what, f"число вместо формулы: {where}"))
+    return found
+
+
+def _of(assignment: Assignment, node: str) -> str:
+    """A node as the book calls it."""
+    model = assignment.model
+    about = model.nodes[node].quantity
+    table = model.tables.get(node.partition(".")[0]) if "." in node else None
+    if table is not None:
+        return f"{table.number} {about.symbol}"
+    owner = next(b for b in model.blocks if b.id == assignment.graph.owners[node])
+    return f"{owner.sheet} {about.symbol}"
+
+
+def _ranges(sheet: str, column: int, rows: list[int | None]) -> str:
+    found: list[list[int]] = []
+    for row in sorted(row for row in rows if row is not None):
+        if found and found[-1][1] == row - 1:
+            found[-1][1] = row
+        else:
+            found.append([row, row])
+    texts = [
+        address(first, column) + (f":{address(last, column)}" if last > first else "")
+        for first, last in found
+    ]
+    return f"{sheet}!" + ", ".join(texts[:8]) + ("…" if len(texts) > 8 else "")

@@ -1,0 +1,207 @@
+"""Formulas tried on other values of the cells that they refer to.
+
+The formulas stand on sheets of their own and refer to a grid in which those cells are
+numbers; the numbers are changed and everything is calculated anew, in one loaded book.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reports.recalculation.evaluate import Engine
+from reports.recalculation.formulas import Formula
+from reports.recalculation.grid import Area, Column, Constant, Grid, Run
+from reports.recalculation.language import UnknownFormula, quoted
+
+_SCRATCH = "\N{GREEK SMALL LETTER PHI}"
+
+
+@dataclass(frozen=True, slots=True)
+class Cells:
+    """Cells of one column with what is to stand in them."""
+
+    sheet: str
+    column: int
+    rows: tuple[int, ...]
+    values: tuple[Constant, ...]
+
+
+def pinned(grid: Grid, cells: Iterable[Cells]) -> Grid:
+    """A copy of a grid with constants in some cells, whatever stood there."""
+    sheets = {
+        title: {
+            number: Column(dict(c.constants), dict(c.errors), list(c.runs))
+            for number, c in columns.items()
+        }
+        for title, columns in grid.sheets.items()
+    }
+    for part in cells:
+        column = sheets[part.sheet].setdefault(part.column, Column())
+        column.cut(set(part.rows))
+        for row, value in zip(part.rows, part.values, strict=True):
+            column.errors.pop(row, None)
+            column.constants[row] = value
+    return Grid(sheets, grid.names, grid.areas)
+
+
+class Bench:
+    """Some formulas on a grid of constants.
+
+    Args:
+        grid: the cells that the formulas refer to.
+        formulas: the formulas by a key, as runs of the grid that need not be in it.
+        rounded: take the roundings out of the formulas.
+    """
+
+    def __init__(
+        self, grid: Grid, formulas: Mapping[str, Sequence[Run]], *, rounded: bool = True
+    ) -> None:
+        titles = {title: f"{_SCRATCH}{i}" for i, title in enumerate(grid.sheets)}
+        scratch: dict[str, dict[int, Column]] = {title: {} for title in titles.values()}
+        self._runs: dict[str, list[Run]] = {}
+        made: dict[int, Run] = {}
+        for key, runs in formulas.items():
+            self._runs[key] = []
+            for run in runs:
+                moved = made.get(id(run))
+                if moved is None:
+                    for part in _whole_array(grid, run):
+                        other = _moved(part, titles[run.sheet], rounded=rounded)
+                        made[id(part)] = other
+                        columns = scratch[other.sheet]
+                        columns.setdefault(other.column, Column()).runs.append(other)
+                    moved = made[id(run)]
+                self._runs[key].append(moved)
+        self._engine = Engine(Grid({**grid.sheets, **scratch}, grid.names, grid.areas))
+
+    def put(self, cells: Iterable[Cells]) -> None:
+        """Change constants; the next values are those of the changed grid."""
+        self._engine.put(cells)
+
+    def values(self, key: str, rows: Sequence[int | None]) -> NDArray[np.float64]:
+        """Numbers that a key's formulas give in some rows, NaN where there is none.
+
+        Raises:
+            UnknownFormula: one of them cannot be calculated for certain.
+        """
+        found = np.full(len(rows), np.nan)
+        index = {row: i for i, row in enumerate(rows) if row is not None}
+        for run in self._runs[key]:
+            part = self._engine.all_of(run)
+            for offset, value in enumerate(part):
+                at = index.get(run.first + offset)
+                if at is not None:
+                    found[at] = value
+        return found
+
+
+def _whole_array(grid: Grid, run: Run) -> list[Run]:
+    """All columns of an array formula; other runs alone."""
+    if run.array is None:
+        return [run]
+    area = run.array
+    found = [other for other in grid.runs_of(area) if other.array == area]
+    return found if any(other is run for other in found) else [run]
+
+
+def _moved(run: Run, sheet: str, *, rounded: bool) -> Run:
+    area = run.array
+    if area is not None:
+        area = Area(sheet, area.first_row, area.last_row, area.first_column, area.last_column)
+    formula = run.formula
+    problem = run.problem
+    if formula is not None:
+        try:
+            formula = _qualified(formula, run.sheet)
+            formula = formula if rounded else unrounded(formula)
+        except UnknownFormula as error:
+            problem = str(error)
+    return Run(sheet, run.column, run.first, run.count, formula, run.text, problem, area)
+
+
+@lru_cache(maxsize=20_000)
+def _qualified(formula: Formula, sheet: str) -> Formula:
+    """A formula whose references all name their sheet."""
+    token = ("sheet", quoted(sheet))
+    made = []
+    before = ("", "")
+    for found in formula.pattern:
+        bare = before[0] != "sheet" and before != ("op", ":")
+        if found[0] in ("ref", "columns", "rows") and bare:
+            made.append(token)
+        made.append(found)
+        before = found
+    return Formula(tuple(made))
+
+
+@lru_cache(maxsize=20_000)
+def unrounded(formula: Formula) -> Formula:
+    """A formula without its ROUND, ROUNDUP and ROUNDDOWN."""
+    if formula.functions.isdisjoint(ROUNDINGS):
+        return formula
+    tokens = list(formula.pattern)
+    at = 0
+    while at < len(tokens) - 1:
+        if tokens[at][0] == "name" and tokens[at][1].upper() in ROUNDINGS:
+            end, comma = _arguments(tokens, at + 1)
+            if end and comma:
+                tokens[at : end + 1] = [*tokens[at + 1 : comma], ("op", ")")]
+                continue
+        at += 1
+    return Formula(tuple(tokens))
+
+
+def unrounded_grid(grid: Grid) -> Grid:
+    """A grid whose formulas do not round."""
+
+    def plain(run: Run) -> Run:
+        formula = unrounded(run.formula) if run.formula is not None else None
+        return Run(run.sheet, run.column, run.first, run.count, formula, run.text, run.problem,
+                   run.array)  # fmt: skip
+
+    sheets = {
+        title: {
+            number: Column(c.constants, c.errors, [plain(run) for run in c.runs])
+            for number, c in columns.items()
+        }
+        for title, columns in grid.sheets.items()
+    }
+    return Grid(sheets, grid.names, grid.areas)
+
+
+ROUNDINGS = frozenset(("ROUND", "ROUNDUP", "ROUNDDOWN"))
+
+
+def _arguments(tokens: Sequence[tuple[str, str]], start: int) -> tuple[int, int]:
+    """Where the parentheses at ``start`` close, and their first comma; 0 where there is none."""
+    depth, comma = 0, 0
+    for at in range(start, len(tokens)):
+        if tokens[at] in (("op", "("), ("op", "{")):
+            depth += 1
+        elif tokens[at] in (("op", ")"), ("op", "}")):
+            depth -= 1
+            if depth == 0:
+                return at, comma
+        elif tokens[at] == ("op", ",") and depth == 1 and not comma:
+            comma = at
+    return 0, 0
+
+
+def rounded_to(formula: Formula) -> int | None:
+    """Digits that a whole formula is rounded to, None where it is no rounding."""
+    tokens = formula.pattern
+    if len(tokens) < 4 or tokens[0][0] != "name" or tokens[0][1].upper() not in ROUNDINGS:
+        return None
+    end, comma = _arguments(tokens, 1)
+    if end != len(tokens) - 1 or not comma:
+        return None
+    digits = "".join(value for _, value in tokens[comma + 1 : end])
+    try:
+        return int(digits)
+    except ValueError:
+        return None

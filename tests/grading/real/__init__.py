@@ -1,0 +1,1 @@
+"""A class as it comes back: books filled in by hand-written formulas, honest and not."""

@@ -1,0 +1,70 @@
+"""The class handed in and graded, once for all tests."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from tempfile import mkdtemp
+from typing import Any
+
+from reports.grading.batch.grade import Options, grade
+from tests.grading.forms import as_excel
+from tests.grading.real.books import Work, classroom, desk, made
+from tests.grading.real.cheats import CHEATS
+from tests.grading.real.honest import HONEST
+from tests.grading.real.mistakes import MISTAKES
+from tools.referees.by_libreoffice import LibreOffice
+
+WORKS: tuple[Work, ...] = (*HONEST, *MISTAKES, *CHEATS)
+
+
+@dataclass(frozen=True)
+class Marked:
+    """A work with its row of the gradebook and its result."""
+
+    number: int
+    work: Work
+    row: dict[str, Any]
+    result: dict[str, Any]
+
+    @property
+    def lines(self) -> dict[str, dict[str, Any]]:
+        """Lines of the feedback by item."""
+        return {line["id"]: line for line in self.result["items"]}
+
+
+def books() -> dict[int, bytes]:
+    """Number of the student → the file handed in."""
+    found = {number: made(number, work) for number, work in enumerate(WORKS, 1)}
+    office = [number for number, work in enumerate(WORKS, 1) if work.form == "office"]
+    saved = LibreOffice().converted([found[number] for number in office])
+    found |= dict(zip(office, saved, strict=True))
+    for number, work in enumerate(WORKS, 1):
+        if work.form == "excel":
+            found[number] = as_excel(found[number])
+        if work.after is not None:
+            found[number] = work.after(found[number], desk(number))
+    return found
+
+
+@lru_cache(maxsize=1)
+def marked() -> dict[str, Marked]:
+    """Name of the work → what came of it."""
+    folder, register = classroom()
+    submitted, out = folder / "submitted", Path(mkdtemp(prefix="kshm-real-out-"))
+    if not submitted.exists():
+        submitted.mkdir()
+        for number, data in books().items():
+            issued = register.books[number - 1]
+            (submitted / issued.file).write_bytes(data)
+    done = grade(folder / "issued", submitted, out, secret_file=folder / "secret.key",
+                 options=Options(workers=2))  # fmt: skip
+    rows = {row["number"]: row for row in done.summary["rows"] if row["number"]}
+    results = [json.loads(p.read_text(encoding="utf-8")) for p in (out / "results").glob("*.json")]
+    by_file = {result["key"]: result for result in results if "key" in result}
+    return {
+        work.name: Marked(number, work, rows[number], by_file[register.books[number - 1].file])
+        for number, work in enumerate(WORKS, 1)
+    }

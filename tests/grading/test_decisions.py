@@ -1,0 +1,143 @@
+"""A person's word: points and a remark, kept, shown, stronger than the program's."""
+
+from __future__ import annotations
+
+import json
+import os
+from datetime import datetime
+from pathlib import Path
+
+import pytest
+from openpyxl import load_workbook
+
+from reports.grading.batch.grade import Options, decide, grade
+from reports.grading.issuing.rubric import rubric_of
+from reports.grading.judging.marking import late_factor
+from reports.grading.pages.summary import choose
+from reports.shared.errors import InputError
+from tests.grading import classroom
+from tests.grading.fill import filled_book
+
+UNKNOWN = {"V_c": ['=INDIRECT("V_h")/17']}
+
+
+def submitted(folder: Path) -> Path:
+    """One book with a formula that no program calculates, one that is right."""
+    classroom.register()
+    folder.mkdir()
+    for number, changes in ((1, UNKNOWN), (2, None)):
+        book = filled_book(classroom.handout(number), classroom.assignment(number), changes)
+        (folder / f"{number}.xlsx").write_bytes(book)
+    return folder
+
+
+def run(where: Path, out: Path, *words: tuple[str, str, str, str]) -> dict:
+    folder = classroom.folder()
+    options = Options(workers=1, decisions=words, author="Преподаватель")
+    done = grade(folder / "issued", where, out, secret_file=folder / "secret.key", options=options)
+    return {row["number"]: row for row in done.summary["rows"]}
+
+
+def test_an_unknown_is_decided_and_the_decision_survives(tmp_path):
+    where, out = submitted(tmp_path / "in"), tmp_path / "out"
+    rows = run(where, out)
+    worth = next(x for x in rows[1]["result"]["items"] if x["id"] == "geometry.V_c")["of"]
+    assert rows[1]["manual"]
+    assert rows[1]["points"] == pytest.approx(100 - worth, abs=0.01)
+    # Without anything to grade anew, and without the secret.
+    words = ("Иванов Имя", "geometry.V_c", f"{worth:.4f}", "посмотрел: верно")
+    done = decide(out, Options(decisions=(words,), author="Петрова"))
+    assert not done.needs_a_person
+    (entry,) = json.loads((out / "decisions.json").read_text("utf-8"))["decisions"]
+    assert (entry["author"], entry["remark"]) == ("Петрова", "посмотрел: верно")
+    assert entry["date"].startswith(str(datetime.now().year))
+    for rows in (run(where, out), run(where, out)):  # and of every later run
+        assert rows[1]["points"] == pytest.approx(100, abs=0.01)
+        assert not rows[1]["manual"]
+        page = (out / rows[1]["page"]).read_text("utf-8")
+        assert "Решение преподавателя" in page
+        assert "посмотрел: верно" in page
+        assert "Петрова" in page
+    rows = run(where, out, ("1", "geometry.V_c", "-", ""))  # withdrawn
+    assert rows[1]["manual"]
+    assert "посмотрел" not in (out / rows[1]["page"]).read_text("utf-8")
+
+
+def test_the_gradebook_is_read_back(tmp_path):
+    where, out = submitted(tmp_path / "in"), tmp_path / "out"
+    run(where, out)
+    path = out / "gradebook.xlsx"
+    book = load_workbook(path)
+    sheet = book.active
+    head = [cell.value for cell in sheet[1]]
+    points, remark = head.index("Решение: баллы") + 1, head.index("Решение: примечание") + 1
+    sheet.cell(3, points).value, sheet.cell(3, remark).value = 55.5, "защита не сдана"
+    book.properties.lastModifiedBy = "Сидорова"
+    book.save(path)
+    for rows in (run(where, out), run(where, out)):
+        assert rows[2]["points"] == 55.5
+        assert "защита не сдана" in rows[2]["remark"]
+    entry = json.loads((out / "decisions.json").read_text("utf-8"))["decisions"][0]
+    assert entry["author"] == "Сидорова"
+    assert load_workbook(path).active.cell(3, points).value == 55.5
+    book = load_workbook(path)
+    book.active.cell(3, points).value = book.active.cell(3, remark).value = None
+    book.save(path)
+    assert run(where, out)[2]["points"] == 100
+
+
+def test_a_doubtful_work_is_accepted_by_a_person(tmp_path):
+    from tests.grading.real.cheats import reticketed
+
+    where, out = submitted(tmp_path / "in"), tmp_path / "out"
+    data = (where / "2.xlsx").read_bytes()
+    (where / "2.xlsx").unlink()
+    ticket = classroom.book(2).ticket
+    (where / f"{classroom.book(2).folder}.xlsx").write_bytes(reticketed(data, ticket, ""))
+    rows = run(where, out)
+    assert rows[2]["points"] is None
+    assert "нет идентификатора" in rows[2]["remark"]
+    assert "предварительные" in (out / rows[2]["page"]).read_text("utf-8") or rows[2]["manual"]
+    rows = run(where, out, ("2", "всё", "+", "его работа"))
+    assert rows[2]["points"] == 100
+    assert not rows[2]["manual"]
+
+
+def test_what_is_no_decision_is_refused(tmp_path):
+    where, out = submitted(tmp_path / "in"), tmp_path / "out"
+    run(where, out)
+    for words, message in (
+        (("Никто", "всё", "5", ""), "нет такого студента"),
+        (("1", "P9.x", "5", ""), "нет такого столбца"),
+        (("1", "всё", "101", ""), "это не баллы"),
+        (("1", "всё", "пять", ""), "это не баллы"),
+    ):
+        with pytest.raises(InputError, match=message):
+            decide(out, Options(decisions=(words,)))
+    (out / "decisions.json").write_text("{", encoding="utf-8")
+    with pytest.raises(InputError, match="файл решений преподавателя повреждён"):
+        decide(out, Options())
+
+
+def test_the_best_attempt_counts_where_the_rubric_says_so():
+    def result(points: float, time: str) -> dict:
+        return {"number": 1, "status": "graded", "points": points, "time": time, "key": time}
+
+    first, second = result(90.0, "2026-01-01"), result(60.0, "2026-01-02")
+    assert choose([first, second])[1] is second
+    assert choose([first, second], "best")[1] is first
+    thief = result(0.0, "2026-01-03") | {"submitter": 2}
+    assert choose([first, second, thief])[1] is second  # a stranger's file is never mine
+
+
+def test_days_of_delay():
+    late = {"deadline": datetime(2026, 12, 1, 12), "per_day": 0.1, "free_days": 1, "least": 0.3}
+    rubric = rubric_of({"late": late}, "r")
+    assert late_factor(rubric, datetime(2026, 12, 1, 12)) == 1
+    assert late_factor(rubric, datetime(2026, 12, 2, 11)) == 1  # the free day
+    assert late_factor(rubric, datetime(2026, 12, 2, 13)) == pytest.approx(0.9)
+    assert late_factor(rubric, datetime(2026, 12, 4, 13)) == pytest.approx(0.7)
+    assert late_factor(rubric, datetime(2026, 12, 30)) == 0.3
+
+
+assert os

@@ -1,0 +1,78 @@
+"""A class as it comes back: the honest are paid, the wrong are told, the cheats earn nothing."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.grading.real.cheats import CHEATS
+from tests.grading.real.grading import Marked, marked
+from tests.grading.real.honest import HONEST
+from tests.grading.real.mistakes import MISTAKES
+from tools.referees.by_libreoffice import LibreOffice
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _saved_by_another_program(libreoffice: LibreOffice) -> None:
+    """Some books are saved by LibreOffice."""
+
+
+def unlike(found: Marked, *allowed: str) -> dict[str, str]:
+    """Items whose verdict is none of those allowed."""
+    return {
+        item: line["verdict"]
+        for item, line in found.lines.items()
+        if line["verdict"] not in ("right", *allowed)
+    }
+
+
+def test_the_class_is_large_enough():
+    assert len(HONEST) >= 15
+    assert len(MISTAKES) >= 46
+    assert len(CHEATS) >= 46
+    names = [work.name for work in (*HONEST, *MISTAKES, *CHEATS)]
+    assert len(set(names)) == len(names)
+
+
+@pytest.mark.parametrize("name", [work.name for work in HONEST])
+def test_an_honest_book_is_right_throughout(name):
+    found = marked()[name]
+    assert unlike(found) == {}
+    assert found.result["points"] == 100
+    assert found.result["manual"] == found.result["notes"] == found.result["doubts"] == []
+
+
+@pytest.mark.parametrize("name", [work.name for work in MISTAKES])
+def test_a_mistake_costs_its_own_column_and_no_other(name):
+    found = marked()[name]
+    assert unlike(found, "carried") == dict(found.work.verdicts)
+    for item, words in found.work.causes.items():
+        assert words in found.lines[item]["cause"]
+    for item, line in found.lines.items():
+        if item not in found.work.verdicts:
+            assert line["points"] == line["of"], item  # carried is paid in full
+    assert not found.result["manual"]
+    assert found.row["points"] == found.result["points"] < 99.2 or _is_small(found)
+
+
+def _is_small(found: Marked) -> bool:
+    """Mistakes in what nothing follows from, or in one row, may cost less than a point."""
+    return all(found.lines[i]["of"] < 1 or found.lines[i]["points"] for i in found.work.verdicts)
+
+
+@pytest.mark.parametrize("name", [work.name for work in CHEATS if not work.held])
+def test_a_cheat_earns_nothing(name):
+    found = marked()[name]
+    for item in found.work.unpaid:
+        assert found.lines[item]["points"] == 0, (item, found.lines[item]["verdict"])
+    # Nothing right is lost to the cheat but what rests on blanks and circles.
+    told = {*found.work.unpaid, *found.work.verdicts}
+    others = {i: v for i, v in unlike(found, "carried", "groundless").items() if i not in told}
+    assert others == {}
+
+
+@pytest.mark.parametrize("name", [work.name for work in CHEATS if work.held])
+def test_a_foreign_work_waits_for_a_person(name):
+    found = marked()[name]
+    assert found.row["points"] is None
+    assert found.row["manual"]
+    assert found.work.held in found.row["remark"]

@@ -1,0 +1,82 @@
+"""What a student is told before handing in: blanks, numbers, errors; never right or wrong."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from openpyxl import Workbook
+
+from reports.grading.reading.selfcheck import findings, is_work_book
+from reports.workbook.layout import Layout
+from reports.workbook.write import workbook_bytes
+from tests.grading import classroom
+from tests.grading.fill import filled_book
+from tests.grading.forms import as_excel
+
+ROOT = Path(__file__).parents[2]
+
+
+def told(tmp_path: Path, data: bytes) -> dict[str, str]:
+    path = tmp_path / "моя книга.xlsx"
+    path.write_bytes(data)
+    assert is_work_book(path)
+    return {found.where: found.what for found in findings(path)}
+
+
+def spoilt(book: Workbook, layout: Layout) -> None:
+    cell = layout.cells["regime_speed_rpm"]
+    book[cell.sheet].cell(cell.row, cell.column).value = 4111
+    book["Цилиндры"]["L8"] = 5
+    book["П4.1"]["H9"] = None
+
+
+def test_a_book_that_is_filled_in_gives_no_remark(tmp_path):
+    right = filled_book(classroom.handout(), classroom.assignment())
+    assert told(tmp_path, right) == {}
+    assert told(tmp_path, as_excel(right)) == {}
+    # Wrong formulas are no matter of this check.
+    wrong = filled_book(
+        classroom.handout(), classroom.assignment(), {"omega": ["=1+regime_speed_rpm"]}
+    )
+    assert told(tmp_path, wrong) == {}
+
+
+def test_everything_odd_is_told_with_its_cells(tmp_path):
+    changes = {"P3_1.v1_m_s": [1.5] * 13, "lam": ["=1/0"], "V_c": ['=INDIRECT("V_h")'],
+               "P4_1.M_Nm": [None] * 25}  # fmt: skip
+    found = told(
+        tmp_path, filled_book(classroom.handout(), classroom.assignment(), changes, spoilt)
+    )
+    assert found["Исходные данные!C49"] == "исходное данное «Частота вращения» изменено"
+    assert found["Цилиндры!L8"] == "ячейка заперта, а изменена: теперь 5.0"
+    assert found["П3.1 vп1"] == "число вместо формулы: П3.1!E6:E18"
+    assert found["Массы λ"] == "ошибка #DIV/0!: Массы!C7"
+    assert "INDIRECT" in found["Массы Vc"]
+    assert found["П4.1 Mкр"] == "пусто: П4.1!I6:I30"
+    assert found["П4.1 Kуд"] == "пусто: П4.1!H9"
+    assert "П3.1 jп2" in found["Ошибки, пришедшие из названных выше"]
+    assert "верн" not in " ".join(found.values())
+
+
+def test_a_solved_book_is_no_work_book(tmp_path):
+    path = tmp_path / "a.xlsx"
+    path.write_bytes(workbook_bytes(classroom.assignment().model))
+    assert not is_work_book(path)
+    assert not is_work_book(ROOT / "samples" / "gots-diesel.toml")
+
+
+def test_the_command_needs_no_secret(tmp_path):
+    path = tmp_path / "a.xlsx"
+    path.write_bytes(classroom.handout())
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONIOENCODING": "utf-8",
+                   "KSHM_SECRET": str(tmp_path / "none")}  # fmt: skip
+    done = subprocess.run(
+        [sys.executable, "-m", "reports", "check", str(path)],
+        capture_output=True, text=True, cwd=tmp_path, env=environment, check=False,
+    )  # fmt: skip
+    assert done.returncode == 1
+    assert "П3.1 sп1: пусто: П3.1!B6:B18" in done.stdout
+    assert "верны ли значения, здесь не проверяется" in done.stdout

@@ -10,13 +10,17 @@ from markupsafe import Markup
 from reports.document.chapters import facts
 from reports.document.chapters.chapter import BOOK, Chapter
 from reports.document.chapters.journals import least_ray
+from reports.document.chapters.profiles import chosen
 from reports.document.page.blocks import Column, TableBlock, table_block
 from reports.document.page.spec_tables import angle_table
 from reports.document.page.writer import TablePlan
+from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms
-from reports.shared.russian import fixed
+from reports.inputs.checks.grid import grid_remark
+from reports.shared.russian import capital, fixed
 from reports.spec.shape import Shape, pin_name, rods_table
 from reports.tables.overview.summary import NO, YES
+from reports.tables.overview.verdicts import reasons_of
 
 _TEXT = "— Текст : непосредственный"
 SOURCES = {
@@ -46,6 +50,7 @@ SOURCES = {
         f"1940. {_TEXT}.",
 }  # fmt: skip
 
+_MOST_PERCENT = 1000.0  # of a value near zero a difference in percent says nothing
 _PEAK_MPA = 0.005  # half a unit of the last digit that the conclusion prints
 
 
@@ -59,8 +64,37 @@ def checks(chapter: Chapter) -> Markup:
         plan=plan,
         failed=failed(terms),
         verdict=verdict(terms),
-        remarks=terms.model.remarks,
+        remarks=_remarks(chapter),
+        grid=bool(chapter.grid_errors),
+        errors=TablePlan(partial(_grid_table, chapter), "Результаты, для которых шаг таблиц велик"),
     )
+
+
+def _remarks(chapter: Chapter) -> list[str]:
+    """Remarks on the input that no chapter tells itself."""
+    told = [grid_remark(chapter.input)]
+    if "torque" in chosen(chapter.input.report):
+        told.append(reasons_of(chapter.input).get("power", ""))
+    return [
+        line
+        for line in chapter.terms.model.remarks
+        if not any(part and line.endswith(part) for part in told)
+    ]
+
+
+def _grid_table(chapter: Chapter) -> TableBlock:
+    """Results on the grid of the tables beside those of the fine step."""
+    step = fixed(chapter.input.calculation.step_deg, 0)
+    heads = (f"Шаг {step}°", "Шаг 1°", "Разность, %")
+    columns = [Column("Величина", 5, text=True), *(Column(head, 1.5) for head in heads)]
+    rows = []
+    for error in chapter.grid_errors:
+        q, percent = error.quantity, error.percent
+        unit = f", {q.unit_label}" if q.unit_label else ""
+        shown = [of_digits(value, q.digits) for value in (error.coarse, error.fine)]
+        apart = fixed(percent, 1) if abs(percent) < _MOST_PERCENT else "—"
+        rows.append([capital(q.title) + unit, *shown, apart])
+    return table_block(columns, rows)
 
 
 def check_keys(terms: Terms) -> list[str]:

@@ -26,6 +26,7 @@ from reports.tables.gas.diagram import is_smooth
 
 _LISTS = ("firing_offset_", "throw_angle_", "force_offset_", "web_", "gas_point_")
 _ARMS = ("l1", "l2", "l3", "l4", "l5", "l6", "left_web", "right_web")
+_OTHERS = {"report", "regimes", "checks"}  # sections that are told elsewhere
 _LEFT_OUT = {"engine_name", "engine_layout", "engine_strokes"}
 
 
@@ -120,7 +121,7 @@ def _general(fields: Sequence[Field], unused: set[str]) -> TableBlock:
     for field in fields:
         if field.name in unused:
             continue
-        if field.path[0] in ("report", "regimes") or field.name in _LEFT_OUT or _is_listed(field):
+        if field.path[0] in _OTHERS or field.name in _LEFT_OUT or _is_listed(field):
             continue
         symbol = inline_html(input_symbol_tex(field.symbol)) if field.symbol else "—"
         unit = "—" if field.choices is not None else unit_cell(field.unit)

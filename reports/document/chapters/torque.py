@@ -78,15 +78,20 @@ def running(chapter: Chapter) -> Markup:
         float(np.abs(terms.column(f"P4_5s.Mpins{i}_Nm") - terms.column(f"P4_5.Mpin{i}_Nm")).max())
         for i in range(1, count + 1)
     )
+    mains = [k + 1 for k in facts.leaders(terms, [f"dM_main{k}" for k in range(2, count + 2)])]
+    worst = facts.leaders(terms, [f"dM_pin{i}" for i in range(1, count + 1)])
+    if not chapter.whole:
+        main, pins = [f"fig56_{mains[0]}"], [f"fig57_{worst[0]}"]
     return chapter.page(
         "running",
         shown=[*_figures(main), *_figures(pins)],
+        some=not chapter.whole and count > 1,
         ranges=TablePlan(partial(_ranges, terms, count), "Размах набегающих моментов"),
         last=count + 1,
         count=count,
         gap=fixed(gap, 1) if gap > 0.05 else "",
-        mains=[k + 1 for k in facts.leaders(terms, [f"dM_main{k}" for k in range(2, count + 2)])],
-        pins=facts.leaders(terms, [f"dM_pin{i}" for i in range(1, count + 1)]),
+        mains=mains,
+        pins=worst,
     )
 
 

@@ -64,7 +64,11 @@ def _is_listed(field: Field) -> bool:
 def _general(fields: Sequence[Field]) -> TableBlock:
     rows = []
     for field in fields:
-        if field.path[0] in ("report", "regimes") or field.name in _LEFT_OUT or _is_listed(field):
+        if (
+            field.path[0] in ("report", "regimes", "checks")
+            or field.name in _LEFT_OUT
+            or _is_listed(field)
+        ):
             continue
         tex = _TITLES.get(field.name) or input_symbol_tex(field.symbol)
         symbol = inline_html(tex) if field.symbol else "—"

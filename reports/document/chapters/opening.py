@@ -23,6 +23,7 @@ from reports.tables.gas.diagram import is_smooth
 
 _LISTS = ("firing_offset_", "throw_angle_", "force_offset_", "web_", "gas_point_")
 _ARMS = ("l1", "l2", "l3", "l4", "l5", "l6", "left_web", "right_web")
+_NOT_OF_ENGINE = ("report", "regimes", "checks")  # sections that other tables or pages show
 _LEFT_OUT = {"engine_name", "engine_layout", "engine_strokes"}
 _TITLES = {
     "crankshaft_pin_diameter_mm": r"d_{\mathrm{ш.ш}}",

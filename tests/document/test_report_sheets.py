@@ -189,7 +189,8 @@ def test_every_figure_and_formula_is_told_in_words(framed):
     data = unpacked(framed[0].pdf)
     said = [bytes.fromhex(hex_[4:].decode()).decode("utf-16-be")
             for hex_ in re.findall(rb"/Alt\s*<(feff[0-9a-f]+)>", data)]  # fmt: skip
-    assert data.count(b"/Alt ") == data.count(b"/S /Figure") > 100
+    figures, formulas = data.count(b"/S /Figure"), data.count(b"/S /Formula")
+    assert data.count(b"/Alt ") == figures + formulas and formulas > 80 > figures > 15
     (torque,) = [text for text in said if text.startswith("Индикаторный крутящий момент")]
     assert "наибольшее" in torque and "при φ = " in torque and "Н·м" in torque
 

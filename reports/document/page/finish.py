@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from reports.document.text.mathsvg import MARK
+from reports.document.text.texts import FORMULA
 
 _TYPES = {".toml": "application/toml"}  # that Python's list of media types lacks
 
@@ -22,8 +22,8 @@ def finish(pdf: Any) -> None:  # noqa: ANN401
 
 def _tagged(element: dict[str, Any]) -> None:
     words = element.get("Alt")
-    if words is not None and words.string.startswith(MARK):
-        words.string = words.string.removeprefix(MARK)
+    if words is not None and words.string.startswith(FORMULA):
+        words.string = words.string.removeprefix(FORMULA)
         element["S"] = "/Formula"
 
 

@@ -31,7 +31,7 @@ _SHARE = re.compile(r'<col style="width:([\d.]+)%')
 _SMALL = re.compile(r"<su[bp]>(.*?)</su[bp]>", re.DOTALL)
 _PT = 96 / 72  # CSS pixels in a point
 _FULL = 0.97  # of a line that words fill on the average
-_LEAST = 0.78  # to which a figure may be reduced to fit the foot of a page
+_LEAST = 0.7  # to which a figure may be reduced to fit the foot of a page
 _SLACK = 6.0  # px kept free on every page: estimates are no measures
 _NEARLY = 0.07  # of a page: too little for a heading and what must follow it
 _DOUBT = 28.0  # px kept free below what would miss the page by a hair: a line of the text
@@ -101,9 +101,11 @@ def _filled(blocks: Sequence[Block], used: float, room: float) -> tuple[list[str
             continue
         out.append(block.html)
         used = _after(block, used, room)
-    for block in waiting:  # each on the page that comes next
-        out.append(block.html)
-        used = _after(block, used, room)
+    while waiting:  # the first on the page that comes next, others beside it where they fit
+        out.append(waiting[0].html)
+        used = _after(waiting[0], used, room)
+        used, placed, waiting = _placed(waiting[1:], used, room)
+        out += placed
     return out, used
 
 

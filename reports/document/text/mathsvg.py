@@ -39,7 +39,6 @@ from reports.document.text.texts import pictured
 from reports.document.text.texwords import for_mathtext
 from reports.shared.russian import MINUS, NBSP
 
-MARK = "\u2062"  # an invisible sign before the words of a formula: tells it from a figure
 _UNITS = 1000.0  # size at which mathtext sets the formula; one em of the result
 _PAD = 0.04  # em added left and right: slanted letters reach out of their boxes
 
@@ -80,7 +79,7 @@ class Formula:
     @property
     def image(self) -> Markup:
         """The formula as a picture with its words, for paper."""
-        return pictured(self.svg, MARK + plain(self.tex))
+        return pictured(self.svg, plain(self.tex))
 
 
 @functools.lru_cache(maxsize=4096)

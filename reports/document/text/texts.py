@@ -44,6 +44,7 @@ def titled(svg: str, title: object) -> Markup:
     )
 
 
+FORMULA = "\u2062"  # an invisible sign before the words of a formula tells it from a figure
 _OPENING = re.compile(r'<svg class="(\w+)"([^>]*?)style="([^"]*)"([^>]*)>')
 _OF_PAGE = re.compile(r' (?:role|xmlns)="[^"]*"')
 _SIZE = re.compile(r' data-size="[\d./]+"')
@@ -64,7 +65,8 @@ def pictured(svg: str, title: object) -> Markup:
     size = "".join(_SIZE.findall(rest))
     data = base64.b64encode(whole.encode("utf-8")).decode("ascii")
     picture = '<img class="{}" style="{}"{} alt="{}" src="data:image/svg+xml;base64,{}">'
-    values = (kind, Markup(style), Markup(size), plain(title), Markup(data))
+    words = Markup(FORMULA if kind == "tex" else "") + plain(title)
+    values = (kind, Markup(style), Markup(size), words, Markup(data))
     return Markup(picture).format(*values)
 
 

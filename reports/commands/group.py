@@ -66,6 +66,12 @@ def issue(
 @click.option("--jobs", default=0, help="Число процессов (по умолчанию все ядра).")
 @click.option("--timeout", default=60.0, show_default=True, help="Секунд на один файл.")
 @dask_option
+@path_option(
+    "--moodle",
+    "worksheet",
+    metavar="CSV",
+    help="Ведомость оценивания Moodle: заполнить её оценками.",
+)
 @click.option(
     "--decide",
     "decisions",

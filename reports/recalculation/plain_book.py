@@ -20,6 +20,7 @@ _PACKAGE = "http://schemas.openxmlformats.org/package/2006"
 _TYPES = "application/vnd.openxmlformats-officedocument.spreadsheetml"
 
 
+_DEEPEST = 60  # parentheses within each other
 _CHAIN = 200  # operands in a row; formualizer takes 256
 
 
@@ -139,12 +140,17 @@ def _in_parts(tokens: list[Token]) -> list[Token]:
 
     ``a+b-c+d`` is ``(a+b)+(-c+d)`` and ``a*b/c*d`` is ``(a*b)*(1/c*d)``.
     """
-    ends, stack = {}, []
+    ends: dict[int, int] = {}
+    stack: list[int] = []
+    deepest = 0
     for at, token in enumerate(tokens):
         if token in (("op", "("), ("op", "{")):
             stack.append(at)
+            deepest = max(deepest, len(stack))
         elif token in (("op", ")"), ("op", "}")) and stack:
             ends[stack.pop()] = at
+    if deepest > _DEEPEST:  # it will not be calculated anyway
+        return tokens
     return _grouped(tokens, 0, len(tokens), ends)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from datetime import datetime
 from pathlib import Path
@@ -147,7 +148,12 @@ def rubric_of(raw: dict[str, Any], source: str) -> Rubric:
                 problems.append(Problem(where, "неизвестный ключ", hint))
             else:
                 what = f"недопустимое значение {messages.shown(item.get('input'))}"
-                problems.append(Problem(where, what, _WANTED.get(item["type"], "смотрите образец")))
+                words = (
+                    re.findall(r"'(\w+)'", item["msg"]) if item["type"] == "literal_error" else []
+                )
+                hint = "нужно " + " или ".join(f'"{word}"' for word in words)
+                wanted = _WANTED.get(item["type"], "смотрите образец")
+                problems.append(Problem(where, what, hint if words else wanted))
         raise InputError(problems) from None
 
 
@@ -160,7 +166,6 @@ _WANTED = {
     "finite_number": "нужно конечное число",
     "bool_parsing": "нужно true или false",
     "bool_type": "нужно true или false",
-    "literal_error": "нужно одно из слов, названных в образце рубрики",
     "int_type": "нужно целое число",
     "int_parsing": "нужно целое число",
     "tuple_type": "нужен список",

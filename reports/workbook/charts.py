@@ -109,6 +109,7 @@ def _title(text: str, size: int) -> Title:
 
 def _titles(chart: ScatterChart, x_title: str, y_title: str) -> None:
     """Both axes as Excel shows them: there, with a light grid and their titles."""
+    chart.x_axis.axPos = "b"  # openpyxl puts both on the left, where Gnumeric drops the chart
     for axis, title in ((chart.x_axis, x_title), (chart.y_axis, y_title)):
         axis.delete = False
         axis.tickLblPos = "low"

@@ -15,6 +15,7 @@ from openpyxl.styles import Alignment, Font, PatternFill
 from openpyxl.utils import get_column_letter
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.cell_range import CellRange
+from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.pagebreak import Break
 from openpyxl.worksheet.worksheet import Worksheet
 from openpyxl.writer.excel import ExcelWriter
@@ -115,9 +116,15 @@ def saved(book: Workbook, caches: CacheValues) -> bytes:
 def _heading(sheet: Worksheet, title: str) -> None:
     styles.as_text(sheet.cell(TITLE_ROW, 1, title)).style = styles.TITLE
     if sheet.title != CONTENTS_SHEET:
-        link = sheet.cell(NOTE_ROW, 1, "← Содержание")
-        link.hyperlink = f"#{quoted(CONTENTS_SHEET)}!A1"
-        link.style = styles.LINK
+        _link(sheet, Cell(sheet.title, NOTE_ROW, 1), "← Содержание", CONTENTS_SHEET)
+
+
+def _link(sheet: Worksheet, place: Cell, text: str, target: str) -> None:
+    """A link within the book, as a place: an address such as ``#'Лист'!A1`` is a foreign file."""
+    cell = sheet.cell(place.row, place.column, text)
+    at = place.coordinate
+    cell.hyperlink = Hyperlink(ref=at, location=f"{quoted(target)}!A1", display=text)
+    cell.style = styles.LINK
 
 
 def _blocks(sheet: Worksheet, model: Model, writer: Writer) -> None:
@@ -194,9 +201,7 @@ def _contents(sheet: Worksheet, model: Model, legend: Sequence[tuple[str, str]])
         described.setdefault(block.sheet, _CYCLE_TITLES.get(block.sheet, block.title))
     for title, text in described.items():
         row += 1
-        link = sheet.cell(row, 1, title)
-        link.hyperlink = f"#{quoted(title)}!A1"
-        link.style = styles.LINK
+        _link(sheet, Cell(sheet.title, row, 1), title, title)
         sheet.cell(row, 2, text).style = styles.TEXT
     row += 2
     sheet.cell(row, 1, "Цвета ячеек").style = styles.SUBTITLE

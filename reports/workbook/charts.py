@@ -28,30 +28,36 @@ from reports.spec.charts import Series as SeriesSpec
 from reports.spec.evaluation import Values
 from reports.workbook.layout import Layout
 
-WIDE, HIGH = 16.0, 7.6  # cm
-SQUARE = 14.0
+WIDE, HIGH = 408, 290  # px: several beside a table
+ROOMY = 500  # px: width of three in a row on a sheet of their own
+STUDY = (16.0, 7.6)  # cm
 _LINE = 19050  # EMU: 1.5 pt
 # Told apart without colour too: solid, dashed, dotted.
 _DASHES = ("solid", "dash", "sysDot", "dashDot")
 _COLOURS = ("1F3864", "C00000", "2E7D32", "7F6000")
 
 
-def size(spec: ChartSpec) -> tuple[float, float]:
-    """Width and height of a chart [cm]."""
-    return (SQUARE, SQUARE) if spec.equal_axes else (WIDE, HIGH)
+def pixels(spec: ChartSpec, *, wide: bool = False) -> tuple[int, int]:
+    """Width and height of a chart on the screen."""
+    width = ROOMY if wide else WIDE
+    return (width, width) if spec.equal_axes else (width, HIGH)
 
 
-def make_chart(spec: ChartSpec, layout: Layout, values: Values) -> ScatterChart:
-    """A scatter chart with straight lines, square where both axes have one scale.
+def make_chart(
+    spec: ChartSpec, layout: Layout, values: Values, *, oblong: float = 1.0
+) -> ScatterChart:
+    """A scatter chart with straight lines, its plot square where both axes have one scale.
+
+    ``oblong`` is the width over the height of such a chart.
 
     It comes without numbers: openpyxl takes long for each, see ``ranges_of``.
     """
     title = f"{spec.title} (рис. {spec.figure})" if spec.figure else spec.title
-    chart = _empty(title, size(spec))
+    chart = _empty(title)
     curves = spec.drawn_by("workbook")
     for number, series in enumerate(curves):
         chart.series.append(_series(series, number, layout))
-    _axes(chart, spec, values)
+    _axes(chart, spec, values, oblong)
     _legend(chart, shown=not spec.equal_axes and len(curves) > 1)
     return chart
 
@@ -69,7 +75,8 @@ def curves_chart(
     title: str, x_title: str, y_title: str, curves: Sequence[Curve], ends: tuple[float, float]
 ) -> ScatterChart:
     """Curves over an input between its ends; the finishing pass fills in the numbers."""
-    chart = _empty(title, (WIDE, HIGH))
+    chart = _empty(title)
+    chart.width, chart.height = STUDY
     for number, curve in enumerate(curves):
         chart.series.append(_curve(number, curve, _look(number)))
     _titles(chart, x_title, y_title)
@@ -79,13 +86,13 @@ def curves_chart(
     return chart
 
 
-def _empty(title: str, extent: tuple[float, float]) -> ScatterChart:
+def _empty(title: str) -> ScatterChart:
     chart = ScatterChart()
     chart.scatterStyle = "lineMarker"
     chart.style = 2
     chart.roundedCorners = False
     chart.title = _title(title, 1200)
-    chart.width, chart.height = extent
+    chart.visible_cells_only = False  # curves of folded columns are drawn too
     chart.display_blanks = "gap"
     return chart
 
@@ -123,7 +130,7 @@ def _titles(chart: ScatterChart, x_title: str, y_title: str) -> None:
             axis.title = _title(title, 1000)
 
 
-def _axes(chart: ScatterChart, spec: ChartSpec, values: Values) -> None:
+def _axes(chart: ScatterChart, spec: ChartSpec, values: Values, oblong: float) -> None:
     _titles(chart, spec.x_title, spec.y_title)
     if spec.x_is_angle:
         table, column = spec.series[0].x.split(".")
@@ -138,7 +145,13 @@ def _axes(chart: ScatterChart, spec: ChartSpec, values: Values) -> None:
         return
     chart.layout = PlotLayout(
         manualLayout=ManualLayout(
-            layoutTarget="inner", xMode="edge", yMode="edge", x=0.16, y=0.17, w=0.74, h=0.74
+            layoutTarget="inner",
+            xMode="edge",
+            yMode="edge",
+            x=0.5 - 0.34 / oblong,
+            y=0.15,
+            w=0.74 / oblong,
+            h=0.74,
         )
     )
     if spec.kind != "polar":  # drawn in a unit square

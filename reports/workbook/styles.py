@@ -16,7 +16,9 @@ INPUT, STRUCTURE, FORMULA, HELPER = (
 HEADER, NUMBER, TITLE, NOTE, TEXT, LINK = (
     "КШМ шапка", "КШМ номер столбца", "КШМ заголовок", "КШМ пояснение", "КШМ текст", "КШМ ссылка",
 )  # fmt: skip
-SUBTITLE, CHECK, ANSWER = "КШМ подзаголовок", "КШМ проверка", "КШМ ответ"
+SUBTITLE, CHECK, ANSWER, LINE = (
+    "КШМ подзаголовок", "КШМ проверка", "КШМ ответ", "КШМ строка",
+)  # fmt: skip
 
 LEGEND = (
     (INPUT, "исходные данные: эти ячейки можно менять, всё остальное пересчитается"),
@@ -82,5 +84,6 @@ def add_styles(book: Workbook) -> None:
     style(SUBTITLE, font=Font(name=FONT, size=12, bold=True))
     style(NOTE, font=Font(name=FONT, size=10, italic=True, color="595959"))
     style(TEXT, border=frame, alignment=Alignment(vertical="center", wrap_text=True))
+    style(LINE)
     style(LINK, font=Font(name=FONT, size=11, color="0563C1", underline="single"))
     style(CHECK, border=frame, alignment=centre, font=Font(name=FONT, size=11, bold=True))

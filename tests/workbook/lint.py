@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import math
 import re
 from collections.abc import Iterator
 
@@ -10,6 +11,7 @@ from lxml import etree
 
 from reports.formula.parse import SCALES, parse
 from reports.spec.blocks import Model, TableSpec, scalars_of
+from reports.workbook.charts import HIGH, WIDE
 
 C = "{http://schemas.openxmlformats.org/drawingml/2006/chart}"
 A = "{http://schemas.openxmlformats.org/drawingml/2006/main}"
@@ -116,7 +118,11 @@ def _polar_problems(root: etree._Element) -> list[str]:
     if layout is None:
         return []
     found = []
-    if _val(layout, "w") != _val(layout, "h") or _val(layout, "layoutTarget") != "inner":
+    # In a square chart, or in one of the first sheet's, which are as wide as all others.
+    shape = float(_val(layout, "w") or 0) / float(_val(layout, "h") or 1)
+    shapes = (1.0, HIGH / WIDE)
+    square = any(math.isclose(shape, wanted, rel_tol=1e-9) for wanted in shapes)
+    if not square or _val(layout, "layoutTarget") != "inner":
         found.append("the plot area is not square")
     texts = [formula.text for formula in root.iterfind(f".//{C}f")]
     limits = [axis.find(f"{C}scaling/{C}max") for axis in root.findall(f".//{C}valAx")]

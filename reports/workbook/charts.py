@@ -86,6 +86,54 @@ def curves_chart(
     return chart
 
 
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """A broken line, or a point that moves, by the ranges of its numbers."""
+
+    name: str
+    x: str
+    y: str
+    point: bool = False
+    hidden: bool = False  # only keeps the axes in proportion
+
+
+def drawing(
+    title: str, axes: tuple[str, str], lines: Sequence[Drawn], *,
+    shape: float = 0.0, downwards: bool = False, unit: bool = False,
+) -> ScatterChart:  # fmt: skip
+    """Lines over axes; ``shape`` is the width of the plot over its height at one scale."""
+    chart = _empty(title)
+    for number, line in enumerate(lines):
+        look = _look(number)
+        look.prstDash = "solid"
+        made = _curve(
+            number, Curve(line.name, line.x, line.y),
+            LineProperties(noFill=True) if line.hidden or line.point else look,
+        )  # fmt: skip
+        if line.point:
+            made.marker = Marker(symbol="circle", size=9)
+            made.marker.spPr = GraphicalProperties(solidFill="C00000")
+        chart.series.append(made)
+    _titles(chart, *axes)
+    _legend(chart, shown=not shape and len(lines) > 2)
+    if downwards:
+        chart.y_axis.scaling.orientation = "maxMin"
+    if unit:
+        for axis in (chart.x_axis, chart.y_axis):
+            axis.scaling.min, axis.scaling.max, axis.majorUnit = -1.1, 1.1, 0.55
+    if shape:
+        width, height = WIDE, 2 * HIGH if shape < 1 else HIGH
+        high = 0.76
+        wide = shape * high * height / width
+        chart.layout = PlotLayout(
+            manualLayout=ManualLayout(
+                layoutTarget="inner", xMode="edge", yMode="edge",
+                x=0.53 - wide / 2, y=0.13, w=wide, h=high,
+            )
+        )  # fmt: skip
+    return chart
+
+
 def _empty(title: str) -> ScatterChart:
     chart = ScatterChart()
     chart.scatterStyle = "lineMarker"

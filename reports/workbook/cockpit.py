@@ -97,7 +97,7 @@ def _verdict(sheet: Worksheet, model: Model, writer: Writer, row: int) -> int:
 def _values(sheet: Worksheet, writer: Writer, row: int, title: str, keys: Sequence[str]) -> int:
     """Values that stand elsewhere, with symbol and unit."""
     sheet.cell(row, 1, title).style = styles.SUBTITLE
-    for text, symbol, key, value, unit, look in _known(writer, keys):
+    for text, symbol, key, value, unit, look in known(writer, keys):
         row += 1
         for column, words in ((1, text), (2, symbol), (4, unit)):
             sheet.cell(row, column, words or None).style = styles.TEXT
@@ -107,7 +107,7 @@ def _values(sheet: Worksheet, writer: Writer, row: int, title: str, keys: Sequen
     return row + 1
 
 
-def _known(
+def known(
     writer: Writer, keys: Sequence[str]
 ) -> Iterator[tuple[str, str, str, float | str, str, str]]:
     """Title, symbol, name, value, unit and number format of what the book has."""

@@ -95,6 +95,14 @@ def anchor(sheet: Worksheet, box: Box) -> OneCellAnchor:
     return OneCellAnchor(_from=at, ext=XDRPositiveSize2D(box.width * _EMU, box.height * _EMU))
 
 
+def keep_columns(sheet: Worksheet, boxes: Sequence[Box]) -> None:
+    """Give the columns below charts the width that was reckoned with: programs differ in theirs."""
+    for index in range(1, last_cell(sheet, boxes)[1] + 1 if boxes else 0):
+        letter = get_column_letter(index)
+        if letter not in sheet.column_dimensions:
+            sheet.column_dimensions[letter].width = _COLUMN / _DIGIT
+
+
 def last_cell(sheet: Worksheet, boxes: Sequence[Box]) -> tuple[int, int]:
     """Row and column of the cell under the lower right corner of all boxes."""
     corner = Box(max(b.right for b in boxes), max(b.bottom for b in boxes), 0, 0)

@@ -20,7 +20,7 @@ from reports.shared.files import temporary_failure
 from reports.spec.blocks import Grid, Model, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec
 from reports.spec.evaluation import Values, evaluate_model
-from reports.workbook import styles
+from reports.workbook import motion, styles, what_if
 from reports.workbook.caches import finish
 from reports.workbook.chapters import chapter_of, diagrams_of, heading, ordered
 from reports.workbook.charts import WIDE, make_chart, pixels, ranges_of
@@ -41,7 +41,17 @@ from reports.workbook.layout import (
 )
 from reports.workbook.links import link
 from reports.workbook.paper import UPRIGHT, set_page, set_widths
-from reports.workbook.places import FOLD, GAP, SCREEN, Box, anchor, extent, flow, top_of
+from reports.workbook.places import (
+    FOLD,
+    GAP,
+    SCREEN,
+    Box,
+    anchor,
+    extent,
+    flow,
+    keep_columns,
+    top_of,
+)
 from reports.workbook.sheets import CacheValues, Writer
 
 _MOST_CHECKS = 40
@@ -75,10 +85,16 @@ def assemble(
         _blocks(book[title], model, writer)
         set_widths(book[title], model, layout, writer.values)
     boxes = _charts(book, model, writer)
+    if motion.can_move(model, writer):
+        for title in (what_if.SHEET, motion.SHEET):
+            _heading(book.create_sheet(title, _index(book, title)), heading(title))
+        boxes[motion.SHEET] = motion.write_motion(book, model, writer)
+        what_if.write_what_if(book, model, writer)
     boxes[CONTENTS_SHEET] = write_cockpit(
         book[CONTENTS_SHEET], book.sheetnames, model, writer, legend
     )
     for sheet in book.worksheets:
+        keep_columns(sheet, boxes.get(sheet.title, ()))
         sheet.sheet_properties.tabColor = chapter_of(sheet.title).colour
         set_page(sheet, boxes.get(sheet.title, ()))
     for name, address in layout.defined_names().items():

@@ -45,6 +45,9 @@ def drawn(model: Model) -> list[ChartSpec]:
     return first + [spec for spec in model.charts if spec.sheet]
 
 
+MOVING = 6  # charts of the mechanism's sheet, half of them with one scale on both axes
+
+
 def parts(prefix: str, name: str = "gots-diesel") -> dict[str, bytes]:
     with zipfile.ZipFile(io.BytesIO(book(name))) as archive:
         return {part: archive.read(part) for part in archive.namelist() if part.startswith(prefix)}

@@ -35,7 +35,7 @@ def load_input(path: Path) -> Loaded:
     Raises:
         InputError: everything that is wrong with it.
     """
-    if path.suffix.lower() in (".xlsx", ".xlsm", ".xls"):
+    if path.suffix.lower() in (".xlsx", ".xlsm", ".xls", ".ods"):
         from reports.workbook.read import load_workbook_input
 
         return load_workbook_input(path)

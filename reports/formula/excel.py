@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable
+from decimal import Decimal
 from typing import Protocol
 
 from reports.formula.parse import AGGREGATES, SCALE_FUNCTIONS, SCALES, parse
@@ -48,7 +49,12 @@ def number(value: float | str) -> str:
         return '"' + value.replace('"', '""') + '"'
     if float(value).is_integer() and abs(value) < 1e15:
         return str(int(value))
-    return repr(float(value)).upper()
+    return f"{Decimal(repr(float(value))):f}"  # an exponent is no number to every parser
+
+
+def is_array(formula: str) -> bool:
+    """Whether a formula reckons with whole ranges: Gnumeric wants such a cell to say so."""
+    return "SUMPRODUCT(" in formula
 
 
 def compile_formula(text: str, refs: References) -> str:
@@ -74,8 +80,11 @@ def _emit(node: ast.expr, refs: References) -> tuple[str, int]:
         case ast.UnaryOp(op=ast.Not(), operand=operand):
             return f"NOT({_emit(operand, refs)[0]})", _ATOM
         case ast.UnaryOp(operand=operand):
-            # In Excel the sign binds tighter than ^ and *: bracket everything but atoms.
-            return f"-{_wrapped(operand, _ATOM, refs)}", 4
+            # In Excel the sign binds tighter than ^ and *, and one engine misreads -(A*B).
+            text, precedence = _emit(operand, refs)
+            if precedence == _ATOM:
+                return f"-{text}", 4
+            return f"0-{_wrapped(operand, 3, refs)}", 2
         case ast.BoolOp(op=op, values=values):
             parts = ",".join(_emit(value, refs)[0] for value in values)
             return f"{'AND' if isinstance(op, ast.And) else 'OR'}({parts})", _ATOM

@@ -15,13 +15,15 @@ from xml.sax.saxutils import escape
 from lxml import etree
 from openpyxl.utils import coordinate_to_tuple, get_column_letter
 
+from reports.formula.excel import is_array
+from reports.workbook import shared_form
 from reports.workbook.sheets import CacheValues, FilledColumn
 
 _MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
 _REL = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
 _PACKAGE = "http://schemas.openxmlformats.org/package/2006/relationships"
 _CHART = "http://schemas.openxmlformats.org/drawingml/2006/chart"
-_CHARTS = "xl/charts/chart"
+_CHARTS, _DRAWINGS = "xl/charts/chart", "xl/drawings/drawing"
 _VALUE = f"{{{_MAIN}}}v"
 _DCTERMS = "http://purl.org/dc/terms/"
 _EPOCH = (1980, 1, 1, 0, 0, 0)
@@ -63,6 +65,10 @@ def finish(book: bytes, caches: CacheValues | None = None) -> bytes:
                 data = _fill(data, titles[name], caches)
             elif name.startswith(_CHARTS):
                 data = _fill_chart(data, caches.ranges)
+            elif name.startswith(_DRAWINGS):
+                data = _written(shared_form.described(source, name))
+            elif name.endswith(".rels"):
+                data = _written(shared_form.relative(data, name))
             elif name == "xl/styles.xml":
                 data = _order_fonts(data)
             elif name == "docProps/core.xml":
@@ -81,6 +87,8 @@ def _fill(data: bytes, title: str, caches: CacheValues) -> bytes:
     for formula in root.iter(f"{{{_MAIN}}}f"):
         cell = formula.getparent()
         where = cell.get("r")
+        if is_array(formula.text):
+            formula.attrib.update({"t": "array", "ref": where})
         value = _checked(values.get(where), f"{title}!{where}")
         element = cell.find(_VALUE)
         if element is None:
@@ -113,10 +121,13 @@ def _add_columns(root: etree._Element, title: str, columns: list[FilledColumn]) 
     for column in sorted(columns, key=lambda c: c.index):
         letter = get_column_letter(column.index)
         style = looks[f"{letter}{column.first_row - 1}"]
+        arrays = bool(column.cells) and is_array(column.cells[0][0])
         for row, (formula, value) in enumerate(column.cells, column.first_row):
             _checked(value, f"{title}!{letter}{row}")
+            at = f"{letter}{row}"
+            kind = f' t="array" ref="{at}"' if arrays else ""
             texts.setdefault(row, []).append(
-                f'<c r="{letter}{row}" s="{style}"><f>{escape(formula[1:])}</f><v>{value!r}</v></c>'
+                f'<c r="{at}" s="{style}"><f{kind}>{escape(formula[1:])}</f><v>{value!r}</v></c>'
             )
     made = "".join(f'<row r="{row}">{"".join(cells)}</row>' for row, cells in texts.items())
     for row in etree.fromstring(f'<sheetData xmlns="{_MAIN}">{made}</sheetData>'):
@@ -142,6 +153,7 @@ def _fill_chart(data: bytes, ranges: dict[str, list[float]]) -> bytes:
                 f'<ptCount val="{len(numbers)}"/>{points}</numCache>'
             )
         )
+    shared_form.hoist(root)
     return _written(root)
 
 

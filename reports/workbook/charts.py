@@ -28,30 +28,36 @@ from reports.spec.charts import Series as SeriesSpec
 from reports.spec.evaluation import Values
 from reports.workbook.layout import Layout
 
-WIDE, HIGH = 16.0, 7.6  # cm
-SQUARE = 14.0
+WIDE, HIGH = 408, 290  # px: several beside a table
+ROOMY = 500  # px: width of three in a row on a sheet of their own
+STUDY = (16.0, 7.6)  # cm
 _LINE = 19050  # EMU: 1.5 pt
 # Told apart without colour too: solid, dashed, dotted.
 _DASHES = ("solid", "dash", "sysDot", "dashDot")
 _COLOURS = ("1F3864", "C00000", "2E7D32", "7F6000")
 
 
-def size(spec: ChartSpec) -> tuple[float, float]:
-    """Width and height of a chart [cm]."""
-    return (SQUARE, SQUARE) if spec.equal_axes else (WIDE, HIGH)
+def pixels(spec: ChartSpec, *, wide: bool = False) -> tuple[int, int]:
+    """Width and height of a chart on the screen."""
+    width = ROOMY if wide else WIDE
+    return (width, width) if spec.equal_axes else (width, HIGH)
 
 
-def make_chart(spec: ChartSpec, layout: Layout, values: Values) -> ScatterChart:
-    """A scatter chart with straight lines, square where both axes have one scale.
+def make_chart(
+    spec: ChartSpec, layout: Layout, values: Values, *, oblong: float = 1.0
+) -> ScatterChart:
+    """A scatter chart with straight lines, its plot square where both axes have one scale.
+
+    ``oblong`` is the width over the height of such a chart.
 
     It comes without numbers: openpyxl takes long for each, see ``ranges_of``.
     """
     title = f"{spec.title} (рис. {spec.figure})" if spec.figure else spec.title
-    chart = _empty(title, size(spec))
+    chart = _empty(title)
     curves = spec.drawn_by("workbook")
     for number, series in enumerate(curves):
         chart.series.append(_series(series, number, layout))
-    _axes(chart, spec, values)
+    _axes(chart, spec, values, oblong)
     _legend(chart, shown=not spec.equal_axes and len(curves) > 1)
     return chart
 
@@ -69,7 +75,8 @@ def curves_chart(
     title: str, x_title: str, y_title: str, curves: Sequence[Curve], ends: tuple[float, float]
 ) -> ScatterChart:
     """Curves over an input between its ends; the finishing pass fills in the numbers."""
-    chart = _empty(title, (WIDE, HIGH))
+    chart = _empty(title)
+    chart.width, chart.height = STUDY
     for number, curve in enumerate(curves):
         chart.series.append(_curve(number, curve, _look(number)))
     _titles(chart, x_title, y_title)
@@ -79,13 +86,61 @@ def curves_chart(
     return chart
 
 
-def _empty(title: str, extent: tuple[float, float]) -> ScatterChart:
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """A broken line, or a point that moves, by the ranges of its numbers."""
+
+    name: str
+    x: str
+    y: str
+    point: bool = False
+    hidden: bool = False  # only keeps the axes in proportion
+
+
+def drawing(
+    title: str, axes: tuple[str, str], lines: Sequence[Drawn], *,
+    shape: float = 0.0, downwards: bool = False, unit: bool = False,
+) -> ScatterChart:  # fmt: skip
+    """Lines over axes; ``shape`` is the width of the plot over its height at one scale."""
+    chart = _empty(title)
+    for number, line in enumerate(lines):
+        look = _look(number)
+        look.prstDash = "solid"
+        made = _curve(
+            number, Curve(line.name, line.x, line.y),
+            LineProperties(noFill=True) if line.hidden or line.point else look,
+        )  # fmt: skip
+        if line.point:
+            made.marker = Marker(symbol="circle", size=9)
+            made.marker.spPr = GraphicalProperties(solidFill="C00000")
+        chart.series.append(made)
+    _titles(chart, *axes)
+    _legend(chart, shown=not shape and len(lines) > 2)
+    if downwards:
+        chart.y_axis.scaling.orientation = "maxMin"
+    if unit:
+        for axis in (chart.x_axis, chart.y_axis):
+            axis.scaling.min, axis.scaling.max, axis.majorUnit = -1.1, 1.1, 0.55
+    if shape:
+        width, height = WIDE, 2 * HIGH if shape < 1 else HIGH
+        high = 0.76
+        wide = shape * high * height / width
+        chart.layout = PlotLayout(
+            manualLayout=ManualLayout(
+                layoutTarget="inner", xMode="edge", yMode="edge",
+                x=0.53 - wide / 2, y=0.13, w=wide, h=high,
+            )
+        )  # fmt: skip
+    return chart
+
+
+def _empty(title: str) -> ScatterChart:
     chart = ScatterChart()
     chart.scatterStyle = "lineMarker"
     chart.style = 2
     chart.roundedCorners = False
     chart.title = _title(title, 1200)
-    chart.width, chart.height = extent
+    chart.visible_cells_only = False  # curves of folded columns are drawn too
     chart.display_blanks = "gap"
     return chart
 
@@ -109,6 +164,7 @@ def _title(text: str, size: int) -> Title:
 
 def _titles(chart: ScatterChart, x_title: str, y_title: str) -> None:
     """Both axes as Excel shows them: there, with a light grid and their titles."""
+    chart.x_axis.axPos = "b"  # openpyxl puts both on the left, where Gnumeric drops the chart
     for axis, title in ((chart.x_axis, x_title), (chart.y_axis, y_title)):
         axis.delete = False
         axis.tickLblPos = "low"
@@ -122,7 +178,7 @@ def _titles(chart: ScatterChart, x_title: str, y_title: str) -> None:
             axis.title = _title(title, 1000)
 
 
-def _axes(chart: ScatterChart, spec: ChartSpec, values: Values) -> None:
+def _axes(chart: ScatterChart, spec: ChartSpec, values: Values, oblong: float) -> None:
     _titles(chart, spec.x_title, spec.y_title)
     if spec.x_is_angle:
         table, column = spec.series[0].x.split(".")
@@ -137,7 +193,13 @@ def _axes(chart: ScatterChart, spec: ChartSpec, values: Values) -> None:
         return
     chart.layout = PlotLayout(
         manualLayout=ManualLayout(
-            layoutTarget="inner", xMode="edge", yMode="edge", x=0.16, y=0.17, w=0.74, h=0.74
+            layoutTarget="inner",
+            xMode="edge",
+            yMode="edge",
+            x=0.5 - 0.34 / oblong,
+            y=0.15,
+            w=0.74 / oblong,
+            h=0.74,
         )
     )
     if spec.kind != "polar":  # drawn in a unit square

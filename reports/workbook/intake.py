@@ -79,6 +79,8 @@ def _check_parts(name: str, package: Package) -> None:
     names = [info.filename for info in infos]
     if len(infos) > MAX_PARTS or len(set(names)) != len(names):
         _refuse(name, "в книге слишком много частей", "это не книга kshm")
+    if "xl/workbook.xml" not in names and "content.xml" in names:
+        _refuse(name, "это книга .ods", "сохраните её как .xlsx: Файл → Сохранить как")
     if "xl/workbook.xml" not in names:
         _refuse(name, "это не книга .xlsx", "сохраните её как .xlsx")
     if any(name.lower().endswith(("vbaproject.bin", ".exe", ".dll")) for name in names):

@@ -12,15 +12,19 @@ import re
 import warnings
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from reports.inputs.fields import POINT_KEYS
+from reports.inputs.fields import POINT_KEYS, iter_fields
 from reports.inputs.load import Loaded, load_mapping
 from reports.inputs.registry import SECTIONS
 from reports.shared.errors import InputError, Problem
 from reports.workbook.intake import check_package
-from reports.workbook.layout import INPUT_SHEET, quoted
+from reports.workbook.layout import INPUT_SHEET, UNIT_COLUMN, VALUE_COLUMN, quoted
 
+if TYPE_CHECKING:  # openpyxl is loaded when a book is read
+    from openpyxl.workbook import Workbook
+
+_ALWAYS = "engine_cylinders"  # every book has this input
 _ADDRESS = re.compile(r"\$?([A-Z]{1,3})\$?([0-9]+)")
 
 
@@ -32,7 +36,7 @@ def load_workbook_input(path: Path) -> Loaded:
             messages name sheet and cell.
     """
     data = check_package(path)
-    cells, places = _input_cells(data, path.name)
+    cells, places, units = _input_cells(data, path.name)
     raw: dict[str, Any] = {}
     wanted: dict[tuple[str | int, ...], str] = {}
     for name, value in cells.items():
@@ -55,11 +59,34 @@ def load_workbook_input(path: Path) -> Loaded:
         nested = [place for at, place in wanted.items() if at[: len(target)] == target]
         return nested[0] if nested else INPUT_SHEET
 
-    return load_mapping(raw, source=path.name, locate=locate)
+    loaded = load_mapping(raw, source=path.name, locate=locate)
+    _check_units(loaded, places, units, path.name)
+    return loaded
 
 
-def _input_cells(data: bytes, source: str) -> tuple[dict[str, Any], dict[str, str]]:
-    """Values of all named input cells and their places as ``лист!ячейка``."""
+def _check_units(
+    loaded: Loaded, places: dict[str, str], units: dict[str, str], source: str
+) -> None:
+    """Refuse a number whose unit a person wrote anew: it would be taken in the old one."""
+    problems = [
+        Problem(
+            f"{source}, {places[item.name]}",
+            f"рядом стоит единица «{units[item.name]}» вместо «{item.unit}»",
+            f"верните единицу и впишите число в «{item.unit}»",
+        )
+        for item in iter_fields(loaded.model)
+        if item.name in units and not item.listed and _plain(units[item.name]) != _plain(item.unit)
+    ]
+    if problems:
+        raise InputError(problems)
+
+
+def _plain(unit: str) -> str:
+    return re.sub(r"\s", "", unit).casefold()
+
+
+def _input_cells(data: bytes, source: str) -> tuple[dict[str, Any], dict[str, str], dict[str, str]]:
+    """Values of all named input cells, their places as ``лист!ячейка``, units beside them."""
     from openpyxl import load_workbook
 
     try:
@@ -70,30 +97,45 @@ def _input_cells(data: bytes, source: str) -> tuple[dict[str, Any], dict[str, st
         what = "книга повреждена и не читается"
         problem = Problem(source, what, "сохраните её заново в Excel или LibreOffice")
         raise InputError(problem) from error
-    cells, places, problems = {}, {}, []
+    cells: dict[str, Any] = {}
+    places: dict[str, str] = {}
+    units: dict[str, str] = {}
+    problems: list[Problem] = []
+    title = _input_sheet(book)
     for name, defined in book.defined_names.items():
         text = str(defined.attr_text or "")
         sheet_text, _, address = text.rpartition("!")
-        if sheet_text not in (INPUT_SHEET, quoted(INPUT_SHEET)):
+        if sheet_text not in (title, quoted(title)):
             continue
         match = _ADDRESS.fullmatch(address)
-        if match is None or INPUT_SHEET not in book.sheetnames:
+        if match is None or title not in book.sheetnames:
             what = f"имя {name} не указывает на ячейку"
             problems.append(Problem(source, what, "восстановите лист исходных данных"))
             continue
-        place = f"{INPUT_SHEET}!{match.group(1)}{match.group(2)}"
-        cell = book[INPUT_SHEET][match.group(1) + match.group(2)]
+        place = f"{title}!{match.group(1)}{match.group(2)}"
+        cell = book[title][match.group(1) + match.group(2)]
         if cell.data_type == "f":
             what = "в ячейке исходных данных стоит формула"
             problems.append(Problem(f"{source}, {place}", what, "впишите число"))
             continue
-        cells[name], places[name] = cell.value, place
+        value = cell.value
+        cells[name], places[name] = value, place
+        beside = cell.offset(0, UNIT_COLUMN - VALUE_COLUMN).value
+        if cell.column == VALUE_COLUMN and isinstance(value, int | float) and beside is not None:
+            units[name] = str(beside)
     if problems:
         raise InputError(problems)
-    if "engine_cylinders" not in cells:
+    if _ALWAYS not in cells:
         what = "это не книга, созданная командой kshm build"
         raise InputError(Problem(source, what, "укажите файл .toml или книгу kshm"))
-    return cells, places
+    return cells, places, units
+
+
+def _input_sheet(book: Workbook) -> str:
+    """Title of the sheet of inputs, which a person may have renamed: its names point at it."""
+    defined = book.defined_names.get(_ALWAYS)
+    text = "" if defined is None else str(defined.attr_text or "").rpartition("!")[0]
+    return text[1:-1].replace("''", "'") if text.startswith("'") else text or INPUT_SHEET
 
 
 def _path_of(name: str) -> tuple[str | int, ...] | None:

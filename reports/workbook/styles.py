@@ -9,11 +9,16 @@ from openpyxl.workbook import Workbook
 from kshm.nomenclature.quantity import Quantity
 
 FONT = "Times New Roman"
-INPUT, STRUCTURE, FORMULA, HELPER = "kshm_input", "kshm_structure", "kshm_formula", "kshm_helper"
-HEADER, NUMBER, TITLE, NOTE, TEXT, LINK = (
-    "kshm_header", "kshm_number", "kshm_title", "kshm_note", "kshm_text", "kshm_link",
+# As the gallery of cell styles shows them.
+INPUT, STRUCTURE, FORMULA, HELPER = (
+    "КШМ исходное", "КШМ строение", "КШМ формула", "КШМ вспомогательное",
 )  # fmt: skip
-SUBTITLE, CHECK, ANSWER = "kshm_subtitle", "kshm_check", "kshm_answer"
+HEADER, NUMBER, TITLE, NOTE, TEXT, LINK = (
+    "КШМ шапка", "КШМ номер столбца", "КШМ заголовок", "КШМ пояснение", "КШМ текст", "КШМ ссылка",
+)  # fmt: skip
+SUBTITLE, CHECK, ANSWER, LINE = (
+    "КШМ подзаголовок", "КШМ проверка", "КШМ ответ", "КШМ строка",
+)  # fmt: skip
 
 LEGEND = (
     (INPUT, "исходные данные: эти ячейки можно менять, всё остальное пересчитается"),
@@ -57,8 +62,9 @@ def add_styles(book: Workbook) -> None:
 
     def style(name: str, **parts: object) -> None:
         made = NamedStyle(name=name)
-        made.font = Font(name=FONT, size=11)
         colour = _COLOURS.get(name)
+        # On a light fill the letters stay dark where a program turns its own to white.
+        made.font = Font(name=FONT, size=11, color="000000" if colour else None)
         if colour:
             made.fill = PatternFill("solid", fgColor=colour)
         for key, value in parts.items():
@@ -70,12 +76,14 @@ def add_styles(book: Workbook) -> None:
     style(STRUCTURE, border=frame, protection=unlocked)
     style(ANSWER, border=frame, protection=unlocked)
     style(FORMULA, border=frame)
-    style(HELPER, border=frame, font=Font(name=FONT, size=11, color="7F7F7F"))
-    style(HEADER, border=frame, alignment=centre, font=Font(name=FONT, size=11, bold=True))
+    style(HELPER, border=frame, font=Font(name=FONT, size=11, color="595959"))
+    dark_bold = Font(name=FONT, size=11, bold=True, color="000000")
+    style(HEADER, border=frame, alignment=centre, font=dark_bold)
     style(NUMBER, border=frame, alignment=centre, font=Font(name=FONT, size=9, italic=True))
     style(TITLE, font=Font(name=FONT, size=14, bold=True))
     style(SUBTITLE, font=Font(name=FONT, size=12, bold=True))
     style(NOTE, font=Font(name=FONT, size=10, italic=True, color="595959"))
     style(TEXT, border=frame, alignment=Alignment(vertical="center", wrap_text=True))
+    style(LINE)
     style(LINK, font=Font(name=FONT, size=11, color="0563C1", underline="single"))
     style(CHECK, border=frame, alignment=centre, font=Font(name=FONT, size=11, bold=True))

@@ -5,29 +5,26 @@ from __future__ import annotations
 import io
 import zipfile
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import ceil
 
 from lxml.etree import SerialisationError
 from openpyxl import Workbook
 from openpyxl.formatting.rule import CellIsRule
 from openpyxl.styles import Alignment, Font, PatternFill
-from openpyxl.utils import get_column_letter
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.cell_range import CellRange
-from openpyxl.worksheet.pagebreak import Break
 from openpyxl.worksheet.worksheet import Worksheet
 from openpyxl.writer.excel import ExcelWriter
 
 from reports.shared.files import temporary_failure
 from reports.spec.blocks import Grid, Model, ScalarTable, TableSpec
+from reports.spec.charts import ChartSpec
 from reports.spec.evaluation import Values, evaluate_model
-from reports.tables.gas.cycle_names import SHEET as CYCLE_SHEET
-from reports.tables.gas.cycle_speed import RANGE_SHEET
-from reports.tables.overview.left_out import left_out_note
-from reports.workbook import styles
+from reports.workbook import motion, styles, what_if
 from reports.workbook.caches import finish
-from reports.workbook.charts import make_chart, ranges_of, size
+from reports.workbook.chapters import chapter_of, diagrams_of, heading, ordered
+from reports.workbook.charts import WIDE, make_chart, pixels, ranges_of
+from reports.workbook.cockpit import write_cockpit
 from reports.workbook.inputs import write_inputs
 from reports.workbook.layout import (
     CONTENTS_SHEET,
@@ -35,29 +32,31 @@ from reports.workbook.layout import (
     HEADER_ROW,
     INPUT_SHEET,
     NOTE_ROW,
-    NUMBER_ROW,
-    SOURCE_COLUMN,
     TITLE_ROW,
     UNIT_COLUMN,
-    VALUE_COLUMN,
     Cell,
     Layout,
     area,
     check_names,
-    quoted,
+)
+from reports.workbook.links import link
+from reports.workbook.paper import UPRIGHT, set_page, set_widths
+from reports.workbook.places import (
+    FOLD,
+    GAP,
+    SCREEN,
+    Box,
+    anchor,
+    extent,
+    flow,
+    keep_columns,
+    top_of,
 )
 from reports.workbook.sheets import CacheValues, Writer
 
-_ROW_CM = 0.53
-_COLUMN_CM = 1.95
-_CHARACTER_CM = 0.25
-_SLOT = 16  # rows that a chart takes, so that pages hold whole charts
-_PORTRAIT_COLUMNS = 9
 _MOST_CHECKS = 40
 _REMARK_CHARACTERS = 60  # in a line of the widest column
-_CYCLE_TITLES = {CYCLE_SHEET: "Расчет рабочего цикла"}
-_CYCLE_WIDTHS = {2: 20, 4: 17, SOURCE_COLUMN: 28, 6: 17, 7: 17, 8: 17}
-_RANGE_WIDTHS = {1: 76, 2: 4, 4: 16, SOURCE_COLUMN: 42}
+_ROWS_PX = 64  # height of the rows above the charts of a sheet of diagrams
 
 
 def workbook_bytes(model: Model, values: Values | None = None) -> bytes:
@@ -76,17 +75,28 @@ def assemble(
     book = Workbook()
     book.remove(book.active)
     styles.add_styles(book)
-    contents = book.create_sheet(CONTENTS_SHEET)
-    inputs = book.create_sheet(INPUT_SHEET)
-    _heading(inputs, "Исходные данные")
+    for title in (CONTENTS_SHEET, *ordered((INPUT_SHEET, *model.sheets))):
+        book.create_sheet(title)
+    inputs = book[INPUT_SHEET]
+    _heading(inputs, heading(INPUT_SHEET))
     write_inputs(inputs, model, layout)
+    set_widths(inputs, model, layout, writer.values)
     for title in model.sheets:
-        _blocks(book.create_sheet(title), model, writer)
-    _contents(contents, model, legend)
+        _blocks(book[title], model, writer)
+        set_widths(book[title], model, layout, writer.values)
+    boxes = _charts(book, model, writer)
+    if motion.can_move(model, writer):
+        for title in (what_if.SHEET, motion.SHEET):
+            _heading(book.create_sheet(title, _index(book, title)), heading(title))
+        boxes[motion.SHEET] = motion.write_motion(book, model, writer)
+        what_if.write_what_if(book, model, writer)
+    boxes[CONTENTS_SHEET] = write_cockpit(
+        book[CONTENTS_SHEET], book.sheetnames, model, writer, legend
+    )
     for sheet in book.worksheets:
-        _page(sheet, model, layout)
-    for title in model.sheets:
-        _charts(book[title], model, writer)
+        keep_columns(sheet, boxes.get(sheet.title, ()))
+        sheet.sheet_properties.tabColor = chapter_of(sheet.title).colour
+        set_page(sheet, boxes.get(sheet.title, ()))
     for name, address in layout.defined_names().items():
         if name in model.fields or name in model.scalars:
             book.defined_names[name] = DefinedName(name, attr_text=address)
@@ -114,21 +124,12 @@ def saved(book: Workbook, caches: CacheValues) -> bytes:
 
 def _heading(sheet: Worksheet, title: str) -> None:
     styles.as_text(sheet.cell(TITLE_ROW, 1, title)).style = styles.TITLE
-    if sheet.title != CONTENTS_SHEET:
-        link = sheet.cell(NOTE_ROW, 1, "← Содержание")
-        link.hyperlink = f"#{quoted(CONTENTS_SHEET)}!A1"
-        link.style = styles.LINK
+    link(sheet, Cell(sheet.title, NOTE_ROW, 1), f"← {CONTENTS_SHEET}", CONTENTS_SHEET)
 
 
 def _blocks(sheet: Worksheet, model: Model, writer: Writer) -> None:
     blocks = [block for block in model.blocks if block.sheet == sheet.title]
-    titles = {
-        "Массы": "Размеры, массы и постоянные силы инерции",
-        "Итоги": "Итоги расчёта",
-        "Проверки": "Проверки",
-        **_CYCLE_TITLES,
-    }
-    _heading(sheet, titles.get(sheet.title, blocks[0].title))
+    _heading(sheet, heading(sheet.title, blocks))
     notes = [block.note for block in blocks if block.note]
     for block in blocks:
         if isinstance(block, TableSpec):
@@ -171,136 +172,52 @@ def _remarks(sheet: Worksheet, remarks: Sequence[str]) -> None:
         sheet.row_dimensions[row].height = 15 * ceil(len(text) / _REMARK_CHARACTERS)
 
 
-def _contents(sheet: Worksheet, model: Model, legend: Sequence[tuple[str, str]]) -> None:
-    report = model.input.report
-    _heading(sheet, report.title or "Кинематика и динамика КШМ")
-    people = [
-        ("Двигатель", model.input.engine.name),
-        ("Студент", report.student),
-        ("Группа", report.group),
-        ("Вариант", report.variant),
-        ("Руководитель", report.supervisor),
-    ]
-    row = 3
-    for label, text in people:
-        if text:
-            sheet.cell(row, 1, label).style = styles.TEXT
-            styles.as_text(sheet.cell(row, 2, text)).style = styles.TEXT
-            row += 1
-    row += 1
-    sheet.cell(row, 1, "Листы").style = styles.SUBTITLE
-    described = {INPUT_SHEET: "Размеры, режим, газы, массы, коленчатый вал"}
-    for block in model.blocks:
-        described.setdefault(block.sheet, _CYCLE_TITLES.get(block.sheet, block.title))
-    for title, text in described.items():
-        row += 1
-        link = sheet.cell(row, 1, title)
-        link.hyperlink = f"#{quoted(title)}!A1"
-        link.style = styles.LINK
-        sheet.cell(row, 2, text).style = styles.TEXT
-    row += 2
-    sheet.cell(row, 1, "Цвета ячеек").style = styles.SUBTITLE
-    for style, text in legend:
-        row += 1
-        sheet.cell(row, 1, "образец").style = style
-        sheet.cell(row, 2, text).style = styles.TEXT
-    sheet.column_dimensions["A"].width = 26
-    sheet.column_dimensions["B"].width = 95
-    missing = left_out_note(model.input)
-    if missing:
-        cell = styles.as_text(sheet.cell(row + 2, 2, missing))
-        cell.style = styles.NOTE
-        cell.alignment = Alignment(wrap_text=True, vertical="top")
-        sheet.row_dimensions[row + 2].height = 15 * ceil(len(missing) / 90)
+def _charts(book: Workbook, model: Model, writer: Writer) -> dict[str, list[Box]]:
+    """Charts beside or below their tables, or on their chapter's sheet; where they stand."""
+    found: dict[str, list[Box]] = {}
+    homeless: dict[str, list[ChartSpec]] = {}
+    for title in ordered(model.sheets):
+        specs = [spec for spec in model.charts if spec.sheet == title]
+        sheet = book[title]
+        boxes = _room(sheet, specs, frozen=title in {t.sheet for t in model.tables.values()})
+        if boxes is None:
+            homeless.setdefault(diagrams_of(chapter_of(title)), []).extend(specs)
+        else:
+            found[title] = boxes
+            _draw(sheet, specs, boxes, writer)
+    for title, specs in homeless.items():
+        sheet = book.create_sheet(title, _index(book, title))
+        _heading(sheet, heading(title))
+        found[title] = flow([pixels(spec, wide=True) for spec in specs], GAP, _ROWS_PX, SCREEN)
+        _draw(sheet, specs, found[title], writer)
+    return found
 
 
-def _charts(sheet: Worksheet, model: Model, writer: Writer) -> None:
-    layout = writer.layout
-    specs = [spec for spec in model.charts if spec.sheet == sheet.title]
-    if not specs:
-        return
-    column, page = sheet.max_column + 2, page_of(sheet)
-    offset = 0
-    for spec in specs:
-        height = _SLOT * ceil(size(spec)[1] / _ROW_CM / _SLOT)
-        if offset % page.rows + height > page.rows:  # not across a page break
-            offset = page.rows * ceil(offset / page.rows)
-        place = Cell(sheet.title, FIRST_ROW + offset, column)
-        sheet.add_chart(make_chart(spec, layout, writer.values), place.coordinate)
-        writer.caches.ranges |= ranges_of(spec, layout, writer.values)
-        offset += height
-    columns = round(max(size(spec)[0] for spec in specs) / _COLUMN_CM) + 1
-    last = Cell(sheet.title, FIRST_ROW + offset - 1, column + columns)
-    sheet.print_area = [
-        str(sheet.print_area).replace("$", "").split("!")[-1],
-        area(Cell(sheet.title, FIRST_ROW, column), last),
-    ]
-    rows = max(offset, sheet.max_row)
-    for row in range(FIRST_ROW - 1 + page.rows, FIRST_ROW + rows, page.rows):
-        sheet.row_breaks.append(Break(id=row))
+def _room(sheet: Worksheet, specs: Sequence[ChartSpec], *, frozen: bool) -> list[Box] | None:
+    """Room beside what is written, or below where that is short; None where there is none."""
+    width, height = extent(sheet)
+    sizes = [pixels(spec) for spec in specs]
+    if not specs or width + GAP + sizes[0][0] <= SCREEN:
+        top = top_of(sheet, FIRST_ROW if frozen else HEADER_ROW)
+        return flow(sizes, width + GAP, top, max(UPRIGHT, width + GAP + WIDE))
+    if height + sizes[0][1] <= FOLD + sizes[0][1] // 2:  # its greater half in sight
+        return flow(sizes, GAP, height + GAP, SCREEN)
+    return None
 
 
-@dataclass(frozen=True, slots=True)
-class Page:
-    """How a sheet goes to paper: landscape, scale in percent, rows to a page."""
-
-    landscape: bool
-    scale: int
-    rows: int
-
-
-def page_of(sheet: Worksheet) -> Page:
-    """A4 page for a sheet with tables: whole columns, pages a multiple of a chart's slot."""
-    landscape = sheet.max_column > _PORTRAIT_COLUMNS
-    # Height of the sheet of paper less the titles that repeat on each page.
-    width, height, most = (26.0, 12.9, 0.75) if landscape else (17.5, 21.8, 0.8)
-    widths = (
-        sheet.column_dimensions[get_column_letter(i)].width for i in range(1, sheet.max_column + 1)
-    )
-    scale = min(most, width / (sum(widths) * _CHARACTER_CM))
-    return Page(landscape, int(scale * 100), max(1, int(height / _ROW_CM / scale / _SLOT)) * _SLOT)
+def _draw(
+    sheet: Worksheet, specs: Sequence[ChartSpec], boxes: Sequence[Box], writer: Writer
+) -> None:
+    for spec, box in zip(specs, boxes, strict=True):
+        chart = make_chart(spec, writer.layout, writer.values)
+        chart.anchor = anchor(sheet, box)
+        sheet.add_chart(chart)
+        writer.caches.ranges |= ranges_of(spec, writer.layout, writer.values)
 
 
-def _page(sheet: Worksheet, model: Model, layout: Layout) -> None:
-    """Widths, frozen headers and print set-up of a sheet, before its charts are placed."""
-    blocks = [block for block in model.blocks if block.sheet == sheet.title]
-    tables = [block for block in blocks if isinstance(block, TableSpec)]
-    last_row, last_column = sheet.max_row, sheet.max_column
-    if tables:
-        sheet.freeze_panes = Cell(sheet.title, FIRST_ROW, 2).coordinate
-        sheet.print_title_rows = f"{HEADER_ROW - 1}:{NUMBER_ROW}"
-        _widths(sheet, dict.fromkeys(range(1, last_column + 1), 11.5))
-        for block in blocks:
-            if isinstance(block, ScalarTable):
-                first = layout.places[block.id].column
-                _widths(sheet, {first + i: width for i, width in enumerate((40, 12, 13, 8, 26))})
-        sheet.row_dimensions[HEADER_ROW].height = 48
-        # The same row height everywhere, else the slots of the charts drift from the pages.
-        sheet.sheet_format.defaultRowHeight = 15
-        sheet.sheet_format.customHeight = True
-    elif sheet.title != CONTENTS_SHEET:
-        sheet.freeze_panes = Cell(sheet.title, HEADER_ROW, 1).coordinate
-        wide = {1: 62, 2: 16, VALUE_COLUMN: 16, 4: 12, SOURCE_COLUMN: 26, 6: 32}
-        if sheet.title in (CYCLE_SHEET, RANGE_SHEET):
-            wide |= _CYCLE_WIDTHS if sheet.title == CYCLE_SHEET else _RANGE_WIDTHS
-        _widths(sheet, {i: wide.get(i, 14) for i in range(1, last_column + 1)})
-    sheet.print_area = f"A1:{Cell('', last_row, last_column).coordinate}"
-    sheet.page_setup.paperSize = sheet.PAPERSIZE_A4
-    if tables:
-        page = page_of(sheet)
-        sheet.page_setup.orientation = "landscape" if page.landscape else "portrait"
-        sheet.page_setup.scale = page.scale
-    else:
-        sheet.page_setup.orientation = "landscape" if last_column > 9 else "portrait"
-        sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight = 1, 0
-        sheet.sheet_properties.pageSetUpPr.fitToPage = True
-    sheet.oddFooter.center.text = "&A — лист &P из &N"
-    sheet.page_margins.left, sheet.page_margins.right = 0.8, 0.4
-
-
-def _widths(sheet: Worksheet, widths: dict[int, float]) -> None:
-    for column, width in widths.items():
-        sheet.column_dimensions[get_column_letter(column)].width = width
+def _index(book: Workbook, title: str) -> int:
+    """Where a sheet's place among the others is."""
+    return 1 + ordered([*book.sheetnames[1:], title]).index(title)
 
 
 def _note(sheet: Worksheet, text: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import math
 import re
 from collections.abc import Iterator
 
@@ -10,6 +11,8 @@ from lxml import etree
 
 from reports.formula.parse import SCALES, parse
 from reports.spec.blocks import Model, TableSpec, scalars_of
+from reports.workbook.charts import HIGH, WIDE
+from reports.workbook.motion import SHAPE as MECHANISM
 
 C = "{http://schemas.openxmlformats.org/drawingml/2006/chart}"
 A = "{http://schemas.openxmlformats.org/drawingml/2006/main}"
@@ -84,9 +87,9 @@ def _series_problems(root: etree._Element) -> Iterator[str]:
     for place, one in enumerate(series):
         if _val(one, "smooth") != "0":
             yield f"series {place} is smoothed"
-        if one.find(f"{C}marker/{C}symbol") is None or (
-            one.find(f"{C}marker/{C}symbol").get("val") != "none"
-        ):
+        symbol = one.find(f"{C}marker/{C}symbol")
+        moving = ":" not in one.findtext(f"{C}xVal/{C}numRef/{C}f", "")  # a point by one cell
+        if symbol is None or symbol.get("val") != ("circle" if moving else "none"):
             yield f"series {place} has markers"
         line = one.find(f"{C}spPr/{A}ln")
         if line is None or (line.find(f"{A}noFill") is None and line.get("w") != _LINE):
@@ -99,7 +102,8 @@ def _cache_problems(root: etree._Element) -> list[str]:
         where = reference.findtext(f"{C}f")
         points = [point.text for point in reference.iterfind(f"{C}numCache/{C}pt/{C}v")]
         count = reference.find(f"{C}numCache/{C}ptCount")
-        if count is None or not len(points) == int(count.get("val")) > 1:
+        least = 2 if ":" in where else 1
+        if count is None or not len(points) == int(count.get("val")) >= least:
             found.append(f"{where}: the cache is not filled")
         elif not all(_is_number(text) for text in points):
             found.append(f"{where}: the cache holds no number")
@@ -116,11 +120,17 @@ def _polar_problems(root: etree._Element) -> list[str]:
     if layout is None:
         return []
     found = []
-    if _val(layout, "w") != _val(layout, "h") or _val(layout, "layoutTarget") != "inner":
+    # In a square chart, or in one of the first sheet's, which are as wide as all others.
+    shape = float(_val(layout, "w") or 0) / float(_val(layout, "h") or 1)
+    shapes = (1.0, HIGH / WIDE, MECHANISM * 2 * HIGH / WIDE)
+    square = any(math.isclose(shape, wanted, rel_tol=1e-9) for wanted in shapes)
+    if not square or _val(layout, "layoutTarget") != "inner":
         found.append("the plot area is not square")
     texts = [formula.text for formula in root.iterfind(f".//{C}f")]
     limits = [axis.find(f"{C}scaling/{C}max") for axis in root.findall(f".//{C}valAx")]
     # Equal limits are fixed, or a corner series spans the same range on both axes.
+    if math.isclose(shape, shapes[2], rel_tol=1e-9):
+        return found  # its limits follow from a frame of the plot's shape
     if not all(limit is not None for limit in limits) and texts[-1] != texts[-2]:
         found.append("the axes may have different limits")
     return found
@@ -135,8 +145,12 @@ def formula_problems(cell: etree._Element) -> list[str]:
     found += [f"{name} is not shared by all engines" for name in sorted(used - ALLOWED - VOLATILE)]
     if "_xlfn" in text:
         found.append("newer than Excel 2007")
-    if formula.attrib:
-        found.append(f"an array or a shared formula: {dict(formula.attrib)}")
+    # Gnumeric reckons with whole ranges in array formulas alone; no other formula is one.
+    wanted = {"t": "array", "ref": cell.get("r")} if "SUMPRODUCT(" in text else {}
+    if dict(formula.attrib) != wanted:
+        found.append(f"array or shared formula {dict(formula.attrib)}, not {wanted}")
+    if re.search(r"\dE[+-]?\d", text) or re.search(r"(^=?|[(,*/+^<>=-])-\(", text):
+        found.append("an exponent or a sign before a bracket")
     if len(text) >= _LONGEST:
         found.append("too long for Excel")
     if "[" in text or "#" in text:

@@ -9,7 +9,9 @@ from functools import lru_cache
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.spec.blocks import Model
+from reports.spec.charts import ChartSpec
 from reports.tables.registry import build_model
+from reports.workbook.cockpit import CHARTS
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
 
@@ -35,6 +37,15 @@ def coarse_model(name: str = "gots-diesel") -> Model:
 @lru_cache(maxsize=4)
 def coarse_book(name: str = "gots-diesel") -> bytes:
     return workbook_bytes(coarse_model(name))
+
+
+def drawn(model: Model) -> list[ChartSpec]:
+    """All charts of a workbook: the first sheet's, then those of the tables."""
+    first = [model.charts_by_id[name] for name in CHARTS if name in model.charts_by_id]
+    return first + [spec for spec in model.charts if spec.sheet]
+
+
+MOVING = 6  # charts of the mechanism's sheet, half of them with one scale on both axes
 
 
 def parts(prefix: str, name: str = "gots-diesel") -> dict[str, bytes]:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import io
+import zipfile
 from functools import lru_cache
 from pathlib import Path
 
 import pytest
 from openpyxl import Workbook, load_workbook
 
+from reports.exports.build import load_input
 from reports.inputs.fields import to_mapping
 from reports.shared.errors import InputError
 from reports.workbook.layout import Layout
@@ -119,3 +121,54 @@ def test_the_same_input_gives_the_same_bytes() -> None:
     from reports.workbook.write import workbook_bytes
 
     assert workbook_bytes(coarse_model()) == coarse_book()
+
+
+def changed(tmp_path: Path, change) -> Path:
+    """The book on the coarse grid as a person left it."""
+    opened = load_workbook(io.BytesIO(coarse_book()))
+    for sheet in opened.sheetnames[2:]:
+        del opened[sheet]
+    change(opened)
+    path = tmp_path / "changed.xlsx"
+    opened.save(path)
+    return path
+
+
+def test_a_renamed_sheet_of_inputs_is_found(tmp_path: Path) -> None:
+    def rename(opened: Workbook) -> None:
+        opened["Исходные данные"].title = "Мои данные"
+        for defined in opened.defined_names.values():  # as every program does
+            defined.attr_text = defined.attr_text.replace("Исходные данные", "Мои данные")
+
+    loaded = load_workbook_input(changed(tmp_path, rename))
+    assert to_mapping(loaded.model) == to_mapping(coarse_model().input)
+
+
+@pytest.mark.parametrize(("said", "wrong"), [("см", True), (" ММ ", False), (None, False)])
+def test_a_changed_unit_is_refused(tmp_path: Path, said: str | None, wrong: bool) -> None:
+    at = Layout.of(coarse_model()).cells["geometry_bore_mm"]
+
+    def write(opened: Workbook) -> None:
+        opened[at.sheet].cell(at.row, at.column + 1).value = said
+
+    path = changed(tmp_path, write)
+    if not wrong:
+        load_workbook_input(path)
+        return
+    with pytest.raises(InputError, match="единица «см» вместо «мм»") as error:
+        load_workbook_input(path)
+    assert f"{at.sheet}!{at.coordinate}" in str(error.value)
+
+
+def test_words_of_lists_are_forgiving(tmp_path: Path) -> None:
+    path = edited(tmp_path, {"calculation_method": "  Точное  ускорение "})
+    assert load_workbook_input(path).model.calculation.method == "exact"
+
+
+def test_a_book_of_libreoffice_says_what_to_do(tmp_path: Path) -> None:
+    path = tmp_path / "book.ods"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("mimetype", "application/vnd.oasis.opendocument.spreadsheet")
+        archive.writestr("content.xml", "<x/>")
+    with pytest.raises(InputError, match=r"\.ods.*Сохранить как"):
+        load_input(path)

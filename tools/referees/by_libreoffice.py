@@ -16,7 +16,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from reports.shared.errors import SystemPartMissing
-from tools.referees.cells import Book, formula_cells, row_and_column
+from tools.referees.cells import Book, CellValue, formula_cells, row_and_column
 
 INSTALL = "sudo apt-get install -y libreoffice-calc-nogui python3-uno"
 
@@ -80,7 +80,7 @@ class LibreOffice:
         with self._saved(books, _EVERY_SHEET, names) as folder:
             return [
                 {
-                    sheet: _taken((folder / f"book{index}-{sheet}.csv"), cells)
+                    sheet: taken((folder / f"book{index}-{sheet}.csv"), cells)
                     for sheet, cells in sheets.items()
                 }
                 for index, sheets in enumerate(formulas)
@@ -126,11 +126,11 @@ class LibreOffice:
             yield folder / "out"
 
 
-def _taken(path: Path, cells: Sequence[str]) -> dict[str, float | str | None]:
+def taken(path: Path, cells: Sequence[str]) -> dict[str, CellValue]:
     """Values of some cells of a sheet saved as text: numbers where they read as numbers."""
     with path.open(encoding="utf-8", newline="") as stream:
         rows = list(csv.reader(stream))
-    found: dict[str, float | str | None] = {}
+    found: dict[str, CellValue] = {}
     for cell in cells:
         row, column = row_and_column(cell)
         inside = row <= len(rows) and column <= len(rows[row - 1])

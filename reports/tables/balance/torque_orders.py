@@ -14,7 +14,7 @@ from reports.spec.shape import Shape
 from reports.tables.gas.cycle_names import section_of
 from reports.tables.gas.diagram import is_smooth, smooth_pressure
 
-SHEET, SHAFTS, RESULTS = "Гармоники момента", "Гашение 2-го порядка", "Чудаков, итоги"
+SHEET, SHAFTS, RESULTS = "Гармоники момента", "Гашение 2-го порядка", "Гармоники момента, итоги"
 LAST_ORDER = 8.0
 _NOISE = "0.000000001"
 _CANCELLED = 1e-6  # of a vector sum of unit vectors

@@ -8,7 +8,7 @@ from reports.spec.listing import column_list
 from reports.spec.parts import Part, Scope, stepped
 from reports.tables.motion.segal import ALPHA, TITLES, J, S, V, filled
 
-SHEET, RESULTS = "Нейман", "Нейман, ряд"
+SHEET, RESULTS = "Гармоники движения", "Гармоники движения, ряд"
 SHOWN = (1, 2, 4, 6)
 ORDERS = (2, 4, 6, 8, 10, 12)
 

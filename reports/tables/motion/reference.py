@@ -10,8 +10,9 @@ from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi, p
 from reports.spec.listing import column_list, corners, grid_row, scalar_list
 from reports.spec.parts import Part, Scope, stepped
 
-MOTION, SPEED, VECTORS, SKETCH = "Рис. 3–10", "Рис. 6", "Рис. 20", "Рис. 5"
-KINEMATIC, FORCES = "Табл. 1–3", "Табл. 5–8"
+MOTION, SPEED = "Движение поршня по λ", "Скорость поршня по λ"
+VECTORS, SKETCH = "Векторы сил инерции", "Построение скорости"
+KINEMATIC, FORCES = "Таблицы кинематики", "Таблицы сил"
 INDEX = Column("phi_deg", None)
 _PHI = "rad(phi_deg)"
 _BETA = f"asin({{lam}}*sin({_PHI}))"

@@ -7,7 +7,7 @@ from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi
 from reports.spec.listing import column_list, scalar_list
 from reports.spec.parts import Part, Scope, stepped
 
-SHEET, RESULTS = "Сегаль", "Сегаль, итоги"
+SHEET, RESULTS = "Точность формул", "Точность формул, итоги"
 ITERATIONS = 9
 
 _BETA = "asin({lam}*sin(rad(alpha_deg)))"

@@ -1,0 +1,181 @@
+"""The first sheet: the engine in a few lines, its key results, and the way to everything."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import groupby
+from math import isfinite
+
+from openpyxl.styles import Alignment, PatternFill
+from openpyxl.styles import Font as CellFont
+from openpyxl.worksheet.worksheet import Worksheet
+
+from reports.shared.russian import capital
+from reports.spec.blocks import Model
+from reports.tables.overview.left_out import left_out_note
+from reports.tables.overview.summary import NO, YES
+from reports.workbook import styles
+from reports.workbook.chapters import chapter_of, heading
+from reports.workbook.charts import HIGH, WIDE, make_chart, ranges_of
+from reports.workbook.inputs import shown
+from reports.workbook.layout import Cell
+from reports.workbook.links import link
+from reports.workbook.places import GAP, Box, anchor, flow, top_of
+from reports.workbook.sheets import Writer
+
+# Inputs and scalars that say which engine this is, and what came out; those that there are.
+DATA = (
+    "engine_cylinders", "engine_strokes", "geometry_bore_mm", "geometry_stroke_mm",
+    "geometry_crank_radius_mm", "lam", "geometry_compression_ratio", "V_engine",
+    "regime_speed_rpm", "m_j",
+)  # fmt: skip
+RESULTS = (
+    "M_mean", "M_e", "N_i_calc", "p_i_calc", "M_max", "phi_M_max_deg", "M_min", "c_m", "j_tdc",
+    "Rpin_mean", "Rpin_max", "q_pin_max", "hole_pin_deg", "worst_main_load", "worst_main_torque",
+    "delta_work", "I_flywheel",
+)  # fmt: skip
+CHARTS = ("p_phi", "fig49", "fig50", "fig52")
+_WIDTHS = {"A": 40, "B": 12, "C": 12, "D": 9, "E": 2}
+_TOP = 3
+
+
+def write_cockpit(
+    sheet: Worksheet,
+    titles: Sequence[str],
+    model: Model,
+    writer: Writer,
+    legend: Sequence[tuple[str, str]],
+) -> list[Box]:
+    """Fill the first sheet; the places of its charts."""
+    for letter, width in _WIDTHS.items():
+        sheet.column_dimensions[letter].width = width
+    sheet.row_dimensions[1].height = 21
+    title = model.input.report.title or "Кинематика и динамика КШМ"
+    styles.as_text(sheet.cell(1, 1, title)).style = styles.TITLE
+    row = _people(sheet, model, _TOP)
+    row = _verdict(sheet, model, writer, row)
+    row = _values(sheet, writer, row + 1, "Двигатель", DATA)
+    row = _values(sheet, writer, row + 1, "Главные результаты", RESULTS)
+    boxes = _charts(sheet, model, writer)
+    row = _sheets(sheet, titles, model, row + 1)
+    _legend(sheet, model, legend, row + 1)
+    return boxes
+
+
+def _people(sheet: Worksheet, model: Model, row: int) -> int:
+    report = model.input.report
+    people = (
+        ("Двигатель", model.input.engine.name),
+        ("Студент", report.student),
+        ("Группа", report.group),
+        ("Вариант", report.variant),
+        ("Руководитель", report.supervisor),
+    )
+    for label, text in people:
+        if text:
+            sheet.cell(row, 1, label).style = styles.TEXT
+            styles.as_text(sheet.cell(row, 2, text)).style = styles.LINE
+            row += 1
+    return row
+
+
+def _verdict(sheet: Worksheet, model: Model, writer: Writer, row: int) -> int:
+    """Whether all checks hold; nothing where they are not in the book."""
+    values = writer.values.scalars
+    keys = [key for key in model.scalars if key.startswith("check_") and key in values]
+    if not keys or any(values[key] not in (YES, NO) for key in keys):
+        return row
+    passed = sum(values[key] == YES for key in keys) == len(keys)
+    good, bad = "все выполнены", "есть невыполненные: лист «Проверки»"
+    test = ",".join(f'{key}="{YES}"' for key in keys)
+    sheet.cell(row, 1, "Проверки расчёта").style = styles.TEXT
+    writer.formula(sheet, row, 2, f'=IF(AND({test}),"{good}","{bad}")', good if passed else bad)
+    sheet.cell(row, 2).style = styles.LINE
+    return row + 1
+
+
+def _values(sheet: Worksheet, writer: Writer, row: int, title: str, keys: Sequence[str]) -> int:
+    """Values that stand elsewhere, with symbol and unit."""
+    sheet.cell(row, 1, title).style = styles.SUBTITLE
+    for text, symbol, key, value, unit, look in known(writer, keys):
+        row += 1
+        for column, words in ((1, text), (2, symbol), (4, unit)):
+            sheet.cell(row, column, words or None).style = styles.TEXT
+        writer.formula(sheet, row, 3, f"={key}", value)
+        sheet.cell(row, 3).style = styles.FORMULA
+        sheet.cell(row, 3).number_format = look
+    return row + 1
+
+
+def known(
+    writer: Writer, keys: Sequence[str]
+) -> Iterator[tuple[str, str, str, float | str, str, str]]:
+    """Title, symbol, name, value, unit and number format of what the book has."""
+    model, values = writer.layout.model, writer.values.scalars
+    for key in keys:
+        if key in model.fields:
+            field = model.fields[key]
+            yield (
+                field.title,
+                field.symbol.replace("_", ""),
+                key,
+                shown(field),
+                field.unit,
+                "General",
+            )
+        elif key in model.scalars and key in values and _finite(values[key]):
+            quantity = model.scalars[key].quantity
+            look = styles.excel_format(quantity)
+            title = capital(quantity.title)
+            yield title, quantity.symbol, key, values[key], quantity.unit_label, look
+
+
+def _finite(value: float | str) -> bool:
+    return isinstance(value, str) or isfinite(value)
+
+
+def _charts(sheet: Worksheet, model: Model, writer: Writer) -> list[Box]:
+    """The four that say most, two to a row and of one size."""
+    specs = [model.charts_by_id[chart] for chart in CHARTS if chart in model.charts_by_id]
+    left = sum(round(width * 7) for width in _WIDTHS.values()) + GAP
+    boxes = flow([(WIDE, HIGH)] * len(specs), left, top_of(sheet, _TOP), left + 2 * WIDE + GAP)
+    for spec, box in zip(specs, boxes, strict=True):
+        chart = make_chart(spec, writer.layout, writer.values, oblong=box.width / box.height)
+        chart.anchor = anchor(sheet, box)
+        sheet.add_chart(chart)
+        writer.caches.ranges |= ranges_of(spec, writer.layout, writer.values)
+    return boxes
+
+
+def _sheets(sheet: Worksheet, titles: Sequence[str], model: Model, row: int) -> int:
+    """Links to all sheets by chapters."""
+    sheet.cell(row, 1, "Листы").style = styles.SUBTITLE
+    others = [title for title in titles if title != sheet.title]
+    for chapter, group in groupby(others, chapter_of):
+        row += 1
+        head = sheet.cell(row, 1, chapter.title)
+        head.font = CellFont(name=styles.FONT, size=11, bold=True, color="FFFFFF")
+        for column in range(1, 5):
+            sheet.cell(row, column).fill = PatternFill("solid", fgColor=chapter.colour)
+        for title in group:
+            row += 1
+            blocks = [block for block in model.blocks if block.sheet == title]
+            link(sheet, Cell(sheet.title, row, 1), title, title)
+            sheet.cell(row, 2, heading(title, blocks)).style = styles.LINE
+    return row + 1
+
+
+def _legend(sheet: Worksheet, model: Model, legend: Sequence[tuple[str, str]], row: int) -> None:
+    sheet.cell(row, 1, "Цвета ячеек").style = styles.SUBTITLE
+    missing = left_out_note(model.input)
+    for style, text in legend:
+        row += 1
+        sheet.cell(row, 1, "образец").style = style
+        sheet.cell(row, 2, text).style = styles.LINE
+    row += 1
+    sheet.cell(row, 2, "Столбцы, нужные только формулам, свёрнуты: кнопка «+» над столбцами.")
+    sheet.cell(row, 2).style = styles.NOTE
+    if missing:
+        cell = styles.as_text(sheet.cell(row + 1, 2, missing))
+        cell.style = styles.NOTE
+        cell.alignment = Alignment(vertical="top")

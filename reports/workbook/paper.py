@@ -1,0 +1,100 @@
+"""How sheets go to paper, and the widths and frozen headers by which they are read."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from openpyxl.utils import get_column_letter
+from openpyxl.worksheet.worksheet import Worksheet
+
+from reports.spec.blocks import Model, ScalarTable, TableSpec
+from reports.spec.evaluation import Values
+from reports.tables.gas.cycle_names import SHEET as CYCLE_SHEET
+from reports.tables.gas.cycle_speed import RANGE_SHEET
+from reports.workbook.layout import (
+    FIRST_ROW,
+    HEADER_ROW,
+    NUMBER_ROW,
+    SOURCE_COLUMN,
+    VALUE_COLUMN,
+    Cell,
+    Layout,
+    area,
+)
+from reports.workbook.places import Box, extent, last_cell
+
+_COLUMN = 9.5  # characters of a column of a table
+_LIST = {1: 58, 2: 14, VALUE_COLUMN: 14, 4: 11, SOURCE_COLUMN: 24, 6: 30}
+_BESIDE = (34, 10, 11, 8, 20)  # of a list beside a table
+_CYCLE_WIDTHS = {2: 20, 4: 17, SOURCE_COLUMN: 28, 6: 17, 7: 17, 8: 17}
+_RANGE_WIDTHS = {1: 76, 2: 4, 4: 16, SOURCE_COLUMN: 42}
+UPRIGHT = 1290  # px: wider sheets lie
+_PAPER = {"portrait": (690, 1010), "landscape": (1030, 670)}  # px: A4 less its margins
+_LEAST = 0.5  # scale below which a sheet rather takes more pages
+
+
+def set_widths(sheet: Worksheet, model: Model, layout: Layout, values: Values) -> None:
+    """Widths of columns, frozen headers, folded columns that only serve formulas."""
+    blocks = [block for block in model.blocks if block.sheet == sheet.title]
+    tables = [block for block in blocks if isinstance(block, TableSpec)]
+    sheet.row_dimensions[1].height = 21
+    last = sheet.max_column
+    if not tables:
+        sheet.freeze_panes = Cell(sheet.title, HEADER_ROW, 1).coordinate
+        wide = dict(_LIST)
+        if sheet.title in (CYCLE_SHEET, RANGE_SHEET):
+            wide |= _CYCLE_WIDTHS if sheet.title == CYCLE_SHEET else _RANGE_WIDTHS
+        _widths(sheet, {i: wide.get(i, 12) for i in range(1, last + 1)})
+        return
+    sheet.freeze_panes = Cell(sheet.title, FIRST_ROW, 2).coordinate
+    sheet.print_title_rows = f"{HEADER_ROW - 1}:{NUMBER_ROW}"
+    _widths(sheet, dict.fromkeys(range(1, last + 1), _COLUMN))
+    for block in blocks:
+        if isinstance(block, ScalarTable):
+            first = layout.places[block.id].column
+            _widths(sheet, {first + i: width for i, width in enumerate(_BESIDE)})
+    sheet.row_dimensions[HEADER_ROW].height = 48
+    for table in tables:
+        _fold(sheet, table, layout, values)
+
+
+def _fold(sheet: Worksheet, table: TableSpec, layout: Layout, values: Values) -> None:
+    """Columns that only serve formulas are folded; what a student fills in stays open."""
+    sheet.sheet_properties.outlinePr.summaryRight = False
+    for column in table.columns[1:]:
+        if column.helper and np.isfinite(values.columns[table.id][column.key]).all():
+            letter = get_column_letter(layout.column_of(f"{table.id}.{column.key}"))
+            sheet.column_dimensions[letter].outlineLevel = 1
+            sheet.column_dimensions[letter].hidden = True
+
+
+def set_page(sheet: Worksheet, boxes: Sequence[Box]) -> None:
+    """One print area with the charts, as few pages as can be read."""
+    last = Cell("", sheet.max_row, sheet.max_column)
+    width, height = extent(sheet)
+    if boxes:
+        row, column = last_cell(sheet, boxes)
+        last = Cell("", max(row, last.row), max(column, last.column))
+        width = max(width, *(box.right for box in boxes))
+        height = max(height, *(box.bottom for box in boxes))
+    page = sheet.page_setup
+    page.paperSize = sheet.PAPERSIZE_A4
+    scales = {name: min(w / width, h / height) for name, (w, h) in _PAPER.items()}
+    page.orientation = max(scales, key=lambda name: scales[name])
+    whole = scales[page.orientation] >= _LEAST
+    if not whole and width > UPRIGHT:
+        page.orientation = "landscape"
+    page.fitToWidth, page.fitToHeight = 1, int(whole)
+    sheet.sheet_properties.pageSetUpPr.fitToPage = True
+    sheet.print_area = area(Cell("", 1, 1), last)
+    margins = sheet.page_margins
+    margins.left, margins.right, margins.top, margins.bottom = 0.6, 0.3, 0.5, 0.6
+    margins.header = margins.footer = 0.3
+    sheet.oddHeader.right.text = "&F"
+    sheet.oddFooter.center.text = "&A — лист &P из &N"
+
+
+def _widths(sheet: Worksheet, widths: Mapping[int, float]) -> None:
+    for column, width in widths.items():
+        sheet.column_dimensions[get_column_letter(column)].width = width

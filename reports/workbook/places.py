@@ -1,0 +1,110 @@
+"""Where charts stand: in sight on a screen, several to a row, none over another.
+
+Everything is measured in pixels of a screen at 100 %; a program's columns are as wide as their
+widths say for the standard font, its rows as high as is written or 15 points.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from openpyxl.drawing.spreadsheet_drawing import AnchorMarker, OneCellAnchor
+from openpyxl.drawing.xdr import XDRPositiveSize2D
+from openpyxl.utils import get_column_letter
+from openpyxl.worksheet.worksheet import Worksheet
+
+SCREEN = 1540  # px: 1600 less row numbers and the bar
+FOLD = 640  # px: 900 less ribbon, formula bar, tabs
+GAP = 8
+_EMU = 9525  # in a pixel
+_DIGIT, _COLUMN, _ROW = 7, 64, 20  # px
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A rectangle on a sheet [px]."""
+
+    x: int
+    y: int
+    width: int
+    height: int
+
+    @property
+    def right(self) -> int:
+        """Right edge."""
+        return self.x + self.width
+
+    @property
+    def bottom(self) -> int:
+        """Lower edge."""
+        return self.y + self.height
+
+
+def column_px(sheet: Worksheet, index: int) -> int:
+    """Width of a column as it is seen."""
+    letter = get_column_letter(index)
+    if letter not in sheet.column_dimensions:
+        return _COLUMN
+    about = sheet.column_dimensions[letter]
+    return 0 if about.hidden else round(about.width * _DIGIT) if about.width else _COLUMN
+
+
+def row_px(sheet: Worksheet, index: int) -> int:
+    """Height of a row."""
+    height = sheet.row_dimensions[index].height if index in sheet.row_dimensions else None
+    return _ROW if height is None else round(height * 4 / 3)
+
+
+def extent(sheet: Worksheet) -> tuple[int, int]:
+    """Width and height of all that is written on a sheet."""
+    return (
+        sum(column_px(sheet, i) for i in range(1, sheet.max_column + 1)),
+        sum(row_px(sheet, i) for i in range(1, sheet.max_row + 1)),
+    )
+
+
+def top_of(sheet: Worksheet, row: int) -> int:
+    """Upper edge of a row."""
+    return sum(row_px(sheet, i) for i in range(1, row))
+
+
+def flow(sizes: Sequence[tuple[int, int]], x: int, y: int, right: int) -> list[Box]:
+    """Boxes from left to right, and below where the row is full."""
+    boxes: list[Box] = []
+    left, row, bottom = x, y, y
+    for width, height in sizes:
+        if left > x and left + width > right:
+            left, row = x, bottom + GAP
+        boxes.append(Box(left, row, width, height))
+        left, bottom = left + width + GAP, max(bottom, row + height)
+    return boxes
+
+
+def anchor(sheet: Worksheet, box: Box) -> OneCellAnchor:
+    """A box as a drawing's anchor: a cell and what is left over within it."""
+    column, x = 1, box.x
+    while x >= column_px(sheet, column):
+        x -= column_px(sheet, column)
+        column += 1
+    row, y = 1, box.y
+    while y >= row_px(sheet, row):
+        y -= row_px(sheet, row)
+        row += 1
+    at = AnchorMarker(col=column - 1, colOff=x * _EMU, row=row - 1, rowOff=y * _EMU)
+    return OneCellAnchor(_from=at, ext=XDRPositiveSize2D(box.width * _EMU, box.height * _EMU))
+
+
+def keep_columns(sheet: Worksheet, boxes: Sequence[Box]) -> None:
+    """Give the columns below charts the width that was reckoned with: programs differ in theirs."""
+    for index in range(1, last_cell(sheet, boxes)[1] + 1 if boxes else 0):
+        letter = get_column_letter(index)
+        if letter not in sheet.column_dimensions:
+            sheet.column_dimensions[letter].width = _COLUMN / _DIGIT
+
+
+def last_cell(sheet: Worksheet, boxes: Sequence[Box]) -> tuple[int, int]:
+    """Row and column of the cell under the lower right corner of all boxes."""
+    corner = Box(max(b.right for b in boxes), max(b.bottom for b in boxes), 0, 0)
+    at = anchor(sheet, corner)._from
+    return at.row + 1, at.col + 1

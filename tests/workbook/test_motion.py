@@ -1,0 +1,87 @@
+"""The sheet «Механизм»: its points at every angle of the list are the solver's."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import formualizer
+import numpy as np
+import pytest
+
+from kshm import solve
+from kshm.mechanics.kinematics import displacement_exact
+from reports.inputs.to_si.engine import engine_and_cycle
+from reports.workbook.motion import SHEET
+from tests.workbook.made import book, model
+from tools.referees.by_libreoffice import LibreOffice
+from tools.referees.cells import stripped
+
+TITLES = 1  # column
+TOLERANCE = 1e-9
+
+
+@lru_cache
+def opened(name: str) -> formualizer.Workbook:
+    return formualizer.load_workbook_bytes(stripped(book(name))[0])
+
+
+def rows(engine: formualizer.Workbook) -> dict[str, int]:
+    """Row of each value beside the charts; the second of two alike is the ordinate."""
+    found: dict[str, int] = {}
+    for row in range(4, 30):
+        title = engine.get_value(SHEET, row, TITLES)
+        if title:
+            found[f"{title}{row}" if title in found else title] = row
+    return found
+
+
+@pytest.mark.parametrize(("name", "cylinder"), [("gots-diesel", 1), ("gots-diesel", 3),
+                                                ("ecoboost-10", 2), ("yamz-236", 5)])  # fmt: skip
+def test_points_and_forces_at_72_angles(name: str, cylinder: int) -> None:
+    engine, at = opened(name), rows(opened(name))
+    data, _ = engine_and_cycle(model(name).input)
+    solution = solve(data, _)
+    table = "P4_1" if cylinder == 1 else f"cylinder_{cylinder}"
+    geometry = data.geometry
+    r, rod = float(geometry.crank_radius), float(geometry.rod_length)
+    offset = float(solution.scalars.get("e_offset", 0.0))
+    theta = next(f.value for f in model(name).inputs if f.name == f"firing_offset_{cylinder}_deg")
+    engine.set_value(SHEET, at["Цилиндр"], 2, cylinder)
+    top = np.sqrt((r + rod) ** 2 - offset**2)
+    for step, angle in enumerate(range(0, 720, 10)):
+        engine.set_value(SHEET, at["Угол поворота вала φ"], 2, angle)
+        engine.evaluate_all()
+        psi = np.radians((angle - theta) % 720)
+
+        def shown(title: str) -> float:
+            return float(engine.get_value(SHEET, at[title], 2))
+
+        crank = shown("Шатунная шейка: x"), shown("y")
+        pin = shown("Поршневой палец: x"), shown(f"y{at['Поршневой палец: x'] + 1}")
+        assert crank == pytest.approx((1e3 * r * np.sin(psi), 1e3 * r * np.cos(psi)), abs=1e-9)
+        down = displacement_exact(psi, np.array(r), np.array(r / rod), np.array(offset / r))
+        assert pin == pytest.approx((1e3 * offset, 1e3 * (top - float(down))), abs=1e-9 * 1e3 * rod)
+        for force in "PNSTK":
+            key = {"P": "Ps_MPa"}.get(force, f"{force}_MPa")
+            expected = solution.columns[table][key]
+            scale = max(1.0, float(np.abs(expected).max()))
+            assert abs(shown(f"Сила {force}") - expected[step]) <= TOLERANCE * scale
+        total = solution.columns["P4_2"]["Msum_Nm"]
+        found = shown("Суммарный момент ΣM")
+        assert abs(found - total[step]) <= TOLERANCE * np.abs(total).max()
+
+
+def test_libreoffice_draws_the_same(libreoffice: LibreOffice) -> None:
+    engine = opened("gots-diesel")
+    at = rows(engine)
+    (found,) = libreoffice.recalculate([book()])
+    engine.set_value(SHEET, at["Угол поворота вала φ"], 2, 30)
+    engine.set_value(SHEET, at["Цилиндр"], 2, 1)
+    engine.evaluate_all()
+    assert len(found[SHEET]) > 100
+    letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+    for cell, value in found[SHEET].items():
+        if len(cell.rstrip("0123456789")) > 1:
+            continue
+        row, column = int(cell[1:]), letters.index(cell[0]) + 1
+        assert value == pytest.approx(engine.get_value(SHEET, row, column), abs=1e-9, rel=1e-12)

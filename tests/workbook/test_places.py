@@ -1,0 +1,93 @@
+"""Where charts stand: in sight or under one that is, none over another, none empty."""
+
+from __future__ import annotations
+
+import io
+import itertools
+import math
+
+import pytest
+from openpyxl import load_workbook
+from openpyxl.worksheet.worksheet import Worksheet
+
+from reports.workbook.chapters import CHAPTERS, chapter_of, diagrams_of, heading, ordered, place_of
+from reports.workbook.motion import SHEET
+from reports.workbook.places import FOLD, SCREEN, Box, column_px, extent, row_px
+from tests.conftest import sample_names
+from tests.workbook.made import coarse_book, coarse_model
+
+_EMU = 9525
+
+
+def boxes_of(sheet: Worksheet) -> list[Box]:
+    found = []
+    for chart in sheet._charts:  # openpyxl has no other list of what it read
+        at, size = chart.anchor._from, chart.anchor.ext
+        x = sum(column_px(sheet, i) for i in range(1, at.col + 1)) + at.colOff // _EMU
+        y = sum(row_px(sheet, i) for i in range(1, at.row + 1)) + at.rowOff // _EMU
+        found.append(Box(x, y, size.width // _EMU, size.height // _EMU))
+    return found
+
+
+def problems(boxes: list[Box], sheet: Worksheet | None = None) -> list[str]:
+    """What is wrong with the places of a sheet's charts."""
+    found = []
+    for place, box in enumerate(boxes):
+        below = any(b.bottom <= box.y and b.x <= box.x < b.right for b in boxes[:place])
+        if box.right > SCREEN or (box.bottom > FOLD + box.height // 2 and not below):
+            found.append(f"{box} is out of sight")
+    for one, other in itertools.combinations(boxes, 2):
+        apart = (one.right <= other.x or other.right <= one.x
+                 or one.bottom <= other.y or other.bottom <= one.y)  # fmt: skip
+        if not apart:
+            found.append(f"{one} and {other} overlap")
+    if len({box.width for box in boxes}) > 1:
+        found.append("widths differ")
+    if (
+        sheet is not None and sheet.title != SHEET and boxes and min(b.x for b in boxes) < 100
+    ):  # below the cells, then
+        written = extent(sheet)[1]
+        found += [f"{box} lies on cells" for box in boxes if box.y < written]
+    return found
+
+
+@pytest.mark.parametrize("name", sample_names())
+def test_every_chart_is_where_one_looks(name: str) -> None:
+    book = load_workbook(io.BytesIO(coarse_book(name)))
+    found = {sheet.title: problems(boxes_of(sheet), sheet) for sheet in book.worksheets}
+    assert {title: said for title, said in found.items() if said} == {}
+    assert len(boxes_of(book.worksheets[0])) == 4
+
+
+@pytest.mark.parametrize(
+    ("boxes", "said"),
+    [
+        ([Box(1400, 100, 300, 200)], "out of sight"),
+        ([Box(0, 600, 300, 200)], "out of sight"),
+        ([Box(0, 100, 300, 200), Box(200, 200, 300, 200)], "overlap"),
+        ([Box(0, 100, 300, 200), Box(400, 100, 310, 200)], "widths differ"),
+    ],
+)
+def test_the_lint_sees_a_misplaced_chart(boxes: list[Box], said: str) -> None:
+    assert any(said in text for text in problems(boxes))
+
+
+@pytest.mark.parametrize("name", sample_names())
+def test_every_sheet_has_its_chapter(name: str) -> None:
+    sheets = coarse_model(name).sheets
+    assert [sheet for sheet in sheets if place_of(sheet)[0] == len(CHAPTERS)] == []
+    headings = [heading(sheet) for sheet in sheets]
+    assert len(set(headings)) == len(headings)
+
+
+def test_chapters_order_and_name_sheets() -> None:
+    given = ["Износ к.ш (2) р2", "П4.3 (10)", "Мой лист", "П4.3 (2)", "Массы", "Износ к.ш (1)"]
+    assert ordered(given) == [
+        "Массы", "П4.3 (2)", "П4.3 (10)", "Износ к.ш (1)", "Мой лист", "Износ к.ш (2) р2",
+    ]  # fmt: skip
+    assert heading("Износ к.ш (2) р2") == "Износ коренной шейки 2, режим 2"
+    assert chapter_of("Мой лист").title == "Прочее"
+    titles = [diagrams_of(chapter) for chapter in CHAPTERS]
+    assert all(len(title) <= 31 for title in titles)
+    assert len(set(titles)) == len(titles)
+    assert all(math.isclose(place_of(title)[1], -1) for title in titles)

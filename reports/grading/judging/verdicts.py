@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -393,8 +393,3 @@ def own_values(item: Item, student: Student, precedents: frozenset[str] | None) 
         run = student.expected.fork(known_values(student.answers, used - {node}))
         parts.append(np.ravel(np.asarray(run.value(node), dtype=float)))
     return np.concatenate(parts)
-
-
-def verdicts_of(judgements: Sequence[Judgement]) -> Mapping[str, str]:
-    """Item → verdict."""
-    return {judgement.item.id: judgement.verdict for judgement in judgements}

@@ -47,6 +47,7 @@ SLOW = (
     "tests/kshm/test_invariants.py",
     "tests/manual/test_commands.py::test_commands",
     "tests/manual/test_manual_pages.py::test_html_fits",
+    "tests/referee/test_other_programs.py",
     "tests/referee/test_recalculation.py::test_formualizer_agrees_on_every_layout",
     "tests/referee/test_recalculation.py::test_libreoffice_agrees",
     "tests/robustness/",
@@ -56,6 +57,7 @@ SLOW = (
     "tests/tables/test_regimes.py",
     "tests/validation/test_validation_book.py",
     "tests/workbook/test_golden.py::test_saved_by_libreoffice",
+    "tests/workbook/test_motion.py::test_libreoffice",
     "tests/workbook/test_schema.py",
 )
 

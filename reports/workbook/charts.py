@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from openpyxl.chart import ScatterChart
 from openpyxl.chart.data_source import AxDataSource, NumDataSource, NumRef
+from openpyxl.chart.label import DataLabel, DataLabelList
 from openpyxl.chart.layout import Layout as PlotLayout
 from openpyxl.chart.layout import ManualLayout
 from openpyxl.chart.marker import Marker
@@ -22,18 +23,19 @@ from openpyxl.drawing.text import (
     RegularTextRun,
 )
 
-from kshm.nomenclature.quantity import quantity
+from kshm.nomenclature.quantity import quantity, roman
 from reports.spec.charts import ChartSpec
 from reports.spec.charts import Series as SeriesSpec
 from reports.spec.evaluation import Values
-from reports.workbook.layout import Layout
+from reports.workbook.layout import Layout, column_range
 
 WIDE, HIGH = 408, 290  # px: several beside a table
 ROOMY = 500  # px: width of three in a row on a sheet of their own
 STUDY = (16.0, 7.6)  # cm
-_LINE = 19050  # EMU: 1.5 pt
+_LINE, _DEEP = 19050, 57150  # EMU: 1.5 pt, 4.5 pt
 # Told apart without colour too: solid, dashed, dotted.
 _DASHES = ("solid", "dash", "sysDot", "dashDot")
+_EDGE = 1.2  # of a drawing in a unit square, with room for numbers around it
 _COLOURS = ("1F3864", "C00000", "2E7D32", "7F6000")
 
 
@@ -57,9 +59,34 @@ def make_chart(
     curves = spec.drawn_by("workbook")
     for number, series in enumerate(curves):
         chart.series.append(_series(series, number, layout))
+    if spec.kind == "wear":
+        for line in _rays(spec, layout):
+            chart.series.append(_ray(len(chart.series), line))
     _axes(chart, spec, values, oblong)
     _legend(chart, shown=not spec.equal_axes and len(curves) > 1)
     return chart
+
+
+def _rays(spec: ChartSpec, layout: Layout) -> list[Curve]:
+    """Worn depth at every ray of a wear diagram, from the wear to the circle."""
+    circle, wear = spec.drawn_by("workbook")[:2]
+    xs, ys = layout.cells_of_run(wear.x)[:-1], layout.cells_of_run(wear.y)[:-1]
+    ends = layout.cells_of_run(circle.x), layout.cells_of_run(circle.y)
+    return [
+        Curve(roman(number), *(column_range(at.sheet, at.column, at.row, to.row)
+                               for at, to in ((x, ends[0][number - 1]), (y, ends[1][number - 1]))))
+        for number, (x, y) in enumerate(zip(xs, ys, strict=True), 1)
+    ]  # fmt: skip
+
+
+def _ray(number: int, line: Curve) -> XYSeries:
+    """A thick line for the worn depth, with the number of its ray at the circle."""
+    made = _curve(number, line, LineProperties(w=_DEEP, solidFill="F4B183"))
+    label = DataLabel(idx=1, dLblPos="t", showSerName=True)
+    label.showVal = label.showLegendKey = label.showCatName = label.showPercent = False
+    made.dLbls = DataLabelList(dLbl=[label], showSerName=False, showVal=False)
+    made.dLbls.showLegendKey = made.dLbls.showCatName = made.dLbls.showPercent = False
+    return made
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,7 +166,7 @@ def _empty(title: str) -> ScatterChart:
     chart.scatterStyle = "lineMarker"
     chart.style = 2
     chart.roundedCorners = False
-    chart.title = _title(title, 1200)
+    chart.title = _title(title, 1000)
     chart.visible_cells_only = False  # curves of folded columns are drawn too
     chart.display_blanks = "gap"
     return chart
@@ -175,7 +202,7 @@ def _titles(chart: ScatterChart, x_title: str, y_title: str) -> None:
             ln=LineProperties(solidFill="D9D9D9", w=6350)
         )
         if title:
-            axis.title = _title(title, 1000)
+            axis.title = _title(title, 900)
 
 
 def _axes(chart: ScatterChart, spec: ChartSpec, values: Values, oblong: float) -> None:
@@ -204,8 +231,8 @@ def _axes(chart: ScatterChart, spec: ChartSpec, values: Values, oblong: float) -
     )
     if spec.kind != "polar":  # drawn in a unit square
         for axis in (chart.x_axis, chart.y_axis):
-            axis.scaling.min, axis.scaling.max = -1, 1
-            axis.majorUnit = 0.5
+            axis.scaling.min, axis.scaling.max = -_EDGE, _EDGE
+            axis.majorUnit = _EDGE / 2
             axis.number_format = "0.0"
 
 
@@ -246,4 +273,10 @@ def ranges_of(spec: ChartSpec, layout: Layout, values: Values) -> dict[str, list
         else:
             numbers = [float(values.scalars[name]) for name in layout.keys_of_run(key)]
         found[layout.range_of(key)] = numbers
+    if spec.kind == "wear":
+        circle, wear = (values_of for values_of in spec.drawn_by("workbook")[:2])
+        for axis in "xy":
+            ends = [found[layout.range_of(getattr(series, axis))] for series in (wear, circle)]
+            for line, depth, edge in zip(_rays(spec, layout), *ends, strict=False):
+                found[getattr(line, axis)] = [depth, edge]
     return found

@@ -35,7 +35,7 @@ RESULTS = (
     "delta_work", "I_flywheel",
 )  # fmt: skip
 CHARTS = ("p_phi", "fig49", "fig50", "fig52")
-_WIDTHS = {"A": 40, "B": 12, "C": 12, "D": 9, "E": 2}
+_WIDTHS = {"A": 52, "B": 12, "C": 12, "D": 9, "E": 2}
 _TOP = 3
 
 

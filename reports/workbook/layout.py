@@ -181,12 +181,13 @@ class Layout:
             table, column = self.columns[key]
             last = FIRST_ROW + (rows or len(table.rows)) - 1
             return column_range(table.sheet, column, FIRST_ROW, last)
-        cells = self._run_of(key)
+        cells = self.cells_of_run(key)
         first, last_cell = cells[0], cells[(rows or len(cells)) - 1]
         ends = f"${get_column_letter(last_cell.column)}${last_cell.row}"
         return f"{first.absolute}:{ends}"
 
-    def _run_of(self, key: str) -> list[Cell]:
+    def cells_of_run(self, key: str) -> list[Cell]:
+        """Cells of a grid's row or of input points, see ``keys_of_run``."""
         return [self.cells[name] for name in self.keys_of_run(key)]
 
     def keys_of_run(self, key: str) -> tuple[str, ...]:
@@ -229,7 +230,7 @@ class RowReferences:
         if full in self._layout.columns:
             count = len(self._layout.columns[full][0].rows)
         else:
-            count = len(self._layout._run_of(full))
+            count = len(self._layout.cells_of_run(full))
         return self._layout.range_of(full, rows=count - 1)
 
     def last(self, key: str) -> str:

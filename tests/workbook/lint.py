@@ -27,7 +27,7 @@ ALLOWED = {
 VOLATILE = {"CELL", "INDIRECT", "INFO", "NOW", "OFFSET", "RAND", "RANDBETWEEN", "TODAY"}
 OF_RANGES = {"AVERAGE", "COUNT", "INDEX", "MATCH", "MAX", "MIN", "SUM", "SUMPRODUCT"}
 _LONGEST = 8192  # characters of a formula in Excel
-_LINE = "19050"  # 1.5 pt in EMU
+_LINES = ("19050", "57150")  # EMU: 1.5 pt, and 4.5 pt for worn depths
 
 # Literals that the compiler writes: scales of units, degrees and the two of a Fourier sum,
 # the next row of an interpolation, digits of ROUND.
@@ -92,7 +92,7 @@ def _series_problems(root: etree._Element) -> Iterator[str]:
         if symbol is None or symbol.get("val") != ("circle" if moving else "none"):
             yield f"series {place} has markers"
         line = one.find(f"{C}spPr/{A}ln")
-        if line is None or (line.find(f"{A}noFill") is None and line.get("w") != _LINE):
+        if line is None or (line.find(f"{A}noFill") is None and line.get("w") not in _LINES):
             yield f"series {place}: the line is not 1.5 pt"
 
 

@@ -93,9 +93,10 @@ def _sums(table_id: str, name: str, journal: str, sheet: str, rays: int) -> Grid
                 f"{{i}} if {{sum}} <= ({low}) + {TIE}*max(1, {low}) else {NEVER}",
             ),
             # x grows to the left, as the axes of the journals do; the chart turns it round.
+            # A ray's points of wear and circle stand one below the other: a line joins them.
             row("wear_x", "x", f"-({radius}*sin(rad({{deg}})))"),
-            row("wear_y", "y", f"-({radius}*cos(rad({{deg}})))"),
             row("circle_x", "cx", "-sin(rad({deg}))"),
+            row("wear_y", "y", f"-({radius}*cos(rad({{deg}})))"),
             row("circle_y", "cy", "-cos(rad({deg}))"),
         ),
     )

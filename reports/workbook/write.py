@@ -50,6 +50,7 @@ from reports.workbook.places import (
     extent,
     flow,
     keep_columns,
+    last_cell,
     top_of,
 )
 from reports.workbook.sheets import CacheValues, Writer
@@ -97,6 +98,10 @@ def assemble(
         keep_columns(sheet, boxes.get(sheet.title, ()))
         sheet.sheet_properties.tabColor = chapter_of(sheet.title).colour
         set_page(sheet, boxes.get(sheet.title, ()))
+    if motion.SHEET in boxes:  # of the points under the charts nobody needs a print
+        sheet = book[motion.SHEET]
+        row, column = last_cell(sheet, boxes[motion.SHEET])
+        sheet.print_area = area(Cell("", 1, 1), Cell("", row, column))
     for name, address in layout.defined_names().items():
         if name in model.fields or name in model.scalars:
             book.defined_names[name] = DefinedName(name, attr_text=address)

@@ -52,9 +52,9 @@ def _section(name: str, part: object) -> Any:  # noqa: ANN401
         return _table(part, SECTIONS[name].model)
     if "source" in part:
         part = {**part, "source": _value(part["source"], str, _SOURCE)}
-    source = part.get("source")
-    known = SECTIONS["gas"].sources
-    return _table(part, known.get(source, SECTIONS["gas"].model))  # type: ignore[arg-type]
+    source, known = part.get("source"), SECTIONS["gas"].sources
+    model = known.get(source) if isinstance(source, str) else None
+    return _table(part, model or SECTIONS["gas"].model)
 
 
 def _regime(entry: object) -> object:

@@ -107,6 +107,8 @@ def _excel_sheet(data: bytes, values: dict, strings: list[str], styles: int) -> 
             etree.SubElement(cell, f"{MAIN}v").text = (
                 value if isinstance(value, str) else repr(value)
             )
+        if formula.get("t") == "array":  # stays with its cell
+            continue
         try:
             key = (letters, pattern(formula.text, int(row), column_number(letters)))
         except ValueError:

@@ -131,3 +131,11 @@ def test_a_cell_is_spoken_of_as_a_cell(raw, changes, words):
         said = re.sub(r"\(\w+(\.\w+)?[^)]*\): ", "", line.partition("C5 ")[2], count=1)
         assert "ключ" not in said
         assert not re.search(r"[a-z]+_[a-z_]+", said), said
+
+
+def test_a_list_in_place_of_the_kind_of_gas_is_answered():
+    text = (samples_dir() / "gots-diesel.toml").read_text(encoding="utf-8")
+    text = text.replace('source = "polytropic"', "source = []")
+    assert "source = []" in text
+    with pytest.raises(InputError, match="gas"):
+        load_text(text, source="t.toml")

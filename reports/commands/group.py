@@ -80,7 +80,9 @@ def issue(
     metavar="КТО ЧТО БАЛЛЫ ПРИМЕЧАНИЕ",
     help="Решение преподавателя: кто, столбец или «всё», баллы, примечание.",
 )
-@click.option("--author", metavar="NAME", default="", help="Кто решает (по умолчанию имя пользователя).")
+@click.option(
+    "--author", metavar="NAME", default="", help="Кто решает (по умолчанию имя пользователя)."
+)
 @click.option("--explain", nargs=2, metavar="FILE SHEET!COLUMN", help="Объяснить один вердикт.")
 @verbose_option
 def grade(

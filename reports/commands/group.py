@@ -77,10 +77,10 @@ def issue(
     "decisions",
     nargs=4,
     multiple=True,
-    metavar="WHO WHAT POINTS REMARK",
+    metavar="КТО ЧТО БАЛЛЫ ПРИМЕЧАНИЕ",
     help="Решение преподавателя: кто, столбец или «всё», баллы, примечание.",
 )
-@click.option("--author", default="", help="Кто решает (по умолчанию имя пользователя).")
+@click.option("--author", metavar="NAME", default="", help="Кто решает (по умолчанию имя пользователя).")
 @click.option("--explain", nargs=2, metavar="FILE SHEET!COLUMN", help="Объяснить один вердикт.")
 @verbose_option
 def grade(

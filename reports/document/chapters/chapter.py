@@ -15,7 +15,7 @@ from reports.document.page.style import Style
 from reports.document.page.writer import TablePlan, Writer
 from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms, with_unit
-from reports.inputs.checks.grid import GridError, grid_errors
+from reports.inputs.checks.grid import GridError
 from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Grid, Model
 from reports.spec.shape import Shape
@@ -127,15 +127,10 @@ class Chapter:
         link = self.writer.n.refer("source", BOOK)
         return Markup("[{}, {}]").format(link, where) if where else Markup("[{}]").format(link)
 
-    @cached_property
-    def grid_errors(self) -> tuple[GridError, ...]:
-        """What the step of the tables puts far from the solution with a step of a degree."""
-        return grid_errors(self.input)
-
     def told(self, name: str) -> Markup:
         """A scalar with its unit and, where the grid is too coarse for it, with the fine value."""
         value = self.terms.val(name)
-        for error in self.grid_errors:
+        for error in self.terms.grid_errors:
             if error.key == name:
                 return Markup("{} (при шаге 1° — {})").format(value, self.fine(error))
         return value

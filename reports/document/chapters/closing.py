@@ -16,7 +16,7 @@ from reports.document.page.spec_tables import angle_table
 from reports.document.page.writer import TablePlan
 from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms
-from reports.inputs.checks.grid import grid_remark
+from reports.inputs.checks.grid import remark_on
 from reports.shared.russian import capital, fixed
 from reports.spec.shape import Shape, pin_name, rods_table
 from reports.tables.overview.summary import NO, YES
@@ -65,14 +65,14 @@ def checks(chapter: Chapter) -> Markup:
         failed=failed(terms),
         verdict=verdict(terms),
         remarks=_remarks(chapter),
-        grid=bool(chapter.grid_errors),
+        grid=bool(chapter.terms.grid_errors),
         errors=TablePlan(partial(_grid_table, chapter), "Результаты, для которых шаг таблиц велик"),
     )
 
 
 def _remarks(chapter: Chapter) -> list[str]:
     """Remarks on the input that no chapter tells itself."""
-    told = [grid_remark(chapter.input)]
+    told = [remark_on(chapter.terms.grid_errors, chapter.input)]
     if "torque" in chosen(chapter.input.report):
         told.append(reasons_of(chapter.input).get("power", ""))
     return [
@@ -88,7 +88,7 @@ def _grid_table(chapter: Chapter) -> TableBlock:
     heads = (f"Шаг {step}°", "Шаг 1°", "Разность, %")
     columns = [Column("Величина", 5, text=True), *(Column(head, 1.5) for head in heads)]
     rows = []
-    for error in chapter.grid_errors:
+    for error in chapter.terms.grid_errors:
         q, percent = error.quantity, error.percent
         unit = f", {q.unit_label}" if q.unit_label else ""
         shown = [of_digits(value, q.digits) for value in (error.coarse, error.fine)]
@@ -137,6 +137,7 @@ def conclusion(chapter: Chapter) -> Markup:
     row = int(pressure.argmax())
     names = [f"pin{pin_name(n)}" for n in range(1, len(chapter.shape.pins) + 1)]
     worst = facts.leaders(terms, [f"R{name}_max" for name in names])
+    mains, pins = facts.worst_running(terms, throws)
     return chapter.page(
         "conclusion",
         count=chapter.input.engine.cylinders,
@@ -144,11 +145,11 @@ def conclusion(chapter: Chapter) -> Markup:
         verdict=verdict(terms),
         load=chapter.worst("worst_main_load"),
         loads=facts.leaders(terms, [f"Rmain{k}_max" for k in range(1, throws + 2)]),
-        mains=[k + 1 for k in facts.leaders(terms, [f"dM_main{k}" for k in range(2, throws + 2)])],
+        mains=mains,
+        pins=pins,
         pins_count=len(names),
         worst_pins=worst,
         pin=worst_pin(chapter),
-        pins=facts.leaders(terms, [f"dM_pin{i}" for i in range(1, throws + 1)]),
         ray=least_ray(terms),
         has_power=terms.has("T_ref"),
         step=chapter.input.calculation.step_deg,

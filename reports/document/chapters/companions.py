@@ -184,7 +184,7 @@ def _devices(chapter: Chapter, asked: set[str]) -> TablePlan | None:
 
 def _fine_flywheel(chapter: Chapter) -> Markup | str:
     """Inertia of the flywheel by the fine step where the table's own cannot carry it."""
-    off = {error.key: error for error in chapter.grid_errors}
+    off = {error.key: error for error in chapter.terms.grid_errors}
     if not {"I_flywheel", "W_range", "delta_speed"} & off.keys():
         return ""
     error = off.get("I_flywheel")

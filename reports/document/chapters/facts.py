@@ -18,6 +18,12 @@ def leaders(terms: Terms, names: Sequence[str]) -> list[int]:
     return [number for number, name in enumerate(names, 1) if terms.num(name) == most]
 
 
+def worst_running(terms: Terms, throws: int) -> tuple[list[int], list[int]]:
+    """Main journals and crankpins with the greatest range of the running-on torque."""
+    mains = leaders(terms, [f"dM_main{k}" for k in range(2, throws + 2)])  # journal 1 has none
+    return [k + 1 for k in mains], leaders(terms, [f"dM_pin{i}" for i in range(1, throws + 1)])
+
+
 def are_alike(terms: Terms, columns: Sequence[str]) -> bool:
     """Whether columns over a cycle hold the same values, at whatever angles."""
     # The last row repeats the first.

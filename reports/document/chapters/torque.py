@@ -32,7 +32,7 @@ def torque(chapter: Chapter) -> Markup:
         agrees=terms.values.scalars.get("check_power") == YES,
         accepted=reasons_of(chapter.input).get("power", "").rstrip("."),
         powers=_powers(chapter) if terms.has("cyc_N_gas") else None,
-        coarse=any(error.key in ("M_mean", "N_i_calc") for error in chapter.grid_errors),
+        coarse=any(error.key in ("M_mean", "N_i_calc") for error in chapter.terms.grid_errors),
         swing=fixed(terms.value("M_max") - terms.value("M_min"), 0),
         ratio=fixed(terms.value("M_max") / mean, 2) if mean > 0 else "",
     )
@@ -78,8 +78,7 @@ def running(chapter: Chapter) -> Markup:
         float(np.abs(terms.column(f"P4_5s.Mpins{i}_Nm") - terms.column(f"P4_5.Mpin{i}_Nm")).max())
         for i in range(1, count + 1)
     )
-    mains = [k + 1 for k in facts.leaders(terms, [f"dM_main{k}" for k in range(2, count + 2)])]
-    worst = facts.leaders(terms, [f"dM_pin{i}" for i in range(1, count + 1)])
+    mains, worst = facts.worst_running(terms, count)
     if not chapter.whole:
         main, pins = [f"fig56_{mains[0]}"], [f"fig57_{worst[0]}"]
     return chapter.page(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from markupsafe import Markup
@@ -16,6 +17,7 @@ from reports.document.text.symbols import inline_html
 from reports.document.text.texts import powers, rich
 from reports.formula import tex as formulas
 from reports.formula.numeric import evaluate
+from reports.inputs.checks.grid import GridError, grid_errors
 from reports.inputs.fields import Field
 from reports.shared.russian import NBSP, fixed
 from reports.spec.blocks import Column, Model, Scalar
@@ -83,6 +85,11 @@ class Terms:
     model: Model
     values: Values
     fine: Mapping[str, Mapping[str, NDArray[np.float64]]] = field(default_factory=dict)
+
+    @cached_property
+    def grid_errors(self) -> tuple[GridError, ...]:
+        """What the step of the tables puts far from the solution with a step of a degree."""
+        return grid_errors(self.model.input)
 
     def curves(self, names: Sequence[str]) -> list[NDArray[np.float64]]:
         """Columns to draw together: at the fine step where all of them are known so."""

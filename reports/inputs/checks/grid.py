@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -107,7 +107,11 @@ def _is_off(coarse: float, fine: float, scale: float) -> bool:
 
 def grid_remark(model: InputFile) -> str:
     """The differences in one line; empty where there are none."""
-    errors = grid_errors(model)
+    return remark_on(grid_errors(model), model)
+
+
+def remark_on(errors: Sequence[GridError], model: InputFile) -> str:
+    """The line for differences that are known already."""
     if not errors:
         return ""
     told = "; ".join(_said(error) for error in errors[:_TOLD])

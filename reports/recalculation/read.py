@@ -8,6 +8,7 @@ from posixpath import join, normpath
 
 from lxml import etree
 
+from reports.recalculation.forms import Forms
 from reports.recalculation.grid import MAX_SHEETS, Area, BadBook, Grid
 from reports.recalculation.language import column_number
 from reports.recalculation.sheets import MAIN, parse_xml, read_sheet, rich_text
@@ -21,20 +22,20 @@ _ADDRESS = re.compile(
 )
 
 
-def read_grid(book: bytes | Package) -> Grid:
-    """All cells of a workbook that has passed the intake.
+def read_grid(book: bytes | Package, forms: Forms | None = None) -> Grid:
+    """All cells of a workbook that has passed the intake; ``forms`` are those of its class.
 
     Raises:
         BadBook: damaged, or cells out of bounds.
     """
     try:
-        return _read(book if isinstance(book, Package) else Package(book))
+        return _read(book if isinstance(book, Package) else Package(book), forms)
     except (zipfile.BadZipFile, KeyError, EOFError, NotImplementedError, OSError):
         msg = "файл .xlsx повреждён"
         raise BadBook(msg) from None
 
 
-def _read(package: Package) -> Grid:
+def _read(package: Package, forms: Forms | None) -> Grid:
     root = parse_xml(package.read("xl/workbook.xml"))
     if str(root.tag).startswith(_STRICT):
         msg = "книга сохранена в строгом формате Open XML; сохраните её как обычную .xlsx"
@@ -57,7 +58,7 @@ def _read(package: Package) -> Grid:
         if part:
             title = str(sheet.get("name"))
             grid.sheets[title] = {}
-            read_sheet(grid, title, package.read(part), strings)
+            read_sheet(grid, title, package.read(part), strings, forms)
     return grid
 
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from functools import lru_cache
-from math import isfinite, nan
+from math import nan
 
 from lxml import etree
 
+from reports.recalculation.forms import Forms, Slot, value_of
 from reports.recalculation.formulas import formula_at
 from reports.recalculation.grid import (
     MAX_CELLS,
@@ -55,13 +56,26 @@ def rich_text(item: etree._Element) -> str:
     return "".join(parts)
 
 
-def read_sheet(grid: Grid, title: str, data: bytes, strings: list[str]) -> None:
-    """Put a sheet into a grid.
+def read_sheet(
+    grid: Grid, title: str, data: bytes, strings: list[str], forms: Forms | None = None
+) -> None:
+    """Put a sheet into a grid; ``forms`` are those of the class, known and to be learnt.
 
     Raises:
         BadBook: no well-formed XML, cells out of bounds, or values that are none.
     """
+    if forms is not None and forms.fill(grid, title, data, strings):
+        return
+    before = grid.cells
+    _parsed(grid, title, data, strings)
+    if forms is not None:
+        forms.learn(grid, title, data, grid.cells - before, _parsed)
+
+
+def _parsed(grid: Grid, title: str, data: bytes, strings: list[str]) -> list[Slot]:
+    """Read all cells; the values of the sheet in their order."""
     sheet = _Sheet(grid, title)
+    slots: list[Slot] = []
     row = 0
     for line in parse_xml(data).iter(_ROW):
         given = line.get("r")
@@ -75,22 +89,25 @@ def read_sheet(grid: Grid, title: str, data: bytes, strings: list[str]) -> None:
                 column += 1
             else:
                 row, column = _place(address)
-            kind, text, about = cell.get("t", "n"), None, None
+            kind, text, about, saved = cell.get("t", "n"), None, None, None
             for part in cell:
                 if part.tag == _VALUE:
-                    text = part.text
+                    text = saved = part.text
                 elif part.tag == _FORMULA:
                     about = _about(part)
                 elif part.tag == _INLINE:
                     text, kind = rich_text(part), "str"
+            if saved and text:
+                slots.append((row, column, kind, about is not None, text))
             try:
-                sheet.put(row, column, _value(kind, text, strings), kind, about)
+                sheet.put(row, column, value_of(kind, text, strings), kind, about)
             except (ValueError, IndexError) as error:
                 if isinstance(error, BadBook):
                     raise
                 msg = f"на листе «{title}» есть ячейка с неверным значением"
                 raise BadBook(msg) from None
     sheet.finish()
+    return slots
 
 
 def _about(formula: etree._Element) -> About:
@@ -107,21 +124,6 @@ def _place(address: str) -> tuple[int, int]:
         msg = f"в книге есть ячейка с неверным адресом «{address[:20]}»"
         raise BadBook(msg)
     return int(match[2]), column_number(match[1])
-
-
-def _value(kind: str, text: str | None, strings: list[str]) -> Constant | None:
-    """Value of a cell as a number, a text or a flag; ``ValueError`` where it is none."""
-    if not text:
-        return None
-    if kind == "n":
-        number = float(text)
-        if not isfinite(number) or "_" in text:
-            raise ValueError
-        return number
-    if kind == "s":
-        number = int(text)
-        return strings[number] if number >= 0 else None
-    return text.strip() == "1" if kind == "b" else text
 
 
 class _Sheet:

@@ -31,6 +31,7 @@ from reports.grading.reading.submissions import Submission
 from reports.inputs.fields import cell_name
 from reports.inputs.ranges import Range
 from reports.recalculation.evaluate import Engine
+from reports.recalculation.forms import Forms
 from reports.recalculation.grid import BadBook, Grid
 from reports.recalculation.language import UnknownFormula
 from reports.recalculation.read import read_grid
@@ -75,6 +76,7 @@ class Marker:
         self._assignments: dict[int, tuple[Assignment, Layout]] = {}
         self._first: tuple[Assignment, Layout] | None = None  # the others are mostly alike
         self._variants: dict[int, dict[int, Evaluation]] = {}
+        self._forms = Forms()
         self._proofs: dict[int, Proofs] = {}  # by the tables that they are of
 
     def mark(self, submission: Submission, data: bytes) -> Result:
@@ -83,7 +85,7 @@ class Marker:
         result["sha256"] = hashlib.sha256(data).hexdigest()
         try:
             package = check_data(data, submission.label)
-            grid = read_grid(package)
+            grid = read_grid(package, self._forms)
             match = find_owner(self.register, submission, grid, package)
         except InputError as error:
             problem = error.problems[0]

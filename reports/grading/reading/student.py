@@ -132,13 +132,14 @@ class Student:
     # --- what formulas refer to -------------------------------------------------------
 
     @cached_property
-    def _columns_at(self) -> dict[tuple[str, int], list[tuple[str, int, int, Place]]]:
-        """Nodes of each column with their first and last row."""
-        found: dict[tuple[str, int], list[tuple[str, int, int, Place]]] = {}
+    def _columns_at(self) -> dict[str, dict[int, list[tuple[str, int, int, Place]]]]:
+        """Nodes of each column of a sheet with their first and last row."""
+        found: dict[str, dict[int, list[tuple[str, int, int, Place]]]] = {}
         for node, place in self.placement.places.items():
             if place.span is not None:
                 entry = (node, place.span.first, place.span.last, place)
-                found.setdefault((place.sheet, place.column), []).append(entry)
+                of_sheet = found.setdefault(place.sheet, {})
+                of_sheet.setdefault(place.column, []).append(entry)
         return found
 
     def precedents(self, node: str) -> frozenset[str]:
@@ -177,10 +178,10 @@ class Student:
         nodes: set[str] = set()
         helpers: list[Run] = []
         taken: dict[int, list[tuple[int, int, Place]]] = {}
-        for (sheet, number), entries in self._columns_at.items():
-            if sheet != area.sheet or not area.first_column <= number <= area.last_column:
-                continue
-            for node, first, last, place in entries:
+        columns = self._columns_at.get(area.sheet, {})
+        inside = range(area.first_column, area.last_column + 1)
+        for number in (n for n in columns if n in inside):
+            for node, first, last, place in columns.get(number, ()):
                 if first <= area.last_row and last >= area.first_row:
                     nodes.add(node)
                     taken.setdefault(number, []).append((first, last, place))
@@ -303,7 +304,7 @@ class Student:
                 _covered(
                     area.first_row,
                     area.last_row,
-                    [entry[1:] for entry in self._columns_at.get((area.sheet, number), [])],
+                    [entry[1:] for entry in self._columns_at.get(area.sheet, {}).get(number, [])],
                 )
                 for number in range(area.first_column, min(area.last_column, 200) + 1)
             )

@@ -32,7 +32,7 @@ BOX = '<svg class="fig" viewBox="0 0 2 1" style="width:120.0mm" data-size="2/1">
 NUMBER = re.compile(r"[−+]?[\d\u00a0]+(,\d+)?")
 # Blank share at the foot of a page that is not the last of a chapter.  Course reports of most
 # samples stay below 0.20 and 0.045; the widest are the two-stroke's full report (0.33 and 0.073).
-MOST_BLANK, MOST_MEAN = 0.35, 0.08
+MOST_BLANK, MOST_MEAN = 0.30, 0.06
 
 
 def faults(pages: list[list[ink.Word]], sheets: list) -> list[tuple[int, list[str]]]:

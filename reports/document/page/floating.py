@@ -26,15 +26,17 @@ _BOX = re.compile(r'data-size="([\d.]+)/([\d.]+)"')
 _EM = re.compile(r"height:([\d.]+)em")
 _NUMBERED = re.compile(r'<span class="hn">(\d+)')
 _ROW = re.compile(r"<tr.*?</tr>", re.DOTALL)
-_CELL = re.compile(r"<td[^>]*>(.*?)</td>", re.DOTALL)
+_CELL = re.compile(r"<t[dh][^>]*>(.*?)</t[dh]>", re.DOTALL)
 _SHARE = re.compile(r'<col style="width:([\d.]+)%')
 _SMALL = re.compile(r"<su[bp]>(.*?)</su[bp]>", re.DOTALL)
 _PT = 96 / 72  # CSS pixels in a point
 _FULL = 0.97  # of a line that words fill on the average
 _LEAST = 0.7  # to which a figure may be reduced to fit the foot of a page
-_SLACK = 6.0  # px kept free on every page: estimates are no measures
+_SLACK = 4.0  # px kept free on every page: estimates are no measures
+_FOOT = 6.0  # px of the margin below a formula or a figure, which may miss a page
+_ROWS = 60.0  # px of a table's margin and first rows, which stand with its head
 _NEARLY = 0.07  # of a page: too little for a heading and what must follow it
-_DOUBT = 28.0  # px kept free below what would miss the page by a hair: a line of the text
+_DOUBT = 10.0  # px kept free below what would miss the page by a hair
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +50,8 @@ class Block:
     kind: Kind
     height: float
     figure: float = 0.0  # of it the picture, which may be reduced
+    head: float = 0.0  # of it what a table repeats on each page that it goes on to
+    line: float = 0.0  # of a paragraph, and of what a heading must have below it
 
 
 def arranged(body: str, style: Style, *, run_on: float = 1.0) -> str:
@@ -130,10 +134,20 @@ def _placed(waiting: list[Block], used: float, room: float) -> tuple[float, list
 def _after(block: Block, used: float, room: float) -> float:
     """Height used on the page on which a block ends."""
     total = used + block.height
-    if total <= room:
+    # What follows a heading stands below it: two lines at least.
+    below = {"heading": 2 * block.line, "tied": -_FOOT, "float": -_FOOT}.get(block.kind, 0.0)
+    if total + below <= room:
         return total
     if block.kind in ("text", "table"):  # goes on over the page's end
-        return (total - room) % room
+        over = total - room
+        if block.line:  # no line of a paragraph stands alone
+            free = int((room - used) / block.line)
+            lines = round(block.height / block.line)
+            free = 0 if free < 2 or lines < 4 else min(free, lines - 2)
+            over = (lines - free) * block.line
+        elif room - used < block.head + _ROWS:
+            over = block.height - block.head
+        return over % (room - block.head) + block.head
     return min(block.height, room)
 
 
@@ -186,14 +200,16 @@ def _block(html: str, tag: str, attributes: str, style: Style) -> Block:
         lines = _title_lines(html, style, em * 1.15) + html.count("<br>")
         return Block(html, "chapter", lines * em * 1.5 + 8 * _PT)
     if tag in ("h2", "h3"):
-        return Block(html, "heading", _lines(html, style, em) * em * 1.3 + 22 * _PT)
+        height = _lines(html, style, em) * em * 1.3 + 22 * _PT
+        return Block(html, "heading", height, line=line)
     if tag == "p":
-        kind: Kind = "tied" if "flush" in attributes else "text"
-        return Block(html, kind, _lines(html, style, em) * line)
+        flush = "flush" in attributes
+        height = _lines(html, style, em, indent=not flush) * line
+        return Block(html, "tied" if flush else "text", height, line=line)
     if 'class="eq' in attributes:
         heights = [max(1.3, float(height)) * em for height in _EM.findall(html)]
         padding = 4 * _PT * len(heights) if len(heights) > 1 else 0.0
-        return Block(html, "tied", sum(heights) + padding + 7 * _PT)
+        return Block(html, "tied", sum(heights) + padding + 6 * _PT)
     if tag == "figure":
         size = _figure_px(html, style)
         caption = html[html.find("<figcaption") :]
@@ -201,7 +217,7 @@ def _block(html: str, tag: str, attributes: str, style: Style) -> Block:
         return Block(html, "float", size + lines * em * 1.3 + 24.5 * _PT, size)
     if 'class="where"' in attributes:
         parts = re.findall(r"<p>.*?</p>", html, re.DOTALL)
-        height = sum(_lines(part, style, em) for part in parts) * line + 6 * _PT
+        height = sum(_lines(part, style, em, indent=False) for part in parts) * line + 6 * _PT
         return Block(html, "tied", height)
     if tag in ("ul", "ol"):
         items = re.findall(r"<li.*?</li>", html, re.DOTALL)
@@ -221,18 +237,23 @@ def _figure_px(html: str, style: Style) -> float:
 def _table(html: str, style: Style) -> Block:
     size = next((name for name in ("dense", "tiny") if f'class="data {name}' in html), "")
     em = style.table_em_px(size)
-    caption = html[: html.find("</div>")]
-    height = _title_lines(caption, style, style.em_px) * 1.5 * style.em_px + 20 * _PT
-    height += em * 1.2 * 2 + 5 * _PT
+    caption = _title_lines(html[: html.find("</div>")], style, style.em_px) * 1.5 * style.em_px
+    widths = [float(share) / 100 * style.width_px - 9 for share in _SHARE.findall(html)]
+    rows = _ROW.findall(html)
+    body = html.find("<tbody")
+    heads = html.count("<tr", 0, body)
+    titles = max((_row_lines(row, widths, em) for row in rows[:heads]), default=1)
+    # The line of titles, that of the columns' numbers; the rules are drawn between them.
+    head = (titles * 1.2 + 0.85 * 1.2) * em + 5.5 * _PT
+    height = caption + head + 20 * _PT
     lines = html.find('<tr class="lines">')
     if lines > 0:
         height += html.count("\n", lines) * 1.37 * em
     else:
-        widths = [float(share) / 100 * style.width_px - 9 for share in _SHARE.findall(html)]
-        for row in _ROW.findall(html[html.find("<tbody") :]):
-            height += _row_lines(row, widths, em) * em * 1.2 + 2.8 * _PT
+        for row in rows[heads:]:
+            height += _row_lines(row, widths, em) * em * 1.2 + 2.05 * _PT
     kind: Kind = "float" if re.search(r'class="data[^"]* keep', html) else "table"
-    return Block(html, kind, height)
+    return Block(html, kind, height, head=head + 1.5 * style.em_px)
 
 
 def _row_lines(row: str, widths: Sequence[float], em: float) -> int:
@@ -256,10 +277,10 @@ def _title_lines(html: str, style: Style, em: float) -> int:
     return max(1, -int(-_width_em(html) * em // style.width_px))
 
 
-def _lines(html: str, style: Style, em: float) -> int:
+def _lines(html: str, style: Style, em: float, *, indent: bool = True) -> int:
     """Lines of a paragraph at a size of the type [px]."""
-    width = _width_em(html) * em + style.indent_cm * 96 / 2.54
-    return max(1, -int(-width // (style.width_px * _FULL)))
+    width = _width_em(html) * em + indent * style.indent_cm * 96 / 2.54
+    return 1 if width <= style.width_px else -int(-width // (style.width_px * _FULL))
 
 
 def _width_em(html: str) -> float:

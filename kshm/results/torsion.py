@@ -246,7 +246,7 @@ def _forms(study: Study) -> Columns:
         "tor_J_kgm2": train.inertias,
         "tor_c_Nm_rad": np.append(train.stiffnesses, train.right),
         **{f"tor_theta{m}": modes.forms[m - 1] for m in study.numbers},
-        **{f"tor_node{m}": np.append(places[m - 1], 0.0) for m in study.numbers},
+        **{f"tor_node{m}": np.append(0.0, places[m - 1]) for m in study.numbers},
     }
 
 
@@ -325,7 +325,7 @@ def _campbell(study: Study) -> Columns:
     return {
         "tor_point": np.arange(13.0),
         "tor_speed_rpm": speeds,
-        **{f"tor_f{m}_hz": np.full(13, hertz[m - 1]) for m in study.numbers},
+        **{f"tor_level{m}_hz": np.full(13, hertz[m - 1]) for m in study.numbers},
         **{f"tor_ray{n}_hz": n * speeds / (2 * np.pi) for n in range(1, RAYS + 1)},
     }
 

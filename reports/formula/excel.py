@@ -25,6 +25,9 @@ class References(Protocol):
     def following(self, key: str) -> str:
         """Reference to the next row's cell of a column; in the last row to its own."""
 
+    def previous(self, key: str) -> str:
+        """Reference to the cell of a column in the row above."""
+
     def down_to_here(self, key: str) -> str:
         """Range of a column from its first row down to this one."""
 
@@ -125,6 +128,8 @@ def _call(name: str, args: list[ast.expr], refs: References) -> tuple[str, int]:
         return _aggregate(name, args[0], refs), _ATOM
     if name == "following":
         return refs.following(_key(args[0])), _ATOM
+    if name == "previous":
+        return refs.previous(_key(args[0])), _ATOM
     if name == "running_sum":
         return f"SUM({refs.down_to_here(_key(args[0]))})", _ATOM
     if name in ("fourier_cos", "fourier_sin"):

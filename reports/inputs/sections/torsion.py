@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Strict
 
-from reports.inputs.meta import Strictly, choice, number, text
+from reports.inputs.meta import Meta, Strictly, choice, number, text
 from reports.inputs.units import KG_M2, MM, MPA, NM_RAD, NMS_RAD, NONE, RPM
 
 FORMULAS = {
@@ -37,7 +37,8 @@ class MassSection(Strictly):
         float | None, number("Масса {n}: диаметр вала за ней", "D_{n}", MM, 1, 5000)
     ] = None
     throw: Annotated[
-        float, number("Масса {n}: номер колена, 0 — без шатунов", "k_{n}", NONE, 0, 24)
+        float,
+        Meta("Масса {n}: номер колена, 0 — без шатунов", "k_{n}", NONE, 0, 24, structural=True),
     ] = 0.0
 
 

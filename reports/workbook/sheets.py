@@ -39,7 +39,7 @@ class FilledColumn:
 
     index: int
     first_row: int
-    cells: Sequence[tuple[str, float]]  # formula with its =, value
+    cells: Sequence[tuple[str, float]]  # formula with its =, empty for a number; value
 
 
 @dataclass

@@ -24,20 +24,17 @@ def free(scope: Scope) -> Part:
     inertias, springs = _names(train)
     tables = [
         _bisection(f"torsion_f{m}", f"К.{m}", f"Частота {m}: деление отрезка пополам",
-                   FREQUENCIES, inertias, springs, m + train.is_free)
+                   FREQUENCIES, inertias, springs, m)
         for m in train.modes
     ]  # fmt: skip
-    first = 1 + train.is_free
-    other = ["tor_flywheel_other" if k == train.flywheel else name
-             for k, name in enumerate(inertias, 1)]  # fmt: skip
     tables.append(
         _bisection("torsion_f1_other", "К.м", "Первая частота с другим маховиком", VARIANTS,
-                   other, springs, first)
+                   _with_other_flywheel(train, inertias), springs, 1)
     )  # fmt: skip
     if not train.own:
         tables += [
             _bisection(f"torsion_f1_{key}", "К.ж", f"Первая частота при жёсткости: {name}",
-                       VARIANTS, inertias, _springs_by(key, train, scope), first)
+                       VARIANTS, inertias, _springs_by(key, train, scope), 1)
             for key, name in FORMULAS.items()
         ]  # fmt: skip
     blocks = (*tables, _forms(train), _results(train))
@@ -47,6 +44,20 @@ def free(scope: Scope) -> Part:
 def _names(train: Train) -> tuple[list[str], list[str]]:
     numbers = range(1, train.count + 1)
     return [f"torJ{k}" for k in numbers], [f"torc{k}" for k in numbers]
+
+
+def _with_other_flywheel(train: Train, inertias: Sequence[str]) -> list[str]:
+    """The other flywheel in place of the one, which is the first of the greatest masses given."""
+    if not train.own:
+        last = train.flywheel - 1
+        return [*inertias[:last], "tor_flywheel_other", *inertias[last + 1 :]]
+    found = []
+    for k, name in enumerate(inertias):
+        first = f"{name} == tor_flywheel"
+        if k:
+            first += f" and max({', '.join(inertias[:k])}) < tor_flywheel"
+        found.append(f"(tor_flywheel_other if {first} else {name})")
+    return found
 
 
 def _springs_by(key: str, train: Train, scope: Scope) -> list[str]:
@@ -65,14 +76,13 @@ def _springs_by(key: str, train: Train, scope: Scope) -> list[str]:
 
 def _bisection(
     table: str, number: str, title: str, sheet: str,
-    inertias: Sequence[str], springs: Sequence[str], wanted: int,
+    inertias: Sequence[str], springs: Sequence[str], mode: int,
 ) -> TableSpec:  # fmt: skip
     """Half of the interval with the wanted frequency a row; the chain tells how many lie below."""
     chain, signs, before = [], [], "1"
     for k, (inertia, spring) in enumerate(zip(inertias, springs, strict=True), 1):
         angle = "1" if k == 1 else f"tor_angle{k}"
-        past = "0-torsion_ground_nm_rad" if k == 1 else f"tor_turned{k - 1}"
-        past = "-torsion_ground_nm_rad" if k == 1 else past
+        past = "-torsion_ground_nm_rad" if k == 1 else f"tor_turned{k - 1}"
         if k > 1:
             chain.append(
                 f"tor_angle{k} = {before} - tor_turned{k - 1}/{springs[k - 2]} | {HOLZER}"
@@ -83,7 +93,8 @@ def _bisection(
         if k == len(inertias):
             rest = f"{spring}*{angle} - tor_turned{k}"
             signs.append(f"1 if ({angle} < 0) != ({rest} < 0) else 0")
-    low = f"previous(tor_below) < {wanted}"
+    # A train free at both ends turns as a whole: one frequency more, of zero.
+    low = f"previous(tor_below) < {mode} + (1 if torsion_ground_nm_rad + {springs[-1]} == 0 else 0)"
     return TableSpec(
         table,
         number,

@@ -9,9 +9,10 @@ from reports.spec.blocks import Column, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, line
 from reports.spec.listing import column_list, scalar_list
 from reports.spec.parts import Part, Scope, stepped
-from reports.tables.torsion.train import Train, asked, train_of
+from reports.tables.torsion.train import RESULTS, Train, asked, train_of
 
-FREQUENCIES, VARIANTS, FORMS = "Крутильные частоты", "Частоты вариантов", "Крутильные формы"
+FREQUENCY, VARIANTS = "Крутильная частота {}", "Частоты вариантов"
+FORMS = "Крутильные формы"
 STEPS = 50  # 2⁻⁵⁰ of the bound
 HOLZER = "цепочка Хольцера"
 
@@ -24,7 +25,7 @@ def free(scope: Scope) -> Part:
     inertias, springs = _names(train)
     tables = [
         _bisection(f"torsion_f{m}", f"К.{m}", f"Частота {m}: деление отрезка пополам",
-                   FREQUENCIES, inertias, springs, m)
+                   FREQUENCY.format(m), inertias, springs, m)
         for m in train.modes
     ]  # fmt: skip
     tables.append(
@@ -103,14 +104,12 @@ def _bisection(
         column_list(
             "tor_step",
             f"""
-            helpers:
             tor_low = 0 if tor_step == 0 else previous(tor_mid) if {low} else previous(tor_low)
                 | деление пополам
             tor_high = tor_limit if tor_step == 0 else previous(tor_high) if {low}
                 else previous(tor_mid) | деление пополам
             tor_mid = (tor_low + tor_high)/2 | деление пополам
             """,
-            "helpers:",
             *chain,
             f"tor_below = total({', '.join(signs)}) | перемены знака (Штурм)",
         ),
@@ -120,6 +119,7 @@ def _bisection(
             "считают частоты ниже ω: пока их меньше нужного, берётся правая половина отрезка."
         ),
         step=1,
+        helper=True,
     )
 
 
@@ -208,7 +208,7 @@ def _results(train: Train) -> ScalarTable:
             f"tor_f1_spread = (max({together}) - min({together}))/tor_f1_hz*100 | сравнение"
         )
     return ScalarTable(
-        "torsion_results", "Частоты и приведённые величины", FORMS, scalar_list(*lines)
+        "torsion_results", "Частоты и приведённые величины", RESULTS, scalar_list(*lines)
     )
 
 

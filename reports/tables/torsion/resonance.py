@@ -11,7 +11,7 @@ from reports.spec.blocks import Block, Column, Grid, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, line, polar
 from reports.spec.listing import column_list, corners, grid_row, scalar_list
 from reports.spec.parts import Part, Scope, stepped
-from reports.tables.torsion.train import GIVEN, GUESS, MEMORY, Train, asked, train_of
+from reports.tables.torsion.train import GIVEN, GUESS, MEMORY, RESULTS, Train, asked, train_of
 
 CRITICAL, STAR, CAMPBELL = "Резонансы", "Звезда фаз", "Диаграмма Кэмпбелла"
 FORCED, TORQUE = "Вынужденные колебания", "Момент по порядкам"
@@ -30,7 +30,7 @@ def resonance(scope: Scope) -> Part:
         _torque(scope), _critical(scope, train, section), _star(scope), _phases(scope, train),
         _box(scope), _campbell(train), _worst(train), _damper(section), _forced(),
     )  # fmt: skip
-    return Part(blocks, _charts(train))
+    return Part(blocks, _charts(scope, train))
 
 
 def _torque(scope: Scope) -> TableSpec:
@@ -154,7 +154,7 @@ def _worst(train: Train) -> ScalarTable:
     return ScalarTable(
         "torsion_worst",
         "Наибольший резонанс рабочего диапазона",
-        CRITICAL,
+        RESULTS,
         scalar_list(
             f"tor_worst = max({', '.join(tops)}) | наибольшее из таблицы",
             f"tor_worst_mode = 0 if tor_worst == 0 else {mode} | наибольшее из таблицы",
@@ -262,7 +262,7 @@ def _damper(section: TorsionSection) -> ScalarTable:
     return ScalarTable(
         "torsion_damper_list",
         "Гаситель на первой массе",
-        CRITICAL,
+        RESULTS,
         scalar_list(f"""
             tor_ring = {given("damper_kg_m2", "0.2*tor_brought1", f"{GUESS}: 0,2 Jпр1")}
             tor_mu = tor_ring/tor_brought1 | доля кольца
@@ -300,7 +300,14 @@ def _forced() -> TableSpec:
     )
 
 
-def _charts(train: Train) -> tuple[ChartSpec, ...]:
+def _main_orders(scope: Scope) -> range:
+    """Whole orders to draw: those at which the cylinders of a common engine add up."""
+    half = scope.shape.cylinders / scope.shape.strokes
+    step = max(2, round(2 * half)) if half < 3 else round(half)
+    return range(min(step, RAYS), RAYS + 1, step)
+
+
+def _charts(scope: Scope, train: Train) -> tuple[ChartSpec, ...]:
     c, k, f, n = "torsion_critical", "torsion_campbell", "torsion_response", "n, мин⁻¹"
     at = f"{k}.tor_speed_rpm"
     return (
@@ -312,7 +319,7 @@ def _charts(train: Train) -> tuple[ChartSpec, ...]:
               caption="Звезда фаз наибольшего резонанса"),
         line("torsion_campbell", CAMPBELL, "Диаграмма Кэмпбелла", (n, "f, Гц"),
              *(Series(at, f"{k}.tor_level{m}_hz", f"f{m}") for m in train.modes),
-             *(Series(at, f"{k}.tor_ray{o}_hz", f"ν = {o}") for o in range(1, RAYS + 1))),
+             *(Series(at, f"{k}.tor_ray{o}_hz", f"ν = {o}") for o in _main_orders(scope))),
         line("torsion_stress", FORCED, "Напряжения вала по частоте вращения", (n, "τ, МПа"),
              Series(f"{f}.tor_speed_rpm", f"{f}.tor_tau_MPa", "без гасителя"),
              Series(f"{f}.tor_speed_rpm", f"{f}.tor_tau_damped_MPa", "с гасителем"),

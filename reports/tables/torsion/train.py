@@ -15,7 +15,7 @@ from reports.spec.listing import grid_row, scalar_list
 from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape
 
-SHEET = "Крутильная схема"
+SHEET, RESULTS = "Крутильная схема", "Крутильные итоги"
 GIVEN, GUESS, MEMORY = "задано", "оценка, без источника", "по памяти, без источника"
 _BORE = "2*sqrt(F_piston/pi)"
 

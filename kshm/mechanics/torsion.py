@@ -97,7 +97,8 @@ def phase_sums(at_cylinders: Array, offsets: Array, orders: Array) -> Array:
         orders: ν per turn, (orders,).
     """
     turns = np.exp(-1j * np.outer(orders, offsets))
-    return np.abs(at_cylinders @ turns.T)
+    sums: Array = np.abs(at_cylinders @ turns.T)
+    return sums
 
 
 def energy_resistance(train: Train, modes: Modes, damping: Array, loss_factor: float) -> Array:
@@ -108,7 +109,8 @@ def energy_resistance(train: Train, modes: Modes, damping: Array, loss_factor: f
     forms = modes.forms
     twist = (train.stiffnesses * np.diff(forms) ** 2).sum(axis=1)
     twist = twist + train.left * forms[:, 0] ** 2 + train.right * forms[:, -1] ** 2
-    return modes.omega * (damping * forms**2).sum(axis=1) + loss_factor * twist
+    lost: Array = modes.omega * (damping * forms**2).sum(axis=1) + loss_factor * twist
+    return lost
 
 
 def form_stress(train: Train, modes: Modes) -> Array:
@@ -116,12 +118,14 @@ def form_stress(train: Train, modes: Modes) -> Array:
     if train.moduli is None:
         msg = "the shafts have no sections"
         raise ValueError(msg)
-    return np.abs(train.stiffnesses * np.diff(modes.forms) / train.moduli).max(axis=1)
+    stress: Array = np.abs(train.stiffnesses * np.diff(modes.forms) / train.moduli).max(axis=1)
+    return stress
 
 
 def brought_inertia(train: Train, modes: Modes) -> Array:
     """Inertia of a form brought to the first mass Σ J a² [kg·m²], shape (modes,)."""
-    return (train.inertias * modes.forms**2).sum(axis=1)
+    brought: Array = (train.inertias * modes.forms**2).sum(axis=1)
+    return brought
 
 
 def best_tuning(share: float) -> tuple[float, float]:

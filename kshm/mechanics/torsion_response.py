@@ -137,5 +137,3 @@ def stresses(train: Train, response: Response) -> Complex:
         raise ValueError(msg)
     found: Complex = response.torques / train.moduli[:, None, None]
     return found
-
-

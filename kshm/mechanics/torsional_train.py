@@ -86,7 +86,7 @@ class Sections:
 
     @property
     def web(self) -> Array:
-        """h b³ [m⁴]."""
+        """H b³ [m⁴]."""
         return self.thickness * self.width**3
 
 
@@ -215,9 +215,7 @@ def train_of(
         diameters.append(diameters[-1])
         numbers.append(-1)
     moduli = modulus(np.array(diameters), torsion.main_bore)
-    return Train(
-        np.array(inertias), np.array(springs), torsion.ground, 0.0, moduli, tuple(numbers)
-    )
+    return Train(np.array(inertias), np.array(springs), torsion.ground, 0.0, moduli, tuple(numbers))
 
 
 def _springs(engine: Engine, torsion: Torsion, formula: StiffnessFormula) -> list[float]:

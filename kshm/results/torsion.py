@@ -23,6 +23,7 @@ MOST_MODES = 3
 LAST_ORDER = 12.0
 SPEEDS = 63
 RAYS = 12
+STARS = 6
 # Estimates without a source where the file gives nothing.
 _RANGE = (0.4, 1.1)  # of the speed of the regime
 _OTHER = 1.5  # times the flywheel
@@ -40,7 +41,7 @@ def torsion_results(case: Case) -> Results:
     tables = {
         "torsion_forms": _forms(study),
         "torsion_critical": critical,
-        "torsion_star": _star(study, worst),
+        "torsion_star": _star(study),
         "torsion_campbell": _campbell(study),
         "torsion_response": forced_columns(study),
     }
@@ -202,9 +203,7 @@ class Study:
         """Steady vibration at speeds [rad/s] under all orders."""
         omega = speeds[:, None] * self.orders
         load, eta = self.excitation(speeds), self.asked.loss_factor
-        return torsion_response.respond(
-            train or self.train, omega, load, self.damping, eta, damper
-        )
+        return torsion_response.respond(train or self.train, omega, load, self.damping, eta, damper)
 
 
 def forced_columns(study: Study) -> Columns:
@@ -303,19 +302,18 @@ def _worst(study: Study, inside: Array, speeds: Array) -> Scalars:
     }
 
 
-def _star(study: Study, worst: Scalars) -> Columns:
-    """Running sum of the cylinders' vectors a e^{−iνθ} for the greatest resonance."""
-    engine = study.case.engine
-    order = worst["tor_worst_order"] or engine.cylinders * 2 / engine.strokes
-    form = study.modes.forms[max(0, int(worst["tor_worst_mode"]) - 1)]
+def _star(study: Study) -> Columns:
+    """Running sums of the cylinders' vectors a e^{−iνθ} in the first form, by orders."""
+    engine, form = study.case.engine, study.modes.forms[0]
     of_throw = {throw: form[mass] for mass, throw in enumerate(study.train.throws) if throw >= 0}
     sizes = np.array([of_throw.get(place.throw, 0.0) for place in engine.arrangement])
-    path = np.cumsum(sizes * np.exp(-1j * order * np.array(engine.firing_offsets)))
-    return {
-        "tor_cylinder": np.arange(engine.cylinders + 1.0),
-        "tor_star_x": np.append(0.0, path.imag),
-        "tor_star_y": np.append(0.0, path.real),
-    }
+    table: Columns = {"tor_cylinder": np.arange(engine.cylinders + 1.0)}
+    for k in range(1, min(STARS, engine.cylinders) + 1):
+        order = k * 2 / engine.strokes
+        path = np.cumsum(sizes * np.exp(-1j * order * np.array(engine.firing_offsets)))
+        table[f"tor_star_x{k}"] = np.append(0.0, path.imag)
+        table[f"tor_star_y{k}"] = np.append(0.0, path.real)
+    return table
 
 
 def _campbell(study: Study) -> Columns:

@@ -99,7 +99,6 @@ class Evaluation:
         done[key] = result
         return result
 
-
     def _computed(self, table: TableSpec) -> dict[str, Array]:
         """Columns that the table's own function gives."""
         if table.computed is None:

@@ -50,9 +50,7 @@ def test_forms_are_orthogonal_in_both_matrices(train: Train) -> None:
 def test_a_free_form_turns_nothing_as_a_whole(train: Train) -> None:
     modes = torsion.modes_of(train)
     moments = train.inertias * modes.forms
-    np.testing.assert_allclose(
-        moments.sum(axis=1) / np.abs(moments).max(axis=1), 0, atol=1e-9
-    )
+    np.testing.assert_allclose(moments.sum(axis=1) / np.abs(moments).max(axis=1), 0, atol=1e-9)
     assert len(modes.omega) == len(train.inertias) - 1
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from reports.inputs.sections.torsion import FORMULAS
-from reports.spec.blocks import Column, ScalarTable, TableSpec
+from reports.spec.blocks import Block, Column, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, line
 from reports.spec.listing import column_list, scalar_list
 from reports.spec.parts import Part, Scope, stepped
@@ -38,7 +38,7 @@ def free(scope: Scope) -> Part:
                        VARIANTS, inertias, _springs_by(key, train, scope), 1)
             for key, name in FORMULAS.items()
         ]  # fmt: skip
-    blocks = (*tables, _forms(train), _results(train))
+    blocks: tuple[Block, ...] = (*tables, _forms(train), _results(train))
     return Part(blocks, _charts(train))
 
 
@@ -85,9 +85,7 @@ def _bisection(
         angle = "1" if k == 1 else f"tor_angle{k}"
         past = "-torsion_ground_nm_rad" if k == 1 else f"tor_turned{k - 1}"
         if k > 1:
-            chain.append(
-                f"tor_angle{k} = {before} - tor_turned{k - 1}/{springs[k - 2]} | {HOLZER}"
-            )
+            chain.append(f"tor_angle{k} = {before} - tor_turned{k - 1}/{springs[k - 2]} | {HOLZER}")
             signs.append(f"1 if ({before} < 0) != ({angle} < 0) else 0")
         chain.append(f"tor_turned{k} = {past} + tor_mid**2*{inertia}*{angle} | {HOLZER}")
         before = angle
@@ -126,7 +124,7 @@ def _bisection(
 def _forms(train: Train) -> TableSpec:
     results = [Column("tor_mass", None)]
     helpers: list[Column] = []
-    results += column_list(f"""
+    results += column_list("""
         tor_J_kgm2 = element(torsion_train.tor_J_kgm2, tor_mass) | крутильная схема
         tor_c_Nm_rad = element(torsion_train.tor_c_Nm_rad, tor_mass) | крутильная схема
     """)

@@ -16,7 +16,7 @@ from reports.tables.torsion.train import GIVEN, GUESS, MEMORY, RESULTS, Train, a
 CRITICAL, STAR, CAMPBELL = "Резонансы", "Звезда фаз", "Диаграмма Кэмпбелла"
 FORCED, TORQUE = "Вынужденные колебания", "Момент по порядкам"
 BY_PROGRAM = "посчитано программой при сборке"
-LAST_ORDER, RAYS, SPEEDS = 12.0, 12, 63
+LAST_ORDER, RAYS, STARS, SPEEDS = 12.0, 12, 6, 63
 _TIE = "0.999999999"
 
 
@@ -65,9 +65,7 @@ def _critical(scope: Scope, train: Train, section: TorsionSection) -> TableSpec:
                 if (mass := train.mass_of(shape.throw_of(i)))
             ]
             parts.append(f"total({', '.join(terms or ['0'])})**2")
-        columns += column_list(
-            f"tor_sum{m} = sqrt({' + '.join(parts)}) | сложение векторов"
-        )
+        columns += column_list(f"tor_sum{m} = sqrt({' + '.join(parts)}) | сложение векторов")
     for m in train.modes:
         columns += column_list(
             f"tor_n{m}_rpm = 60*tor_f{m}_hz/tor_order | n = 60f/ν",
@@ -82,8 +80,7 @@ def _critical(scope: Scope, train: Train, section: TorsionSection) -> TableSpec:
             """,
         )
     columns += column_list(_helpers(train, section))
-    order = _KEYS
-    columns = [columns[0], *sorted(columns[1:], key=lambda c: order(c.key))]
+    columns = [columns[0], *sorted(columns[1:], key=lambda column: _place(column.key))]
     return TableSpec(
         "torsion_critical",
         "К.р",
@@ -102,7 +99,7 @@ def _critical(scope: Scope, train: Train, section: TorsionSection) -> TableSpec:
     )  # fmt: skip
 
 
-def _KEYS(key: str) -> tuple[int, str]:  # noqa: N802
+def _place(key: str) -> tuple[int, str]:
     """Results by quantity and form, then the helpers."""
     kinds = ("tor_sum", "tor_n", "tor_M", "tor_A", "tor_tau", "tor_in", "tor_")
     helper = key.startswith(("tor_gas", "tor_in_", "tor_scale", "tor_at"))
@@ -148,9 +145,7 @@ def _worst(train: Train) -> ScalarTable:
     mode = "0"
     for m in reversed(train.modes):
         mode = f"{m} if {tops[m - 1]} >= tor_worst*{_TIE} else {mode}"
-    speed = " + ".join(
-        f"(tor_f{m}_hz if tor_worst_mode == {m} else 0)" for m in train.modes
-    )
+    speed = " + ".join(f"(tor_f{m}_hz if tor_worst_mode == {m} else 0)" for m in train.modes)
     return ScalarTable(
         "torsion_worst",
         "Наибольший резонанс рабочего диапазона",
@@ -167,68 +162,66 @@ def _worst(train: Train) -> ScalarTable:
 
 
 def _phases(scope: Scope, train: Train) -> Grid:
-    """Angles and amplitudes of the cylinders in the form of the greatest resonance."""
+    """Angles of the cylinders and their amplitudes in the first form."""
     shape = scope.shape
     numbers = range(1, shape.cylinders + 1)
     masses = [train.mass_of(shape.throw_of(i)) for i in numbers]
-
-    def size(mass: int) -> str:
-        if not mass:
-            return "0"
-        text = f"element(torsion_forms.tor_theta1, {mass})"
-        for m in train.modes[1:]:
-            theta = f"element(torsion_forms.tor_theta{m}, {mass})"
-            text = f"{theta} if tor_worst_mode == {m} else {text}"
-        return text
-
+    sizes = (f"element(torsion_forms.tor_theta1, {mass})" if mass else "0" for mass in masses)
     return Grid(
         "torsion_phases",
-        "Цилиндры в форме наибольшего резонанса",
+        "Цилиндры в первой форме",
         STAR,
         tuple(f"цилиндр {i}" for i in numbers),
         (
             grid_row("tor_phase_deg", (f"firing_offset_{i}_deg" for i in numbers), GIVEN,
                      "torphase{n}"),
-            grid_row("tor_amplitude", (size(mass) for mass in masses), "форма колебаний",
-                     "toramplitude{n}"),
+            grid_row("tor_amplitude", sizes, "форма колебаний", "toramplitude{n}"),
         ),
     )  # fmt: skip
 
 
-def _star(scope: Scope) -> TableSpec:
+def _star_orders(scope: Scope) -> list[float]:
+    """The lowest orders; higher ones add up as one of them does where the firing is regular."""
     shape = scope.shape
-    order = f"(tor_worst_order if tor_worst_order > 0 else {shape.cylinders * 2 / shape.strokes:g})"
+    return [k * 2 / shape.strokes for k in range(1, min(STARS, shape.cylinders) + 1)]
+
+
+def _star(scope: Scope) -> TableSpec:
+    lines = ["tor_cylinder"]
     a = "element(torsion_phases.tor_amplitude, tor_cylinder)"
-    turn = f"rad({order}*element(torsion_phases.tor_phase_deg, tor_cylinder))"
+    for k, order in enumerate(_star_orders(scope), 1):
+        turn = f"rad({order:g}*element(torsion_phases.tor_phase_deg, tor_cylinder))"
+        lines += [
+            f"tor_star_{axis}{k} = 0 if tor_cylinder == 0"
+            f" else previous(tor_star_{axis}{k}) {sign} {a}*{wave}({turn}) | сложение векторов"
+            for axis, sign, wave in (("x", "-", "sin"), ("y", "+", "cos"))
+        ]
     return TableSpec(
         "torsion_star",
         "К.з",
-        "Звезда фаз наибольшего резонанса: векторы цилиндров один за другим",
+        "Звёзды фаз первой формы: векторы цилиндров один за другим",
         STAR,
-        column_list(f"""
-            tor_cylinder
-            tor_star_x = 0 if tor_cylinder == 0 else previous(tor_star_x) - {a}*sin({turn})
-                | сложение векторов
-            tor_star_y = 0 if tor_cylinder == 0 else previous(tor_star_y) + {a}*cos({turn})
-                | сложение векторов
-        """),
-        stepped(0, shape.cylinders, 1),
+        column_list("\n".join(lines)),
+        stepped(0, scope.shape.cylinders, 1),
         note=(
             "Вектор цилиндра — амплитуда формы у его колена под углом −νθ. Конец ломаной — "
-            "векторная сумма; замкнутая ломаная значит, что порядок уравновешен."
+            "векторная сумма: прямая значит, что порядок складывается, замкнутая — что он гасится. "
+            "При равном чередовании порядки, различающиеся на число рабочих ходов за оборот, "
+            "складываются одинаково."
         ),
         step=1,
     )
 
 
 def _box(scope: Scope) -> Grid:
-    t = "torsion_star"
-    size = (
-        f"max(col_max({t}.tor_star_x), -col_min({t}.tor_star_x), col_max({t}.tor_star_y),"
-        f" -col_min({t}.tor_star_y))*1.1"
-    )
-    return corners("torsion_star_box", "Границы звезды фаз", STAR, "torstar", f"({size})",
-                   of="tor_star_box")  # fmt: skip
+    ends = [
+        f"{sign}col_{way}(torsion_star.tor_star_{axis}{k})"
+        for k in range(1, len(_star_orders(scope)) + 1)
+        for axis in "xy"
+        for sign, way in (("", "max"), ("-", "min"))
+    ]
+    return corners("torsion_star_box", "Границы звёзд фаз", STAR, "torstar",
+                   f"(max({', '.join(ends)})*1.1)", of="tor_star_box")  # fmt: skip
 
 
 def _campbell(train: Train) -> TableSpec:
@@ -281,8 +274,10 @@ def forced_values(model: InputFile) -> Columns:
 
 
 def _forced() -> TableSpec:
-    keys = ("tor_speed_rpm", "tor_tau_MPa", "tor_tau_damped_MPa", "tor_tau_other_MPa",
-            "tor_shaft_no", "tor_moment_Nm", "tor_front_deg", "tor_work_J", "tor_lost_J")  # fmt: skip
+    keys = (
+        "tor_speed_rpm", "tor_tau_MPa", "tor_tau_damped_MPa", "tor_tau_other_MPa",
+        "tor_shaft_no", "tor_moment_Nm", "tor_front_deg", "tor_work_J", "tor_lost_J",
+    )  # fmt: skip
     return TableSpec(
         "torsion_response",
         "К.в",
@@ -314,12 +309,16 @@ def _charts(scope: Scope, train: Train) -> tuple[ChartSpec, ...]:
         line("torsion_resonance", CRITICAL, "Резонансные напряжения по порядкам", ("ν", "τ, МПа"),
              *(Series(f"{c}.tor_order", f"{c}.tor_in{m}_MPa", f"форма {m}") for m in train.modes),
              caption="Резонансные напряжения в рабочем диапазоне по порядкам"),
-        polar("torsion_star", STAR, "Звезда фаз", ("x", "y"), "torsion_star_box.tor_star_box",
-              Series("torsion_star.tor_star_x", "torsion_star.tor_star_y", "сумма"),
-              caption="Звезда фаз наибольшего резонанса"),
+        polar("torsion_star", STAR, "Звёзды фаз первой формы", ("x", "y"),
+              "torsion_star_box.tor_star_box",
+              *(Series(f"torsion_star.tor_star_x{o}", f"torsion_star.tor_star_y{o}",
+                       f"ν = {order:g}".replace(".", ","), only="" if o == 1 else "workbook")
+                for o, order in enumerate(_star_orders(scope), 1)),
+              caption="Сложение векторов цилиндров для наименьшего порядка, первая форма"),
         line("torsion_campbell", CAMPBELL, "Диаграмма Кэмпбелла", (n, "f, Гц"),
-             *(Series(at, f"{k}.tor_level{m}_hz", f"f{m}") for m in train.modes),
-             *(Series(at, f"{k}.tor_ray{o}_hz", f"ν = {o}") for o in _main_orders(scope))),
+             *(Series(at, f"{k}.tor_level{m}_hz", f"f{m}", only="workbook") for m in train.modes),
+             *(Series(at, f"{k}.tor_ray{o}_hz", f"ν = {o}") for o in _main_orders(scope)),
+             levels=tuple(f"tor_f{m}_hz" for m in train.modes)),
         line("torsion_stress", FORCED, "Напряжения вала по частоте вращения", (n, "τ, МПа"),
              Series(f"{f}.tor_speed_rpm", f"{f}.tor_tau_MPa", "без гасителя"),
              Series(f"{f}.tor_speed_rpm", f"{f}.tor_tau_damped_MPa", "с гасителем"),

@@ -139,9 +139,7 @@ def _equivalent(section: TorsionSection, shape: Shape) -> Train:
 
 
 def _throw(k: int, shape: Shape) -> Cell:
-    webs = " + ".join(
-        f"web_{w}_mass_kg + web_{w}_counterweight_kg" for w in (2 * k - 1, 2 * k)
-    )
+    webs = " + ".join(f"web_{w}_mass_kg + web_{w}_counterweight_kg" for w in (2 * k - 1, 2 * k))
     rods = []
     for cylinder in shape.groups[k - 1]:
         hung = shape.is_hung(cylinder)
@@ -335,7 +333,9 @@ def _flywheel(train: Train, section: TorsionSection, shape: Shape) -> str:
     share = f"8*total({', '.join(f'torJ{k + 1}' for k in range(1, shape.throws + 1))})"
     if shape.articulated:
         return f"{share} | {GUESS}: 8 моментов инерции колен"
-    return f"I_flywheel if I_flywheel > 0 else {share} | оценка: маховик для требуемой неравномерности"
+    return (
+        f"I_flywheel if I_flywheel > 0 else {share} | оценка: маховик для требуемой неравномерности"
+    )
 
 
 def _peaks(count: int) -> Grid:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 from kshm.engine.torsion import MOST_MASSES
 from reports.inputs.findings import Finding, Values
@@ -84,7 +85,7 @@ def _speeds(values: Values) -> Iterator[Finding]:
         key = "speed_max_rpm" if high is not None else "speed_min_rpm"
         yield Finding(("torsion", key), what, "нужно speed_min_rpm < speed_max_rpm")
     peaks = values.get("torsion", "peaks") or ()
-    for index, (before, after) in enumerate(zip(peaks[:-1], peaks[1:], strict=True), 1):
+    for index, (before, after) in enumerate(pairwise(peaks), 1):
         if after.speed_rpm <= before.speed_rpm:
             what = f"частота {number_text(after.speed_rpm)} мин⁻¹ не больше предыдущей"
             yield Finding(("torsion", "peaks", index, "speed_rpm"), what, f"запишите {_RISING}")

@@ -23,7 +23,9 @@ def figures() -> Iterator[Figure]:
     rng = np.random.default_rng(1)
     train = Train(rng.uniform(0.02, 2, MASSES), rng.uniform(5e5, 2e6, MASSES - 1))
     omega = np.linspace(100, 270, SPEEDS)[:, None] * np.arange(1, ORDERS + 1) / 2
-    load = rng.normal(size=(MASSES, SPEEDS, ORDERS)) + 1j * rng.normal(size=(MASSES, SPEEDS, ORDERS))
+    load = rng.normal(size=(MASSES, SPEEDS, ORDERS)) + 1j * rng.normal(
+        size=(MASSES, SPEEDS, ORDERS)
+    )
     damping = np.full(MASSES, 2.0)
     springs = np.diag(train.stiffnesses, 1)
     stiffness = np.diag(springs.sum(0) + springs.sum(1)) - springs - springs.T

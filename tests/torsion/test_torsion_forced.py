@@ -126,9 +126,7 @@ def test_the_work_done_is_what_damping_takes(
 ) -> None:
     omega, load = random_load(train)
     damper = Damper(0.1, 1e4, 50.0) if damped else None
-    response = respond(
-        train, omega, load, np.full(len(train.inertias), absolute), loss, damper
-    )
+    response = respond(train, omega, load, np.full(len(train.inertias), absolute), loss, damper)
     np.testing.assert_allclose(response.work, response.lost, rtol=1e-6)
 
 

@@ -32,12 +32,12 @@ class Modes:
 
     @property
     def hertz(self) -> Array:
-        """Frequencies [Hz], shape (modes,)."""
+        """Frequencies ω/2π [Hz], shape (modes,), by definition."""
         return self.omega / (2 * np.pi)
 
 
 def modes_of(train: Train) -> Modes:
-    """All elastic vibrations of a train in the order of their frequencies."""
+    """All elastic vibrations of a train, shapes (modes,) [rad/s], (modes, masses), as Holzer's."""
     root = np.sqrt(train.inertias)
     count = len(root)
     springs = np.concatenate([[train.left], train.stiffnesses, [train.right]])
@@ -55,7 +55,7 @@ def modes_of(train: Train) -> Modes:
 
 
 def holzer(train: Train, omega: float) -> tuple[Array, Array, float]:
-    """Holzer's chain at any angular frequency: angles with θ_1 = 1, torques, what is left.
+    """Holzer's chain at an angular frequency [rad/s]: angles with θ_1 = 1, torques, what is left.
 
     Returns:
         θ_k [rad], shape (masses,); torque of each shaft between [N·m], shape (masses − 1,);
@@ -73,7 +73,7 @@ def holzer(train: Train, omega: float) -> tuple[Array, Array, float]:
 
 
 def nodes(forms: Array) -> Array:
-    """Place of the node within each shaft, counted in masses from 1; NaN where there is none.
+    """Place of the node within each shaft [masses from 1], NaN without one, by definition.
 
     Args:
         forms: shape (modes, masses).
@@ -89,7 +89,7 @@ def nodes(forms: Array) -> Array:
 
 
 def phase_sums(at_cylinders: Array, offsets: Array, orders: Array) -> Array:
-    """|Σ a_k e^{−iνθ_k}| [-], shape (modes, orders).
+    """Length of the vector sum |Σ a_k e^{−iνθ_k}| [-], shape (modes, orders), by definition.
 
     Args:
         at_cylinders: amplitudes of the forms at the cylinders' throws, (modes, cylinders).
@@ -102,7 +102,7 @@ def phase_sums(at_cylinders: Array, offsets: Array, orders: Array) -> Array:
 
 
 def energy_resistance(train: Train, modes: Modes, damping: Array, loss_factor: float) -> Array:
-    """Torque that damping takes from a form of unit amplitude [N·m/rad], shape (modes,).
+    """Torque that damping takes from a form of 1 rad [N·m/rad], shape (modes,), conservation.
 
     ω Σ b_k a_k² + η Σ c_k (a_{k+1} − a_k)²; ``damping`` is b_k [N·m·s/rad], (masses,).
     """
@@ -114,7 +114,7 @@ def energy_resistance(train: Train, modes: Modes, damping: Array, loss_factor: f
 
 
 def form_stress(train: Train, modes: Modes) -> Array:
-    """Greatest stress of a form of unit amplitude [Pa/rad], shape (modes,)."""
+    """Greatest stress of a form of 1 rad M/W_p [Pa/rad], shape (modes,), statics."""
     if train.moduli is None:
         msg = "the shafts have no sections"
         raise ValueError(msg)
@@ -123,7 +123,7 @@ def form_stress(train: Train, modes: Modes) -> Array:
 
 
 def brought_inertia(train: Train, modes: Modes) -> Array:
-    """Inertia of a form brought to the first mass Σ J a² [kg·m²], shape (modes,)."""
+    """Inertia of a form brought to the first mass Σ J a² [kg·m²], shape (modes,), definition."""
     brought: Array = (train.inertias * modes.forms**2).sum(axis=1)
     return brought
 

@@ -50,7 +50,7 @@ def respond(
     loss_factor: float,
     damper: Damper | None = None,
 ) -> Response:
-    """Steady vibration under harmonic torques.
+    """Steady vibration under harmonic torques [rad], [N·m], conservation of momentum.
 
     Args:
         train: the train.
@@ -115,7 +115,7 @@ def _solved(
 
 
 def sum_in_time(amplitudes: Complex, orders: Array, step: float) -> Array:
-    """Greatest |Σ_ν A_ν e^{iνφ}| over the cycle, shape (…,) for amplitudes (…, orders).
+    """Greatest |Σ_ν A_ν e^{iνφ}| over the cycle [as A], shape (…,) of (…, orders), definition.
 
     Args:
         amplitudes: complex amplitudes by order.
@@ -131,7 +131,7 @@ def sum_in_time(amplitudes: Complex, orders: Array, step: float) -> Array:
 
 
 def stresses(train: Train, response: Response) -> Complex:
-    """Torsional stress of the shafts M/W_p [Pa], shape (shafts, speeds, orders)."""
+    """Torsional stress of the shafts M/W_p [Pa], shape (shafts, speeds, orders), statics."""
     if train.moduli is None:
         msg = "the shafts have no sections"
         raise ValueError(msg)

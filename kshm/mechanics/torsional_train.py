@@ -76,17 +76,17 @@ class Sections:
 
     @property
     def main(self) -> Array:
-        """D_j⁴ − d_j⁴ [m⁴]."""
+        """D_j⁴ − d_j⁴ [m⁴], elementwise, by definition."""
         return self.main_diameter**4 - self.main_bore**4
 
     @property
     def pin(self) -> Array:
-        """D_p⁴ − d_p⁴ [m⁴]."""
+        """D_p⁴ − d_p⁴ [m⁴], elementwise, by definition."""
         return self.pin_diameter**4 - self.pin_bore**4
 
     @property
     def web(self) -> Array:
-        """H b³ [m⁴]."""
+        """Web thickness times width cubed [m⁴], elementwise, by definition."""
         return self.thickness * self.width**3
 
 
@@ -127,13 +127,13 @@ _LENGTHS: dict[StiffnessFormula, Callable[[Sections], Array]] = {
 
 
 def compliances(engine: Engine, torsion: Torsion, formula: StiffnessFormula) -> Array:
-    """Angle of twist of every throw over its torque [rad/(N·m)], shape (throws,)."""
+    """Twist of every throw over its torque [rad/(N·m)], shape (throws,), statics."""
     shear = torsion.shear_modulus * np.pi / 32
     return _LENGTHS[formula](sections(engine, torsion)) / shear
 
 
 def sections(engine: Engine, torsion: Torsion) -> Sections:
-    """Sizes of the throws; the main journal of a throw is the mean of its two."""
+    """Sizes of the throws [m]; the main journal of a throw is the mean of its two."""
     shaft, bore, choice = engine.crankshaft, engine.geometry.bore, engine.balancing
     count = len(shaft.throws)
     main, length = np.array(shaft.main_diameters), np.array(shaft.main_lengths)
@@ -157,7 +157,7 @@ def throw_inertias(engine: Engine) -> Array:
     """Mean reduced inertia of every throw with rods and pistons [kg·m²], shape (throws,).
 
     (m_ш.ш + Σm_щ + Σm_пр) r² + Σ m_2 r² + Σ m_j r² (1/2 + λ²/8).  An estimate: the masses of
-    webs and counterweights are those reduced to r by their centrifugal force.
+    webs and counterweights are those reduced to r by their centrifugal force, as in Gots 2.3.
     """
     r, lam, shaft = engine.geometry.crank_radius, engine.geometry.lam, engine.crankshaft
     m_j, m_2 = point_masses(engine.masses, engine.geometry.rod_length)
@@ -233,5 +233,5 @@ def _springs(engine: Engine, torsion: Torsion, formula: StiffnessFormula) -> lis
 
 
 def modulus(diameter: Array, bore: float) -> Array:
-    """Polar modulus W_p = π(D⁴ − d⁴)/(16 D) [m³], elementwise."""
+    """Polar modulus W_p = π(D⁴ − d⁴)/(16 D) [m³], elementwise, statics."""
     return np.pi * (diameter**4 - bore**4) / (16 * diameter)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kshm.nomenclature.digits import Digits, Row, scientific
+from kshm.nomenclature.digits import TEXT, Digits, Row, scientific
 
 _FORMULAS = (
     ("wilson", "КВ", "Кер-Вильсону"),
@@ -84,6 +84,8 @@ ROWS: tuple[Row, ...] = (
     ("tor_shaft_no", "участок", "k", "", "участок с наибольшим напряжением, по номеру массы перед ним", 0),
     ("tor_front_deg", "α1", r"\alpha_1", "deg", "наибольший угол первой массы", 4),
     ("tor_moment_Nm", "Mк", r"M_{\mathrm{к}}", "Nm", "наибольший упругий момент вала", 1),
+    ("tor_mark", "метка", "X", "", "метка исходных данных, для которых посчитана строка", 6),
+    ("tor_fresh", "", "", "", "отвечают ли значения исходным данным", TEXT),
     ("tor_work_J", "A", "A", "J", "работа возмущения за цикл", 3),
     ("tor_lost_J", "Aп", r"A_{\mathrm{п}}", "J", "потери на трение за цикл", 3),
     ("tor_ray#_hz", "ν = #", r"\nu = #", "hz", "частота возмущения порядка #", 1),

@@ -29,6 +29,8 @@ _RANGE = (0.4, 1.1)  # of the speed of the regime
 _OTHER = 1.5  # times the flywheel
 _STILL = 1e-9  # of the speed: gas forces alone
 _TIE = 1 - 1e-9
+# What is added up to tell whether the forced vibration belongs to the data beside it; SI.
+_MARKED = ("tor_f1_hz", "tor_f1_other_hz", "tor_loss1", "tor_damper_b", "tor_worst_order")
 
 
 def torsion_results(case: Case) -> Results:
@@ -38,14 +40,17 @@ def torsion_results(case: Case) -> Results:
         return {}, {}
     study = Study(case, asked)
     critical, worst = _critical(study)
+    scalars = _scalars(study) | worst | _damper_scalars(study)
+    mark = float(critical["tor_M1_Nm"][:-1].sum()) + sum(scalars[key] for key in _MARKED)
+    forced = forced_columns(study)
     tables = {
         "torsion_forms": _forms(study),
         "torsion_critical": critical,
         "torsion_star": _star(study),
         "torsion_campbell": _campbell(study),
-        "torsion_response": forced_columns(study),
+        "torsion_response": forced | {"tor_mark": np.full(len(study.speeds), mark)},
     }
-    return tables, _scalars(study) | worst | _damper_scalars(study)
+    return tables, scalars
 
 
 @dataclass(frozen=True)

@@ -156,3 +156,18 @@ def test_a_free_end_that_is_grounded_in_the_open_workbook() -> None:
     run = Evaluation(build_model(data)).fork({"torsion_ground_nm_rad": 2e5})
     wanted = solve(*engine_and_cycle(grounded)).scalars["tor_f1_hz"]
     assert run.value("tor_f1_hz") == pytest.approx(wanted, rel=1e-9)
+
+
+def test_values_of_a_changed_workbook_are_told_to_be_old() -> None:
+    data = mwm()
+    model = build_model(data)
+    run = Evaluation(model)
+    assert run.value("tor_fresh") == "отвечают исходным данным"
+    mark = {"torsion_response.tor_mark": run.value("torsion_response.tor_mark")}
+    for change in (
+        "torsion_mass_9_inertia_kg_m2",
+        "masses_reciprocating_kg",
+        "torsion_loss_factor",
+    ):
+        known = mark | {change: 1.01 * run.value(change)}
+        assert "ИЗМЕНЕНЫ" in run.fork(known).value("tor_fresh")

@@ -28,7 +28,7 @@ def resonance(scope: Scope) -> Part:
     train = train_of(scope.input, scope.shape)
     blocks: tuple[Block, ...] = (
         _torque(scope), _critical(scope, train, section), _star(scope), _phases(scope, train),
-        _box(scope), _campbell(train), _worst(train), _damper(section), _forced(),
+        _box(scope), _campbell(train), _worst(train), _damper(section), _forced(), _fresh(),
     )  # fmt: skip
     return Part(blocks, _charts(scope, train))
 
@@ -276,7 +276,7 @@ def forced_values(model: InputFile) -> Columns:
 def _forced() -> TableSpec:
     keys = (
         "tor_speed_rpm", "tor_tau_MPa", "tor_tau_damped_MPa", "tor_tau_other_MPa",
-        "tor_shaft_no", "tor_moment_Nm", "tor_front_deg", "tor_work_J", "tor_lost_J",
+        "tor_shaft_no", "tor_moment_Nm", "tor_front_deg", "tor_work_J", "tor_lost_J", "tor_mark",
     )  # fmt: skip
     return TableSpec(
         "torsion_response",
@@ -300,6 +300,23 @@ def _main_orders(scope: Scope) -> range:
     half = scope.shape.cylinders / scope.shape.strokes
     step = max(2, round(2 * half)) if half < 3 else round(half)
     return range(min(step, RAYS), RAYS + 1, step)
+
+
+def _fresh() -> ScalarTable:
+    """Whether the values belong to the data of the open workbook."""
+    live = (
+        "col_sum(torsion_critical.tor_M1_Nm) + tor_f1_hz + tor_f1_other_hz + tor_loss1"
+        " + tor_damper_b + tor_worst_order"
+    )
+    stored = "col_last(torsion_response.tor_mark)"
+    yes, no = "отвечают исходным данным", "ДАННЫЕ ИЗМЕНЕНЫ: соберите книгу заново"
+    text = f'"{yes}" if abs({live} - {stored}) <= 0.000000001*abs({stored}) else "{no}"'
+    return ScalarTable(
+        "torsion_fresh",
+        "Значения этого листа",
+        FORCED,
+        scalar_list(f"tor_fresh = {text} | метка данных при сборке"),
+    )
 
 
 def _charts(scope: Scope, train: Train) -> tuple[ChartSpec, ...]:

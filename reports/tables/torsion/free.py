@@ -187,8 +187,9 @@ def _results(train: Train) -> ScalarTable:
     ]
     for m in train.modes:
         lines += [
-            f"tor_rest{m} = col_last(torsion_forms.tor_moment{m}_Nm)"
-            f" - torc{train.count}*col_last(torsion_forms.tor_theta{m}) | {HOLZER}: проверка",
+            f"tor_rest{m} = (col_last(torsion_forms.tor_moment{m}_Nm)"
+            f" - torc{train.count}*col_last(torsion_forms.tor_theta{m}))"
+            f"/((2*pi*tor_f{m}_hz)**2*tor_brought{m}) | {HOLZER}: проверка",
             f"tor_brought{m} = col_last(torsion_forms.tor_whole{m}) | ΣJa²",
             f"tor_loss{m} = col_last(torsion_forms.tor_spent{m}) | ωΣba² + ηΣcΔa²",
             f"tor_twist{m} = col_max(torsion_forms.tor_shaft{m}_MPa) | τ = M/Wp",

@@ -55,6 +55,7 @@ SLOW = (
     "tests/tables/test_diagram.py",
     "tests/tables/test_reference.py",
     "tests/tables/test_regimes.py",
+    "tests/torsion/test_torsion_tables.py::test_the_sheets_follow_twenty_random_changes",
     "tests/validation/test_validation_book.py",
     "tests/workbook/test_golden.py::test_saved_by_libreoffice",
     "tests/workbook/test_motion.py::test_libreoffice",

@@ -11,6 +11,7 @@ from kshm.engine.checks import POSITIVE, check_numbers, refuse
 from kshm.engine.crankshaft import Crankshaft
 from kshm.engine.gas import Gas, TabulatedGas
 from kshm.engine.masses import Masses
+from kshm.engine.torsion import Torsion
 
 Method = Literal["textbook", "exact"]
 
@@ -141,6 +142,7 @@ class Engine:
     reference_angle: float = 0.0  # crank angle of the drawn mechanism [rad]
     arrangement: Arrangement = ()
     articulated: tuple[ArticulatedRod, ...] = ()
+    torsion: Torsion | None = None  # torsional vibration, if it is asked for
 
     def __post_init__(self) -> None:
         """Give an engine without arrangement its cylinders in line; refuse what cannot be."""

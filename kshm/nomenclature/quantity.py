@@ -20,10 +20,11 @@ from kshm.nomenclature import (
     series,
     textbook,
     torque_orders,
+    torsion,
 )
 from kshm.nomenclature.digits import Digits
 
-_SUBJECTS = (textbook, series, balance, inertia, torque_orders, cycle, chapters, layouts)
+_SUBJECTS = (textbook, series, balance, inertia, torque_orders, cycle, chapters, layouts, torsion)
 
 
 @dataclass(frozen=True, slots=True)

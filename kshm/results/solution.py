@@ -30,6 +30,7 @@ from kshm.results.pin_bearing import pin_bending, rod_bearing
 from kshm.results.reference import reference_results, reference_tables
 from kshm.results.segal import segal_results
 from kshm.results.torque_orders import torque_order_results
+from kshm.results.torsion import torsion_results
 from kshm.results.two_term import two_term_errors
 
 if TYPE_CHECKING:
@@ -41,6 +42,7 @@ Subject = Callable[[Case], Results]
 # and those whose cylinders move alike: no articulated rods.
 ALWAYS: tuple[Subject, ...] = (
     reference_results, rod_bearing, pin_bending, continuous_results, two_term_errors,
+    torsion_results,
 )  # fmt: skip
 BY_ORDERS: tuple[Subject, ...] = (segal_results, neiman_results, balance_results)
 SAME_RODS: tuple[Subject, ...] = (inertia_results, torque_order_results)

@@ -26,6 +26,7 @@ from reports.document.chapters import (
     opening,
     reference,
     regimes,
+    torsion,
 )
 from reports.document.chapters import torque as torques
 from reports.document.chapters.chapter import Chapter
@@ -65,6 +66,7 @@ CHAPTERS: dict[str, Write] = {
     "journals": journals.journals,
     "bearings": bearings.bearings,
     "running": torques.running,
+    "torsion": torsion.torsion,
     "regimes": regimes.regimes,
     "reference": reference.reference,
     "companions": companions.companions,

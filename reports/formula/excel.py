@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Callable
 from decimal import Decimal
 from typing import Protocol
@@ -25,6 +26,9 @@ class References(Protocol):
     def following(self, key: str) -> str:
         """Reference to the next row's cell of a column; in the last row to its own."""
 
+    def previous(self, key: str) -> str:
+        """Reference to the cell of a column in the row above."""
+
     def down_to_here(self, key: str) -> str:
         """Range of a column from its first row down to this one."""
 
@@ -41,6 +45,7 @@ _PRECEDENCE: dict[type[ast.AST], tuple[str, int]] = {
     ast.Add: ("+", 2), ast.Sub: ("-", 2), ast.Mult: ("*", 3), ast.Div: ("/", 3), ast.Pow: ("^", 5),
 }  # fmt: skip
 _ATOM = 9
+_ROWS = re.compile(r"\$(\d+):\$[A-Z]+\$(\d+)$")  # first and last of a range
 
 
 def number(value: float | str) -> str:
@@ -107,7 +112,9 @@ def _binary(
 ) -> tuple[str, int]:
     sign, precedence = _PRECEDENCE[op]
     # Everything is left-associative in Excel, ^ included, and -x^2 is (-x)^2 there.
-    first = _wrapped(left, _ATOM if op is ast.Pow else precedence, refs)
+    # A comparison of comparisons keeps its brackets: not all programs read it from the left.
+    inner = _ATOM if op is ast.Pow else max(precedence, 2)
+    first = _wrapped(left, inner, refs)
     second = _wrapped(right, precedence + 1, refs)
     if second.startswith("-"):
         second = f"({second})"
@@ -125,6 +132,8 @@ def _call(name: str, args: list[ast.expr], refs: References) -> tuple[str, int]:
         return _aggregate(name, args[0], refs), _ATOM
     if name == "following":
         return refs.following(_key(args[0])), _ATOM
+    if name == "previous":
+        return refs.previous(_key(args[0])), _ATOM
     if name == "running_sum":
         return f"SUM({refs.down_to_here(_key(args[0]))})", _ATOM
     if name in ("fourier_cos", "fourier_sin"):
@@ -139,10 +148,16 @@ def _call(name: str, args: list[ast.expr], refs: References) -> tuple[str, int]:
         return _interpolate(args, refs), 2
     if name == "element":
         run = refs.column(_key(args[0]), repeat_last=True)
-        return f"INDEX({run},{_emit(args[1], refs)[0]})", _ATOM
+        return _index(run, _emit(args[1], refs)[0]), _ATOM
     if name == "spline":
         return _spline(args, refs), 2
     return f"{_FUNCTIONS[name]}({','.join(_emit(arg, refs)[0] for arg in args)})", _ATOM
+
+
+def _index(run: str, place: str) -> str:
+    """Cell of a range by its number; of a row with the row named, which not all programs guess."""
+    rows = _ROWS.search(run)
+    return f"INDEX({run},{'1,' if rows and rows[1] == rows[2] else ''}{place})"
 
 
 def _key(node: ast.expr) -> str:
@@ -182,8 +197,8 @@ def _interpolate(args: list[ast.expr], refs: References) -> str:
     body = refs.column(_key(args[1]), repeat_last=False)
     ys = refs.column(_key(args[2]), repeat_last=True)
     row = f"MATCH({x},{body},1)"
-    x0, x1 = f"INDEX({xs},{row})", f"INDEX({xs},{row}+1)"
-    y0, y1 = f"INDEX({ys},{row})", f"INDEX({ys},{row}+1)"
+    x0, x1 = _index(xs, row), _index(xs, f"{row}+1")
+    y0, y1 = _index(ys, row), _index(ys, f"{row}+1")
     return f"{y0}+({y1}-{y0})*({x}-{x0})/({x1}-{x0})"
 
 

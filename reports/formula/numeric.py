@@ -59,8 +59,12 @@ def _following(column: Value) -> Value:
     return np.append(column[1:], column[-1])
 
 
+def _previous(column: Value) -> Value:
+    return np.insert(np.asarray(column, dtype=float)[:-1], 0, 0.0)
+
+
 _FUNCTIONS |= {"element": _element, "spline": _spline, "round": _rounded}
-_FUNCTIONS |= {"following": _following, "running_sum": np.cumsum}
+_FUNCTIONS |= {"following": _following, "previous": _previous, "running_sum": np.cumsum}
 _FUNCTIONS |= {"fourier_cos": _fourier(np.cos), "fourier_sin": _fourier(np.sin)}
 
 _JOINS: dict[str, Callable[[Value, Value], Value]] = {

@@ -28,9 +28,10 @@ SCALES: dict[str, float] = {
 }  # fmt: skip
 SCALE_FUNCTIONS = frozenset(f"{way}_{unit}" for unit in SCALES for way in ("to", "of"))
 
-# Values of the following row of a column (in the last row the row itself) and the sum of a
-# column from its first row down to this one.
-SHIFTS = frozenset({"following", "running_sum"})
+# Values of the following row of a column (in the last row the row itself), of the row before
+# (in the first row there is none: only where a condition keeps it out) and the sum of a column
+# from its first row down to this one.
+SHIFTS = frozenset({"following", "previous", "running_sum"})
 
 CONSTANTS = frozenset({"pi"})
 

@@ -38,7 +38,8 @@ from reports.inputs.sections.input_file import InputFile, RegimeSection, RegimeV
 Path = tuple[str | int, ...]
 Value = str | int | float
 
-_OFFSETS = ("crank_offset_mm", "pin_offset_mm")
+# A zero of these is none: another value changes what the workbook consists of.
+_NONE_AT_ZERO = ("crank_offset_mm", "pin_offset_mm", "ground_nm_rad", "stiffness_nm_rad")
 POINT_KEYS = ("deg", "mpa")
 
 
@@ -202,7 +203,6 @@ def _field(path: Path, section: str, meta: Meta, value: Value, optional: bool) -
         minimum=meta.minimum,
         maximum=meta.maximum,
         choices=dict(meta.choices) if meta.choices is not None else None,
-        # An offset of zero is none: another value adds the tables of an offset.
-        structural=meta.structural or (path[-1] in _OFFSETS and value == 0),
+        structural=meta.structural or (path[-1] in _NONE_AT_ZERO and value == 0),
         optional=optional,
     )

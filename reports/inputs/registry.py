@@ -26,6 +26,7 @@ from reports.inputs.sections.input_file import (
 from reports.inputs.sections.masses import MassesSection
 from reports.inputs.sections.reference import ReferenceSection
 from reports.inputs.sections.report import Report
+from reports.inputs.sections.torsion import TorsionSection
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,6 +146,24 @@ _ALL = (
         },
     ),
     Section("balance", "Уравновешивание и маховик", BalanceSection, optional=True),
+    Section(
+        "torsion",
+        "Крутильные колебания",
+        TorsionSection,
+        optional=True,
+        absent=True,
+        lists={
+            "throws_kg_m2": ListKey("Моменты инерции колен", "torsion_throw_{n}_kg_m2"),
+            "throws_nm_rad": ListKey("Жёсткости за коленами", "torsion_throw_{n}_nm_rad"),
+            "masses": ListKey("Заданная крутильная схема", "torsion_mass_{n}_{key}"),
+            "peaks": ListKey("Наибольшее давление по частоте вращения", "torsion_peak_{n}_{key}"),
+        },
+        words=(
+            "Раздел [torsion] добавляет крутильные колебания вала. Все ключи необязательны: чего",
+            "нет, то оценено по остальным данным и названо оценкой. Готовую схему из 2–20 масс",
+            "задают записи [[torsion.masses]], пример — образец mwm-6.",
+        ),
+    ),
     Section(
         "reference",
         "Справочные таблицы",

@@ -57,6 +57,8 @@ KJ_KG_K = Unit("kj_kg_k", "кДж/(кг·К)", times=1000.0)
 PERCENT = Unit("percent", "%", over=100.0)
 PER_MIN = Unit("per_min", "мин⁻¹", over=60.0)
 KG_M2 = Unit("kg_m2", "кг·м²")
+NM_RAD = Unit("nm_rad", "Н·м/рад")
+NMS_RAD = Unit("nms_rad", "Н·м·с/рад")
 KG_PER_M2 = Unit("kg_per_m2", "кг/м²")
 MPA_S_M = Unit("mpa_s_m", "МПа·с/м", times=1e6)
 

@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from kshm.arrays import Columns
 from kshm.nomenclature.quantity import Quantity, quantity
 from reports.inputs.fields import Field
 from reports.inputs.sections.input_file import InputFile
 from reports.spec.charts import ChartSpec
 
+_BEFORE = re.compile(r"\bprevious\(")
 _POINT = re.compile(r"gas_point_\d+_(?P<unit>deg|mpa)(?P<regime>_R\d+)?")
 
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """One column: its formula per row; ``expr`` is None for the column of angles.
+    """One column: its formula per row.
+
+    ``expr`` is None for the column of angles, and for values that the table's ``computed``
+    gives.
 
     ``of`` names the quantity where the key alone does not; a helper column
     serves the formulas of the workbook and is no result.
@@ -36,12 +41,13 @@ class Column:
         return quantity(self.of or self.key)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class TableSpec:
     """A table over the crank angle.  ``number`` is the book's, ``sheet`` where it stands.
 
     ``step`` is the distance of the rows of a table on its own grid, None the step of
-    the calculation.
+    the calculation.  ``computed`` gives the columns without formulas that stand in the
+    workbook as values: what no sheet can calculate.
     """
 
     id: str
@@ -53,6 +59,16 @@ class TableSpec:
     note: str = ""
     helper: bool = False
     step: float | None = None
+    computed: Callable[[InputFile], Columns] | None = None
+
+    @cached_property
+    def row_by_row(self) -> bool:
+        """Whether rows follow from the rows before them."""
+        return any(column.expr and _BEFORE.search(column.expr) for column in self.columns)
+
+    def is_computed(self, column: Column) -> bool:
+        """Whether a column holds values in place of formulas."""
+        return self.computed is not None and column.expr is None and column != self.columns[0]
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,6 +197,16 @@ class Model:
         }
 
     @cached_property
+    def whole_tables(self) -> Mapping[str, TableSpec]:
+        """Tables of the columns that are found together, not each for itself."""
+        return {
+            f"{table.id}.{column.key}": table
+            for table in self.tables.values()
+            for column in table.columns
+            if table.is_computed(column) or (table.row_by_row and column.expr)
+        }
+
+    @cached_property
     def programs(self) -> dict[str, Any]:
         """How nodes are calculated, as ``reports.spec.evaluation`` finds it out."""
         return {}
@@ -189,7 +215,10 @@ class Model:
         """The same specifications for an input of the same structure."""
         made = Model(input_file, inputs, self.blocks, self.charts, self.remarks)
         # What follows from the blocks and from the names of the inputs is the same as well.
-        for name in ("tables", "scalars", "input_runs", "sheets", "nodes", "grid_runs", "programs"):
+        for name in (
+            "tables", "scalars", "input_runs", "sheets", "nodes", "grid_runs", "whole_tables",
+            "programs",
+        ):  # fmt: skip
             made.__dict__[name] = getattr(self, name)
         return made
 

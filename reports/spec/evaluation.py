@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -12,9 +13,10 @@ from numpy.typing import NDArray
 
 from reports.formula.numeric import compiled
 from reports.formula.parse import names
-from reports.spec.blocks import Column, Model
+from reports.spec.blocks import Column, Model, TableSpec
 
 Array = NDArray[np.float64]
+_PREVIOUS = re.compile(r"\bprevious\((\w+)\)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,6 +78,12 @@ class Evaluation:
             msg = f"the formulas refer to each other in a circle at {key}"
             raise ValueError(msg)
         self.running.add(key)
+        table = self.model.whole_tables.get(key)
+        if table is not None:
+            made = self._by_rows(table) if self.nodes[key].expr else self._computed(table)
+            done.update({node: values for node, values in made.items() if node not in done})
+            self.running.discard(key)
+            return done[key]
         program = self.programs.get(key)
         if program is None:
             program = self.programs[key] = _program(self.model, key)
@@ -90,6 +98,46 @@ class Evaluation:
         self.running.discard(key)
         done[key] = result
         return result
+
+    def _computed(self, table: TableSpec) -> dict[str, Array]:
+        """Columns that the table's own function gives."""
+        if table.computed is None:
+            msg = f"nothing computes {table.id}"
+            raise ValueError(msg)
+        found = table.computed(self.model.input)
+        return {f"{table.id}.{key}": np.asarray(found[key]) for key in found}
+
+    def _by_rows(self, table: TableSpec) -> dict[str, Array]:
+        """All columns of a table whose rows follow from those before, a row at a time."""
+        keys = [column.key for column in table.columns]
+        acts, needs = _row_acts(table.columns)
+        row: dict[str, Any] = {name: self._needed(name) for name in needs}
+        made = {key: np.zeros(len(table.rows)) for key in keys}
+        given = {key: self.done.get(f"{table.id}.{key}") for key in keys}
+        given[keys[0]] = np.array(table.rows)
+        for i in range(len(table.rows)):
+            row.update({f"{_ABOVE}{key}": row.get(key, 0.0) for key in keys})
+            for key, act in zip(keys, acts, strict=True):
+                known = given[key]
+                row[key] = made[key][i] = act(row) if known is None else known[i]
+        return {f"{table.id}.{key}": values for key, values in made.items()}
+
+    def _needed(self, name: str) -> Any:  # noqa: ANN401
+        return self.done[name] if name in self.done else self._calculated(name)
+
+
+_ABOVE = "above_"  # before the name of a column: its value in the row above
+
+
+@lru_cache(maxsize=256)
+def _row_acts(
+    columns: tuple[Column, ...],
+) -> tuple[tuple[Callable[[dict[str, Any]], Any], ...], frozenset[str]]:
+    """What each column of a table does with the values of a row, and the names from outside."""
+    own = {column.key for column in columns}
+    texts = [_PREVIOUS.sub(rf"{_ABOVE}\1", column.expr or "0") for column in columns]
+    outside = frozenset().union(*(names(column.expr) for column in columns if column.expr)) - own
+    return tuple(compiled(text, str) for text in texts), outside
 
 
 @dataclass(frozen=True, slots=True)

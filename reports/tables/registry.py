@@ -37,6 +37,9 @@ from reports.tables.overview.left_out import left_out_note
 from reports.tables.overview.scheme import scheme
 from reports.tables.overview.summary import summary
 from reports.tables.overview.verdicts import accepted_checks
+from reports.tables.torsion.free import free
+from reports.tables.torsion.resonance import resonance
+from reports.tables.torsion.train import train
 
 # Files of tables in the order of their sheets.
 BEFORE: tuple[PartOf, ...] = (scheme, processes, results, speed)
@@ -48,7 +51,7 @@ CHAIN: tuple[PartOf, ...] = (
 )  # fmt: skip
 AFTER: tuple[PartOf, ...] = (
     balance, inertia, torque_orders, segal, neiman, reference, bearings, continuous,
-    two_term,
+    two_term, train, free, resonance,
 )  # fmt: skip
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
-from reports.validation import companions, companions_text, gots, gots_text
+from reports.validation import companions, companions_text, gots, gots_text, torsion
 from reports.validation.checks import Lookup, Table, Tolerance
 from reports.validation.gots_text import Number, by_key
 from reports.validation.printed import force_cells, outputs_of, text_of, window_cells
@@ -19,6 +19,8 @@ SOURCES: dict[str, str] = {
     "кривошипно-шатунного механізму одноциліндрового поршневого двигуна, 2011",
     "chudakov": "Чудаков Д. А., Жарнов Э. М. Об уравновешивании тракторных "
     "четырёхцилиндровых дизелей",
+    "opentorsion": "Aalto ARotor. openTorsion 0.3.2: тесты и пример ICE_example.py по статье "
+    "Mendes A. S., Meirelles P. S., Zampieri D. E., 2008, doi 10.1243/14644193JMBD126",
 }
 SHORT: dict[str, str] = {
     "gots": "Гоц",
@@ -26,6 +28,7 @@ SHORT: dict[str, str] = {
     "neiman": "Нейман",
     "ilchenko": "Ильченко и др.",
     "chudakov": "Чудаков, Жарнов",
+    "opentorsion": "openTorsion",
 }
 
 _DINN = Tolerance(1.5, why="1,5 единицы последнего знака: программа считала с π = 3,14 или "
@@ -143,6 +146,12 @@ TABLES: tuple[Table, ...] = (
           notes=("(32), (33): d² по размерности — масса; для момента инерции нужно d⁴.",)),
     _text("chudakov_text", "chudakov", "текст", companions_text.CHUDAKOV,
           run="формулы решателя kshm и образец d-240"),
+    _text("torsion_discs", "opentorsion", "тесты", torsion.DISCS,
+          title="частоты крутильных колебаний двух дисков"),
+    _text("torsion_mwm", "opentorsion", "пример", torsion.MWM, run="образец mwm-6 и решатель kshm",
+          title="частоты крутильных колебаний дизеля MWM",
+          notes=("Пример частот не печатает: это числа, которые даёт сама программа для его "
+                 "данных, с четырьмя знаками.",)),
 )  # fmt: skip
 
 

@@ -127,9 +127,8 @@ def _add_columns(root: etree._Element, title: str, columns: list[FilledColumn]) 
             _checked(value, f"{title}!{letter}{row}")
             at = f"{letter}{row}"
             kind = f' t="array" ref="{at}"' if arrays else ""
-            texts.setdefault(row, []).append(
-                f'<c r="{at}" s="{style}"><f{kind}>{escape(formula[1:])}</f><v>{value!r}</v></c>'
-            )
+            text = f"<f{kind}>{escape(formula[1:])}</f>" if formula else ""
+            texts.setdefault(row, []).append(f'<c r="{at}" s="{style}">{text}<v>{value!r}</v></c>')
     made = "".join(f'<row r="{row}">{"".join(cells)}</row>' for row, cells in texts.items())
     for row in etree.fromstring(f'<sheetData xmlns="{_MAIN}">{made}</sheetData>'):
         number = int(row.get("r"))

@@ -31,6 +31,7 @@ KEY_COLUMN = 6
 
 _ROW = "\x01"  # stands for the row number in a formula compiled once for a whole column
 _NEXT = "\x02"
+_ABOVE = "\x03"
 
 
 @dataclass(frozen=True, slots=True)
@@ -245,6 +246,13 @@ class RowReferences:
             raise KeyError(key)
         return self._cell(found, _NEXT)
 
+    def previous(self, key: str) -> str:
+        """Cell of the row above; in the first row that of the header."""
+        found = self._column(key)
+        if found is None:
+            raise KeyError(key)
+        return self._cell(found, _ABOVE)
+
     def down_to_here(self, key: str) -> str:
         """Column from its first row down to this row."""
         found = self._column(key)
@@ -272,7 +280,8 @@ class RowReferences:
 
 def at_row(formula: str, row: int, *, last: bool = False) -> str:
     """A column's formula in one row; in the last row the following row is the row itself."""
-    return formula.replace(_ROW, str(row)).replace(_NEXT, str(row if last else row + 1))
+    below = str(row if last else row + 1)
+    return formula.replace(_ROW, str(row)).replace(_NEXT, below).replace(_ABOVE, str(row - 1))
 
 
 def check_names(layout: Layout) -> None:

@@ -39,7 +39,7 @@ class FilledColumn:
 
     index: int
     first_row: int
-    cells: Sequence[tuple[str, float]]  # formula with its =, value
+    cells: Sequence[tuple[str, float]]  # formula with its =, empty for a number; value
 
 
 @dataclass
@@ -90,7 +90,7 @@ class Writer:
                 at_row(template, row, last=row == last)
                 if template is not None
                 else self.layout.step_formula(table, row, index)
-                if row > FIRST_ROW
+                if row > FIRST_ROW and not table.is_computed(column)
                 else None
                 for row in rows
             ]

@@ -27,6 +27,7 @@ def test_samples():
         "gots-p3",
         "gots-p43",
         "gots-regimes",
+        "mwm-6",
         "two-stroke",
         "vw-1600",
         "yamz-236",

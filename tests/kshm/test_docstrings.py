@@ -20,7 +20,8 @@ UNIT = re.compile(r"\[[^\]]+\]|\bSI\b")
 # A book or paper with the formula's place, or the law that gives it.
 SOURCE = re.compile(
     r"Gots|Segal|Neiman|Chudakov|Ilchenko|Dinn|Fritsch|Clapeyron|Lanchester|statics|figure|"
-    r"Grinevetsky|Mazing|Leiderman|Kolchin|Dizdn|definition|conservation|GOST"
+    r"Grinevetsky|Mazing|Leiderman|Kolchin|Dizdn|definition|conservation|GOST|"
+    r"Holzer|Ker Wilson|Carter|Zimanenko|Den Hartog"
 )
 
 

@@ -24,6 +24,8 @@ _PHASES = (
     "firing_offset", "throw_angle", "force_offset", "crankshaft_bank_angle",
     "crankshaft_split_pin",
 )  # fmt: skip
+# Abscissae that must rise, so near each other that most changes are refused.
+_RISING = re.compile(r"(gas_point_\d+_deg|torsion_peak_\d+_speed_rpm)")
 MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 
 
@@ -42,6 +44,7 @@ def free_fields(data: InputFile) -> list[Field]:
         and field.path[0] != "report"
         and (field.choices is not None or isinstance(field.value, float))
         and not field.name.startswith(_PHASES)
+        and not _RISING.fullmatch(field.name)
     ]
 
 

@@ -90,6 +90,14 @@ def states(
     }
     known: dict[str, str] = {}
 
+    def outside(node: str) -> frozenset[str]:
+        """What a node refers to; rows that follow from those before them refer in circles."""
+        table = model.whole_tables.get(node)
+        if table is None:
+            return graph.references(node)
+        own = frozenset(f"{table.id}.{column.key}" for column in table.columns)
+        return frozenset().union(*(graph.references(name) for name in own)) - own
+
     def state(node: str) -> str:
         if node in inputs or node in asked or node in model.input_runs:
             return LIVE
@@ -101,7 +109,7 @@ def states(
                 NUMBER
                 if asked.isdisjoint(graph.ancestors(node))
                 else LIVE
-                if all(state(name) != HIDDEN for name in graph.references(node))
+                if all(state(name) != HIDDEN for name in outside(node))
                 else HIDDEN
             )
         return known[node]

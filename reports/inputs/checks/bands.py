@@ -151,6 +151,14 @@ BANDS: tuple[Band, ...] = (
     _cycle("size_step_mm", "Δ", 0.5, 4.9, "мм"),
     Band("cycle.torque_speed_rpm", "n", "n_M/n", 0.3, 0.95),
     Band("cycle.idle_speed_rpm", "n", "n_х/n", 0.08, 0.5),
+    Band("torsion.loss_factor", "", "η", 0.012, 0.11, zero=True),
+    Band("torsion.shear_modulus_mpa", "", "G", 25000, 95000, unit="МПа"),
+    Band("torsion.stress_allowed_mpa", "", "[τ]", 12, 110, unit="МПа"),
+    Band("torsion.speed_min_rpm", "n", "n_min/n", 0.12, 1.1),
+    Band("torsion.speed_max_rpm", "n", "n_max/n", 0.5, 2.5),
+    Band("torsion.web_width_mm", "D", "b/D", 0.4, 3),
+    Band("torsion.web_thickness_mm", "D", "h/D", 0.06, 0.59),
+    Band("torsion.peaks.pressure_mpa", "", "наибольшее давление", 2.6, 25, unit="МПа"),
 )
 
 # Values that follow from more than one key; `plausibility` says from which.

@@ -14,6 +14,7 @@ from reports.inputs.checks.gas import check_gas
 from reports.inputs.checks.layout import check_layout
 from reports.inputs.checks.masses import check_masses
 from reports.inputs.checks.reference import check_reference
+from reports.inputs.checks.torsion import check_torsion
 from reports.inputs.findings import Finding, Path, Values, radius_and_rod
 from reports.inputs.sections.input_file import LAMBDA_MAX, LAMBDA_MIN
 from reports.inputs.units import number_text
@@ -30,6 +31,7 @@ def check(values: Values) -> Iterator[Finding]:
     yield from check_masses(values)
     yield from check_gas(values)
     yield from check_cycle(values)
+    yield from check_torsion(values)
     yield from check_reference(values)
     yield from check_accepted(values)
 

@@ -72,9 +72,9 @@ def grid_errors(model: InputFile) -> tuple[GridError, ...]:
 
 
 def refined(model: InputFile) -> InputFile:
-    """The same engine with tables at the fine step."""
+    """The same engine with tables at the fine step; of orders, not of angles, it tells nothing."""
     calculation = model.calculation.model_copy(update={"step_deg": FINE})
-    return model.model_copy(update={"calculation": calculation})
+    return model.model_copy(update={"calculation": calculation, "torsion": None})
 
 
 def fine_columns(model: InputFile) -> Tables:

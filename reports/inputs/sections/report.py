@@ -26,6 +26,7 @@ CHAPTERS = {
     "journals": "коренные шейки",
     "bearings": "подшипники и изгиб вала",
     "running": "набегающие моменты",
+    "torsion": "крутильные колебания",
     "regimes": "сравнение режимов",
     "reference": "точность формул и справочные зависимости",
     "companions": "уравновешенность, ход, гармоники",
@@ -35,7 +36,7 @@ CHAPTERS = {
 Detail = Literal["course", "full", "short"]
 ChapterName = Literal[
     "cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "bearings", "running",
-    "regimes", "reference", "companions", "checks", "appendices",
+    "torsion", "regimes", "reference", "companions", "checks", "appendices",
 ]  # fmt: skip
 FRAMES = {"none": "без рамки", "eskd": "рамка и основная надпись по ГОСТ 2.104"}
 

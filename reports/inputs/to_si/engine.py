@@ -24,6 +24,7 @@ from reports.inputs.to_si.cycle import cycle_run
 from reports.inputs.to_si.gas import rounded_gas
 from reports.inputs.to_si.geometry import crank_radius_mm, rod_length_mm
 from reports.inputs.to_si.masses import to_masses, with_masses
+from reports.inputs.to_si.torsion import to_torsion
 from reports.inputs.units import DEG, KG, KW, MM, MPA, RPM
 
 BDC_DEG = 540.0
@@ -57,6 +58,7 @@ def _engine(model: InputFile, run: CycleRun | None) -> Engine:
         crankshaft=_crankshaft(shaft),
         arrangement=places,
         articulated=_articulated(model.articulated, len(hung(places))),
+        torsion=to_torsion(model.torsion),
         firing_offsets=tuple(DEG.to_si(value) for value in shaft.firing_offsets_deg),
         strokes=model.engine.strokes,
         method=model.calculation.method,

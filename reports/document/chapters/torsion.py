@@ -1,0 +1,199 @@
+"""Chapter on the torsional vibration of the shaft."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from markupsafe import Markup
+
+from reports.document.chapters.chapter import Chapter
+from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
+from reports.document.page.spec_tables import grid_table
+from reports.document.page.writer import TablePlan
+from reports.document.text import numbers
+from reports.document.text.terms import Terms
+from reports.shared.russian import fixed
+
+_HOLZER = (
+    r"M_k = M_{k-1} + \omega^2 J_k\, a_k, \qquad a_{k+1} = a_k - \dfrac{M_k}{c_k}, \qquad a_1 = 1"
+)
+_SUM = r"S_{\nu} = \left|\sum a_i\, e^{-i\nu\theta_i}\right|"
+_ENERGY = (
+    r"A = \dfrac{M_{\nu} S_{\nu}}{D}, \qquad D = \omega \sum b_k a_k^2 + "
+    r"\eta \sum c_k \left(a_{k+1} - a_k\right)^2"
+)
+_MOTION = (
+    r"\left(-\omega^2 J + i\omega B + K\,(1 + i\eta)\right)\theta_{\nu} = M_{\nu}, \qquad "
+    r"\omega = \nu\,\Omega"
+)
+_NEAR = 0.02  # of a stress: a difference that changes no conclusion
+_MOST_ROWS = 12
+
+
+@dataclass(frozen=True, slots=True)
+class Peak:
+    """The greatest stress of a curve over the speeds, printed, and where it stands."""
+
+    stress: float
+    text: str
+    speed: str
+
+
+def torsion(chapter: Chapter) -> Markup:
+    """Train, frequencies, resonances, forced vibration, damper, flywheels."""
+    terms, section = chapter.terms, chapter.input.torsion
+    if section is None:
+        return Markup("")
+    modes = [m for m in (1, 2, 3) if terms.has(f"tor_f{m}_hz")]
+    bare, damped, other = (_peak(terms, key) for key in ("", "_damped", "_other"))
+    allowed = section.stress_allowed_mpa
+    resonances = _resonances(terms, modes)
+    return chapter.page(
+        "torsion",
+        section=section,
+        own=bool(section.masses),
+        free=section.ground_nm_rad + (section.masses[-1].stiffness_nm_rad
+                                      if section.masses else 0) == 0,
+        train=TablePlan(partial(grid_table, terms, chapter.grid("torsion_train")),
+                        "Крутильная схема вала"),
+        modes=modes,
+        forms=TablePlan(partial(_forms, terms, modes), "Собственные частоты и формы", keep=True),
+        holzer=_HOLZER,
+        check=_holzer_row(terms),
+        nodes={m: _nodes(terms, m) for m in modes},
+        phase_sum=_SUM,
+        energy=_ENERGY,
+        motion=_MOTION,
+        resonances=TablePlan(partial(_resonance_table, terms, resonances),
+                             "Резонансы рабочего диапазона", keep=True) if resonances else None,
+        hidden=_hidden(terms, modes) - len(resonances),
+        order=terms.value("tor_worst_order"),
+        worst_order=fixed(terms.value("tor_worst_order"), 1).removesuffix(",0"),
+        mode=round(terms.value("tor_worst_mode")),
+        last=fixed(float(terms.column("torsion_critical.tor_order")[-1]), 1).removesuffix(",0"),
+        bare=bare, damped=damped, other=other,
+        allowed=allowed,
+        far=abs(terms.value("tor_worst") / bare.stress - 1) > 0.3 if bare.stress else False,
+        over=bare.stress > allowed, over_damped=damped.stress > allowed,
+        over_other=other.stress > allowed,
+        helps=damped.stress < (1 - _NEAR) * bare.stress,
+        flywheels=TablePlan(partial(_flywheels, terms, bare, other), "Два маховика", keep=True),
+        change=terms.value("tor_f1_change"),
+        change_text=fixed(abs(terms.value("tor_f1_change")), 1),
+        heavier=terms.value("tor_flywheel_other") > terms.value("tor_flywheel"),
+        other_helps=other.stress < (1 - _NEAR) * bare.stress,
+        other_harms=other.stress > (1 + _NEAR) * bare.stress,
+        work=_energy(terms),
+    )  # fmt: skip
+
+
+def _peak(terms: Terms, which: str) -> Peak:
+    stresses = terms.column(f"torsion_response.tor_tau{which}_MPa")
+    place = int(stresses.argmax())
+    speed = terms.column("torsion_response.tor_speed_rpm")[place]
+    return Peak(float(stresses[place]), fixed(float(stresses[place]), 1), fixed(float(speed), 0))
+
+
+def _forms(terms: Terms, modes: list[int]) -> TableBlock:
+    heads = [Column("Масса", 2.6, text=True), Column(symbol_head("J", "кг·м²"))]
+    heads += [Column(symbol_head(f"a_{m}", "")) for m in modes]
+    grid = next(block for block in terms.model.blocks if block.id == "torsion_train")
+    labels = getattr(grid, "labels", ())
+    rows = [
+        [
+            label,
+            fixed(float(terms.column("torsion_forms.tor_J_kgm2")[k]), 4),
+            *(fixed(float(terms.column(f"torsion_forms.tor_theta{m}")[k]), 5) for m in modes),
+        ]
+        for k, label in enumerate(labels)
+    ]
+    rows.append(["частота, Гц", "", *(terms.num(f"tor_f{m}_hz") for m in modes)])
+    return table_block(heads, rows)
+
+
+def _nodes(terms: Terms, mode: int) -> list[str]:
+    """Places of the nodes: numbers of the masses before and after."""
+    column = terms.column(f"torsion_forms.tor_node{mode}")
+    return [f"{int(at)} и {int(at) + 1}" for at in column if at > 0]
+
+
+def _holzer_row(terms: Terms) -> str:
+    """The first step of the chain at the first frequency with its numbers."""
+    inertia, spring = terms.value("torJ1"), terms.value("torc1")
+    omega = 2 * np.pi * terms.value("tor_f1_hz")
+    moment = omega**2 * inertia - terms.value("torsion_ground_nm_rad")
+    shown = [numbers.to_tex(text) for text in (fixed(omega, 1), fixed(inertia, 4),
+                                               fixed(moment, 0), fixed(spring, 0))]  # fmt: skip
+    second = numbers.to_tex(fixed(float(terms.column("torsion_forms.tor_theta1")[1]), 5))
+    ground = terms.value("torsion_ground_nm_rad")
+    less = rf" - {numbers.to_tex(fixed(ground, 0))}" if ground else ""
+    return (
+        rf"M_1 = {shown[0]}^2 \cdot {shown[1]}{less} = {shown[2]}\;\mathrm{{Н·м}}, \qquad "
+        rf"a_2 = 1 - \dfrac{{{shown[2]}}}{{{shown[3]}}} = {second}"
+    )
+
+
+def _hidden(terms: Terms, modes: list[int]) -> int:
+    """Number of the resonances within the working speeds."""
+    return sum(
+        int(np.count_nonzero(terms.column(f"torsion_critical.tor_in{m}_MPa"))) for m in modes
+    )
+
+
+def _resonances(terms: Terms, modes: list[int]) -> list[tuple[int, int]]:
+    """Form and row of the strongest resonances within the working speeds."""
+    found = []
+    for m in modes:
+        stresses = terms.column(f"torsion_critical.tor_in{m}_MPa")
+        found += [(float(stresses[k]), m, int(k)) for k in np.flatnonzero(stresses)]
+    strongest = sorted(found, reverse=True)[:_MOST_ROWS]
+    return sorted(((m, k) for _, m, k in strongest))
+
+
+def _resonance_table(terms: Terms, found: list[tuple[int, int]]) -> TableBlock:
+    heads = [
+        Column("Форма"), Column(symbol_head(r"\nu", "")),
+        Column(symbol_head(r"n_{\mathrm{кр}}", "мин⁻¹")), Column(symbol_head("S", "")),
+        Column(symbol_head(r"M_{\nu}", "Н·м")), Column(symbol_head("A", "°")),
+        Column(symbol_head(r"\tau", "МПа")),
+    ]  # fmt: skip
+    keys = (("n{}_rpm", 0), ("sum{}", 3), ("M{}_Nm", 1), ("A{}_deg", 3), ("tau{}_MPa", 1))
+    rows = [
+        [
+            str(m),
+            fixed(float(terms.column("torsion_critical.tor_order")[k]), 1),
+            *(
+                fixed(float(terms.column(f"torsion_critical.tor_{key.format(m)}")[k]), digits)
+                for key, digits in keys
+            ),
+        ]
+        for m, k in found
+    ]
+    return table_block(heads, rows)
+
+
+def _flywheels(terms: Terms, bare: Peak, other: Peak) -> TableBlock:
+    order, mode = terms.value("tor_worst_order"), round(terms.value("tor_worst_mode"))
+    heads = [Column("Величина", 3.4, text=True), Column("маховик"), Column("другой маховик")]
+    firsts = [terms.value("tor_f1_hz"), terms.value("tor_f1_other_hz")]
+    rows = [
+        ["момент инерции, кг·м²", terms.num("tor_flywheel"), terms.num("tor_flywheel_other")],
+        ["первая частота, Гц", *(fixed(f, 2) for f in firsts)],
+    ]
+    if order and mode == 1:
+        title = f"резонанс порядка {fixed(order, 1).removesuffix(',0')}, мин⁻¹"
+        rows.append([title, *(fixed(60 * f / order, 0) for f in firsts)])
+    rows.append(["наибольшее напряжение, МПа", bare.text, other.text])
+    rows.append(["при частоте вращения, мин⁻¹", bare.speed, other.speed])
+    return table_block(heads, rows)
+
+
+def _energy(terms: Terms) -> dict[str, str]:
+    """Energy of a cycle at the speed of the greatest stress."""
+    place = int(terms.column("torsion_response.tor_tau_MPa").argmax())
+    return {
+        key: fixed(float(terms.column(f"torsion_response.tor_{key}_J")[place]), 1)
+        for key in ("work", "lost")
+    }

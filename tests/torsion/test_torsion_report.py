@@ -1,0 +1,61 @@
+"""The report's chapter: its conclusion follows from the numbers."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+
+import pytest
+
+from reports.document.report import report_page
+from reports.inputs.fields import to_mapping
+from reports.inputs.load import load_mapping
+from reports.spec.evaluation import evaluate_model
+from reports.tables.registry import build_model
+from tests.conftest import sample
+
+
+@lru_cache(maxsize=8)
+def page(name: str, *pairs: tuple[str, float | str]) -> str:
+    raw = to_mapping(sample(name))
+    raw["torsion"] = raw.get("torsion", {}) | dict(pairs)
+    raw["calculation"]["step_deg"] = 15
+    raw["report"]["chapters"] = ["torsion"]
+    model = build_model(load_mapping(raw, source=name).model)
+    text = report_page(model, evaluate_model(model), media="screen")
+    text = text.replace("\u00a0", " ")
+    text = re.sub(r"<(svg|style|script).*?</\1>", "", text, flags=re.S)
+    return re.sub(r"\s+", " ", re.sub(r"<[^>]+>", "", text))
+
+
+def test_the_dangerous_order_is_named() -> None:
+    text = page("mwm-6")
+    assert "самый опасный порядок — 6 (форма 1, 2165,8" in text
+    assert "превышает допускаемую 40 МПа" in text
+    assert "Более лёгкий маховик сдвигает первую частоту вверх на 4,9 %" in text
+    assert "нужен больший гаситель" in text
+
+
+@pytest.mark.parametrize(
+    ("pairs", "said"),
+    [
+        ((("stress_allowed_mpa", 120.0),), "не превышает допускаемой 120 МПа"),
+        ((("stress_allowed_mpa", 75.0),), "то есть ниже допускаемой: он нужен"),
+        ((("other_flywheel_kg_m2", 4.0),), "Более тяжёлый маховик сдвигает первую частоту вниз"),
+        (
+            (("speed_min_rpm", 2700.0), ("speed_max_rpm", 2850.0)),
+            "Резонансов первых форм в рабочем",
+        ),
+        ((("damper", "tuned"),), "Настроенный гаситель имеет жёсткость"),
+    ],
+)
+def test_the_sentences_follow_the_numbers(pairs: tuple, said: str) -> None:
+    assert said in page("mwm-6", *pairs)
+
+
+def test_estimates_are_called_so() -> None:
+    text = page("d-240")
+    assert "по памяти" in text
+    assert "разброс" in text
+    assert "до их замены данными двигателя выводы предварительные" in text
+    assert "Крутильные колебания вала" in text

@@ -1,0 +1,173 @@
+"""The sheets of the torsional vibration against the solver: two independent statements."""
+
+from __future__ import annotations
+
+import random
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+
+from kshm import solve
+from kshm.mechanics import torsion
+from kshm.mechanics.torsional_train import Train
+from reports.inputs.fields import iter_fields
+from reports.inputs.sections.input_file import InputFile
+from reports.inputs.to_si.engine import engine_and_cycle
+from reports.spec.blocks import Model
+from reports.spec.evaluation import Evaluation, evaluate_model
+from reports.spec.parts import Scope, joined
+from reports.spec.rename import substituted
+from reports.tables.motion.mechanism import dimensions
+from reports.tables.registry import build_model, stand_ins
+from reports.tables.torsion.free import free
+from reports.tables.torsion.train import train
+from reports.workbook.layout import FIRST_ROW, Layout
+from reports.workbook.write import workbook_bytes
+from tests.layouts import MAKERS
+from tests.referee.changes import Change, free_fields, type_into, with_values
+from tests.referee.compare import differences_from_caches, errors_in
+from tests.tables.test_two_statements import assert_agree
+from tests.torsion.files import TWO_DISCS, chain, laid_out, mwm
+from tests.torsion.trains import MWM_FORM, MWM_HZ, trains
+from tools.referees.by_formualizer import Formualizer
+from tools.referees.by_libreoffice import LibreOffice
+
+GIVEN = {
+    "pulley_kg_m2": 0.02, "flywheel_kg_m2": 1.5, "driven_kg_m2": 3.0, "driven_nm_rad": 4e4,
+    "nose_nm_rad": 9e5, "rear_nm_rad": 2e6, "ground_nm_rad": 1e4, "formula": "zimanenko",
+    "web_width_mm": 95.0, "web_thickness_mm": 24.0, "main_bore_mm": 20.0, "pin_bore_mm": 15.0,
+    "damping_nms_rad": 1.5, "damper": "tuned", "damper_kg_m2": 0.05, "damper_nm_rad": 5e4,
+    "damper_nms_rad": 12.0, "speed_min_rpm": 700.0, "speed_max_rpm": 2600.0,
+    "other_flywheel_kg_m2": 0.7, "peaks": [{"speed_rpm": 1500.0, "pressure_mpa": 9.0}],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("maker", MAKERS)
+def test_estimates_of_every_layout(maker: str) -> None:
+    assert_agree(laid_out(maker, {}, step_deg=15))
+
+
+@pytest.mark.parametrize("maker", ["four", "v_six", "articulated", "two_stroke"])
+@pytest.mark.parametrize("formula", ["wilson", "carter", "zimanenko"])
+def test_everything_given(maker: str, formula: str) -> None:
+    assert_agree(laid_out(maker, GIVEN | {"formula": formula}, step_deg=15))
+
+
+def test_no_section_no_sheet() -> None:
+    data = laid_out("basic", {}).model_copy(update={"torsion": None})
+    assert not [key for key in build_model(data).tables if key.startswith("torsion")]
+    assert not [key for key in solve(*engine_and_cycle(data)).columns if key.startswith("torsion")]
+
+
+def test_the_printed_frequencies_stand_in_the_sheet() -> None:
+    values = evaluate_model(build_model(mwm()))
+    found = [values.scalars[f"tor_f{m}_hz"] for m in (1, 2, 3)]
+    assert found == pytest.approx(MWM_HZ[:3], abs=5e-5)
+    assert values.columns["torsion_forms"]["tor_theta1"] == pytest.approx(MWM_FORM, abs=5e-6)
+    assert list(np.flatnonzero(values.columns["torsion_forms"]["tor_node1"])) == [8]
+
+
+def test_two_discs_in_the_sheet() -> None:
+    values = evaluate_model(build_model(laid_out("basic", TWO_DISCS, step_deg=30)))
+    assert values.scalars["tor_f1_hz"] == pytest.approx(176.0767, abs=5e-5)
+    assert values.columns["torsion_forms"]["tor_theta1"] == pytest.approx([1, -25.46988], abs=5e-6)
+    assert "tor_f2_hz" not in values.scalars
+
+
+def frequencies(data: InputFile) -> list[float]:
+    """What the rows of the bisection end with [Hz]."""
+    model = build_model(data)
+    run = Evaluation(model)
+    return [float(run.value(key)) for m in (1, 2, 3) if (key := f"tor_f{m}_hz") in model.scalars]
+
+
+def as_file(train: Train) -> InputFile:
+    section = chain([*train.inertias], [*train.stiffnesses], train.left, train.right)
+    return laid_out("basic", section, step_deg=30)
+
+
+@settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
+@given(trains())
+def test_the_bisection_finds_the_frequencies_of_any_train(train: Train) -> None:
+    wanted = torsion.modes_of(train).hertz[:3]
+    np.testing.assert_allclose(frequencies(as_file(train)), wanted, rtol=1e-9)
+
+
+@pytest.mark.parametrize("link", [1e6, 1e2, 1.0])
+def test_frequencies_that_all_but_meet(link: float) -> None:
+    """Two equal halves on a soft link: pairs of frequencies as near as the link is soft."""
+    train = Train(np.array([0.05, 0.1, 0.1, 0.05]), np.array([1e6, link, 1e6]), 1e6, 1e6)
+    modes = torsion.modes_of(train)
+    if link == 1.0:
+        assert modes.hertz[1] / modes.hertz[0] - 1 < 3e-6
+    np.testing.assert_allclose(frequencies(as_file(train)), modes.hertz[:3], rtol=1e-9)
+
+
+def free_sheets(data: InputFile) -> Model:
+    """The sheets of the free vibration alone: a small book."""
+    part = joined(Scope(data), (dimensions, train, free))
+    blocks = substituted(part.blocks, stand_ins(data))
+    return Model(data, tuple(iter_fields(data)), blocks, ())
+
+
+@cache
+def changed_books() -> list[tuple[InputFile, bytes]]:
+    """The book of the sample and the same after twenty random changes of its train."""
+    data = mwm()
+    book = workbook_bytes(free_sheets(data))
+    own = [field for field in free_fields(data) if field.name.startswith("torsion_mass_")]
+    made = [(data, book)]
+    rng = random.Random(19)
+    while len(made) < 21:
+        changes = [Change(field, field.value * rng.uniform(0.1, 10)) for field in own]
+        changed = with_values(data, changes)
+        if changed is not None:
+            made.append((changed, type_into(book, data, changes)))
+    return made
+
+
+@pytest.mark.parametrize(
+    "program", [Formualizer, pytest.param(LibreOffice, marks=pytest.mark.libreoffice)]
+)
+def test_the_sheets_follow_twenty_random_changes(program: type) -> None:
+    books = changed_books()
+    layout = Layout.of(free_sheets(books[0][0]))
+    results = program().recalculate([book for _, book in books])
+    assert differences_from_caches(books[0][1], results[0]) == []
+    for (data, _), result in zip(books, results, strict=True):
+        assert errors_in(result) == []
+        solution = solve(*engine_and_cycle(data))
+        for m in (1, 2, 3):
+            cell = layout.cells[f"tor_f{m}_hz"]
+            found = result[cell.sheet][cell.coordinate]
+            assert found == pytest.approx(solution.scalars[f"tor_f{m}_hz"], rel=1e-9)
+            column = layout.range_of(f"torsion_forms.tor_theta{m}").split("$")[1]
+            form = [result["Крутильные формы"][f"{column}{FIRST_ROW + k}"] for k in range(9)]
+            wanted = solution.columns["torsion_forms"][f"tor_theta{m}"]
+            np.testing.assert_allclose(form, wanted, atol=1e-6 * np.abs(wanted).max())
+
+
+def test_a_free_end_that_is_grounded_in_the_open_workbook() -> None:
+    """The number of frequencies at zero is counted live: an end may be grounded in the sheet."""
+    data = mwm()
+    grounded = mwm(ground_nm_rad=2e5)
+    run = Evaluation(build_model(data)).fork({"torsion_ground_nm_rad": 2e5})
+    wanted = solve(*engine_and_cycle(grounded)).scalars["tor_f1_hz"]
+    assert run.value("tor_f1_hz") == pytest.approx(wanted, rel=1e-9)
+
+
+def test_values_of_a_changed_workbook_are_told_to_be_old() -> None:
+    data = mwm()
+    model = build_model(data)
+    run = Evaluation(model)
+    assert run.value("tor_fresh") == "отвечают исходным данным"
+    mark = {"torsion_response.tor_mark": run.value("torsion_response.tor_mark")}
+    for change in (
+        "torsion_mass_9_inertia_kg_m2",
+        "masses_reciprocating_kg",
+        "torsion_loss_factor",
+    ):
+        known = mark | {change: 1.01 * run.value(change)}
+        assert "ИЗМЕНЕНЫ" in run.fork(known).value("tor_fresh")

@@ -20,13 +20,17 @@ MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 
 # All of Excel 2007 and before, none volatile, the same in LibreOffice and formualizer.
 ALLOWED = {
-    "ABS", "ACOS", "AND", "ASIN", "ATAN2", "AVERAGE", "COS", "COUNT", "DEGREES", "EXP", "IF",
-    "INDEX", "INT", "LN", "MATCH", "MAX", "MIN", "MOD", "NOT", "OR", "PI", "RADIANS", "ROUND",
+    "ABS", "ACOS", "AND", "ASIN", "ATAN2", "AVERAGE", "COS", "COUNT", "COUNTIF", "DEGREES", "EXP",
+    "IF", "INDEX", "INT", "LN", "MATCH", "MAX", "MIN", "MOD", "NOT", "OR", "PI", "RADIANS", "RANK",
+    "ROUND",
     "SIN", "SQRT", "SUM", "SUMPRODUCT", "TAN",
 }  # fmt: skip
 VOLATILE = {"CELL", "INDIRECT", "INFO", "NOW", "OFFSET", "RAND", "RANDBETWEEN", "TODAY"}
-OF_RANGES = {"AVERAGE", "COUNT", "INDEX", "MATCH", "MAX", "MIN", "SUM", "SUMPRODUCT"}
-_LONGEST = 8192  # characters of a formula in Excel
+OF_RANGES = {
+    "AVERAGE", "COUNT", "COUNTIF", "INDEX", "MATCH", "MAX", "MIN", "RANK", "SUM", "SUMPRODUCT",
+}  # fmt: skip
+LONGEST = 250  # characters of a formula that a person reads
+_GUARD = re.compile(r"\b0\.0{6,}1\b|\b9999\b|\bMAX\(1,ABS\(")
 _LINES = ("19050", "57150")  # EMU: 1.5 pt, and 4.5 pt for worn depths
 
 # Literals that the compiler writes: scales of units, degrees and the two of a Fourier sum,
@@ -151,8 +155,10 @@ def formula_problems(cell: etree._Element) -> list[str]:
         found.append(f"array or shared formula {dict(formula.attrib)}, not {wanted}")
     if re.search(r"\dE[+-]?\d", text) or re.search(r"(^=?|[(,*/+^<>=-])-\(", text):
         found.append("an exponent or a sign before a bracket")
-    if len(text) >= _LONGEST:
-        found.append("too long for Excel")
+    if len(formula.text or "") > LONGEST:
+        found.append("too long to be read")
+    if _GUARD.search(text):
+        found.append("a guard in place of a rounding, or a sentinel")
     if "[" in text or "#" in text:
         found.append("an external link or an error value")
     found += [f"{name} over a range" for name in _over_ranges(text)]

@@ -14,6 +14,7 @@ SHEET = "Схема"
 _REACH = "0.95"  # rows of cylinders reach nearly to the edge of the drawing
 _CRANK = "0.5"
 _SOURCE = "исходные данные"
+FIRING = "scheme.cyl_theta"  # beginnings of the power strokes of all cylinders
 
 
 def scheme(scope: Scope) -> Part:
@@ -28,14 +29,6 @@ def _lean(shape: Shape) -> str:
 
 def _cylinders(shape: Shape) -> Grid:
     numbers = range(1, shape.cylinders + 1)
-
-    def rank(i: int) -> str:
-        before = [
-            f"(1 if firing_offset_{j}_deg < firing_offset_{i}_deg else 0)"
-            for j in numbers
-            if j != i
-        ]
-        return " + ".join(["1", *before])
 
     def row(of: str, texts: Iterable[str]) -> GridRow:
         return grid_row(of, texts, _SOURCE)
@@ -52,7 +45,7 @@ def _cylinders(shape: Shape) -> Grid:
             row("cyl_throw", (str(shape.throw_of(i)) for i in numbers)),
             row("cyl_axis", map(shape.axis, numbers)),
             row("cyl_theta", (f"firing_offset_{i}_deg" for i in numbers)),
-            row("cyl_rank", map(rank, numbers)),
+            row("cyl_rank", (f"rank(cyl_theta{i}, {FIRING})" for i in numbers)),
             row("cyl_x", (f"{_REACH}*sin({axis(i)})" for i in numbers)),
             row("cyl_y", (f"{_REACH}*cos({axis(i)})" for i in numbers)),
         ),

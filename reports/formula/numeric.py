@@ -41,7 +41,7 @@ def _wave(turn: Callable[[Value], Value]) -> Callable[..., Value]:
     def total(*given: Value) -> Value:
         *weights, degrees, order = given
         waves = turn(np.multiply.outer(order, np.radians(degrees)))
-        return waves @ np.asarray(*weights, dtype=float) if weights else waves.sum(axis=-1)
+        return waves @ np.asarray(weights[0], dtype=float) if weights else waves.sum(axis=-1)
 
     return total
 

@@ -6,8 +6,7 @@ from collections.abc import Iterable
 
 from reports.spec.blocks import Grid, GridRow, Scalar, ScalarTable
 from reports.spec.listing import grid_row, scalar_list
-from reports.spec.shape import Shape
-from reports.tables.overview.scheme import FIRING
+from reports.spec.shape import FIRING, Shape
 
 RESULTS = "Уравновешивание, итоги"
 

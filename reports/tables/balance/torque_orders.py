@@ -10,10 +10,9 @@ from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi
 from reports.spec.listing import column_list, scalar_list
 from reports.spec.parts import Part, Scope, stepped
-from reports.spec.shape import Shape
+from reports.spec.shape import FIRING, Shape
 from reports.tables.gas.cycle_names import section_of
 from reports.tables.gas.diagram import is_smooth, smooth_pressure, straight_pressure
-from reports.tables.overview.scheme import FIRING
 
 SHEET, SHAFTS, RESULTS = "Гармоники момента", "Гашение 2-го порядка", "Гармоники момента, итоги"
 LAST_ORDER = 8.0

@@ -15,7 +15,7 @@ def hung_table(model: InputFile, rows: tuple[float, ...], number: int) -> TableS
     """Forces of a cylinder whose rod hangs on the master rod."""
     shape = Shape.of(model)
     corners = hung_corners(shape)
-    period = shape.period
+    period, offset = shape.period, f"firing_offset_{number}_deg"
     timing = f"mod(phase_deg - phi_tdc_art_deg, {period}) + phi_tdc_art_deg"
     unit = "articulated_big_end_kg*omega**2"
     phi = "rad(phase_deg)"
@@ -23,7 +23,7 @@ def hung_table(model: InputFile, rows: tuple[float, ...], number: int) -> TableS
     columns = [
         *column_list(f"""
             phi_deg
-            phase_deg of phase{number}_deg = round(mod(phi_deg - firing_offset_{number}_deg, {period}), 9)
+            phase_deg of phase{number}_deg = round(mod(phi_deg - {offset}, {period}), 9)
                 | угол в цикле
             volume_ratio = {hung_ratio('y')} | {SOURCE}
             p_MPa = {text} | Гоц, 2.4

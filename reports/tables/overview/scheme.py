@@ -8,13 +8,12 @@ from reports.spec.blocks import Grid, GridRow
 from reports.spec.charts import ChartSpec, Series
 from reports.spec.listing import grid_row
 from reports.spec.parts import Part, Scope
-from reports.spec.shape import Shape
+from reports.spec.shape import FIRING, Shape
 
 SHEET = "Схема"
 _REACH = "0.95"  # rows of cylinders reach nearly to the edge of the drawing
 _CRANK = "0.5"
 _SOURCE = "исходные данные"
-FIRING = "scheme.cyl_theta"  # beginnings of the power strokes of all cylinders
 
 
 def scheme(scope: Scope) -> Part:

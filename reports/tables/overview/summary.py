@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Grid, GridRow, Scalar, ScalarTable
+from reports.spec.blocks import Block, Grid, GridRow, Scalar, ScalarTable
 from reports.spec.extremes import extreme_scalars
 from reports.spec.listing import grid_row, scalar_list
 from reports.spec.parts import Part, Scope
@@ -21,7 +21,7 @@ def summary(scope: Scope) -> Part:
     model, shape = scope.input, scope.shape
     throws, pins = shape.throws, len(shape.pins)
     journals = throws + 1
-    blocks = (
+    blocks: tuple[Block, ...] = (
         _torque(model, shape),
         *(_pin(number, shape) for number in range(1, pins + 1)),
         *(_journal(k) for k in range(1, journals + 1)),

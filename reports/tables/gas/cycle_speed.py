@@ -184,8 +184,8 @@ def _ranges(section: CycleSection) -> ScalarTable:
         note = f"{about.title} {about.symbol.replace('_', '')}{unit}: обычно {low}…{high}"
         about_value = f"range_value_{name}"
         # A limit is met, though the last digit of a computed value may miss it.
-        test = f"round({about_value}, 9) >= {usual.low!r}"
-            f" and round({about_value}, 9) <= {usual.high!r}"
+        rounded = f"round({about_value}, 9)"
+        test = f"{rounded} >= {usual.low!r} and {rounded} <= {usual.high!r}"
         scalars += [
             Scalar(about_value, name, usual.reference or UNCHECKED, note=note, of="check_value"),
             Scalar(

@@ -23,7 +23,7 @@ from reports.spec.evaluation import Values, evaluate_model
 from reports.workbook import motion, styles, what_if
 from reports.workbook.caches import finish
 from reports.workbook.chapters import chapter_of, diagrams_of, heading, ordered
-from reports.workbook.charts import WIDE, make_chart, pixels, ranges_of
+from reports.workbook.charts import WIDE, is_blank, make_chart, pixels, ranges_of
 from reports.workbook.cockpit import write_cockpit
 from reports.workbook.inputs import write_inputs
 from reports.workbook.layout import (
@@ -182,8 +182,14 @@ def _charts(book: Workbook, model: Model, writer: Writer) -> dict[str, list[Box]
     found: dict[str, list[Box]] = {}
     homeless: dict[str, list[ChartSpec]] = {}
     for title in ordered(model.sheets):
-        specs = [spec for spec in model.charts if spec.sheet == title]
         sheet = book[title]
+        specs: list[ChartSpec] = []
+        blank: list[ChartSpec] = []
+        for spec in (spec for spec in model.charts if spec.sheet == title):
+            empty = is_blank(spec, writer.layout, writer.values)
+            (blank if empty else specs).append(spec)
+        if blank:
+            _say_blank(sheet, blank)
         boxes = _room(sheet, specs, frozen=title in {t.sheet for t in model.tables.values()})
         if boxes is None:
             homeless.setdefault(diagrams_of(chapter_of(title)), []).extend(specs)
@@ -196,6 +202,12 @@ def _charts(book: Workbook, model: Model, writer: Writer) -> dict[str, list[Box]
         found[title] = flow([pixels(spec, wide=True) for spec in specs], GAP, _ROWS_PX, SCREEN)
         _draw(sheet, specs, found[title], writer)
     return found
+
+
+def _say_blank(sheet: Worksheet, specs: Sequence[ChartSpec]) -> None:
+    """Which charts are left out, for all their values are zero."""
+    text = f"Не начерчено, все значения равны нулю: {'; '.join(spec.title for spec in specs)}."
+    _note(sheet, f"{sheet.cell(NOTE_ROW, 3).value or ''} {text}".strip())
 
 
 def _room(sheet: Worksheet, specs: Sequence[ChartSpec], *, frozen: bool) -> list[Box] | None:

@@ -6,7 +6,7 @@ from kshm.nomenclature.quantity import ray_key, roman
 from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, TableSpec
 from reports.spec.charts import ChartSpec, wear_chart
 from reports.spec.extremes import TIE
-from reports.spec.listing import scalar_list
+from reports.spec.listing import grid_row, scalar_list
 from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape, pin_name
 
@@ -96,6 +96,16 @@ def _sums(table_id: str, name: str, journal: str, sheet: str, rays: int) -> Grid
             row("circle_x", "cx", "-sin(rad({deg}))"),
             row("wear_y", "y", f"-({radius}*cos(rad({{deg}})))"),
             row("circle_y", "cy", "-cos(rad({deg}))"),
+            # The oil hole on the journal, seen as the report draws it.
+            *(
+                grid_row(
+                    of,
+                    (f"{turn}(rad(hole_{name}_deg))", *[None] * rays),
+                    "Гоц, рис. 33",
+                    f"{name}_{of}",
+                )
+                for of, turn in (("hole_x", "sin"), ("hole_y", "cos"))
+            ),
         ),
     )
 

@@ -57,7 +57,7 @@ def make_chart(
 
     It comes without numbers: openpyxl takes long for each, see ``ranges_of``.
     """
-    title = f"{spec.title} (Гоц, рис. {spec.figure})" if spec.figure else spec.title
+    title = f"{spec.title} (рис. {spec.figure})" if spec.figure else spec.title
     chart = _empty(title)
     curves = spec.drawn_by("workbook")
     for number, series in enumerate(curves):
@@ -117,7 +117,7 @@ def _marks(spec: ChartSpec, layout: Layout) -> list[Curve]:
 
 def _mark(number: int, point: Curve) -> XYSeries:
     """A small point with its name beside it."""
-    made = _curve(number, point, LineProperties(noFill=True))
+    made = _curve(number, point, _hidden())
     made.marker = Marker(symbol="circle", size=4)
     made.marker.spPr = GraphicalProperties(solidFill=_COLOURS[0])
     made.dLbls = DataLabelList(dLblPos="r", showSerName=True, showVal=False)
@@ -188,7 +188,7 @@ def drawing(
         look.prstDash = "solid"
         made = _curve(
             number, Curve(line.name, line.x, line.y),
-            LineProperties(noFill=True) if line.hidden or line.point else look,
+            _hidden() if line.hidden or line.point else look,
         )  # fmt: skip
         if line.point:
             made.marker = Marker(symbol="circle", size=9)
@@ -298,7 +298,7 @@ def _series(series: SeriesSpec, number: int, layout: Layout, *, smooth: bool) ->
     node = layout.model.nodes.get(series.y)  # a column; rows of grids are called by quantity
     known = node.quantity if node is not None else quantity(series.y.split(".")[1])
     name = series.name or known.symbol
-    line = LineProperties(noFill=True) if series.invisible or series.point else _look(number)
+    line = _hidden() if series.invisible or series.point else _look(number)
     ranges = layout.range_of(series.x), layout.range_of(series.y)
     if series.point:
         made = _mark(number, Curve(name, *ranges))
@@ -320,6 +320,10 @@ def _curve(number: int, curve: Curve, line: LineProperties) -> XYSeries:
     made.spPr = GraphicalProperties(ln=line)
     made.marker = Marker(symbol="none")
     return made
+
+
+def _hidden() -> LineProperties:
+    return LineProperties(w=_LINE, noFill=True)  # without a width Gnumeric draws it
 
 
 def _look(number: int) -> LineProperties:

@@ -35,8 +35,9 @@ RESULTS = (
     "delta_work", "I_flywheel",
 )  # fmt: skip
 CHARTS = ("p_phi", "fig49", "fig50", "fig52")
-_WIDTHS = {"A": 52, "B": 12, "C": 12, "D": 9, "E": 2}
+_WIDTHS = {"A": 62, "B": 12, "C": 12, "D": 9, "E": 2}
 _TOP = 3
+_TITLE_CHARS = 60  # of a line of the first column
 
 
 def write_cockpit(
@@ -102,6 +103,8 @@ def _values(sheet: Worksheet, writer: Writer, row: int, title: str, keys: Sequen
     sheet.cell(row, 1, title).style = styles.SUBTITLE
     for text, symbol, key, value, unit, look in known(writer, keys):
         row += 1
+        if len(text) > _TITLE_CHARS:
+            sheet.row_dimensions[row].height = 30
         for column, words in ((1, text), (2, symbol), (4, unit)):
             sheet.cell(row, column, words or None).style = styles.TEXT
         writer.formula(sheet, row, 3, f"={key}", value)

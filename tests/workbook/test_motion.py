@@ -93,14 +93,14 @@ def at_all_angles(data: bytes, cylinder: int) -> bytes:
         for angle in ANGLES:
             root.find(f".//{MAIN}c[@r='B4']/{MAIN}v").text = str(angle)
             book.writestr(f"xl/worksheets/angle{angle}.xml", etree.tostring(root))
-            sheets.append(f'<sheet name="М{angle}" sheetId="{9000 + angle}" r:id="angle{angle}"/>')
+            about = f'name="М{angle}" sheetId="{9000 + angle}" r:id="angle{angle}"'
+            sheets.append(f'<sheet xmlns:r="{_R}" {about}/>')
             relations.append(
                 f'<Relationship Id="angle{angle}" Type="{_R}/worksheet"'
                 f' Target="worksheets/angle{angle}.xml"/>'
             )
-            types.append(
-                f'<Override PartName="/xl/worksheets/angle{angle}.xml" ContentType="{_T}"/>'
-            )
+            override = f'PartName="/xl/worksheets/angle{angle}.xml" ContentType="{_T}"'
+            types.append(f"<Override {override}/>")
         added = {
             "xl/workbook.xml": ("</sheets>", sheets),
             "xl/_rels/workbook.xml.rels": ("</Relationships>", relations),
@@ -111,8 +111,6 @@ def at_all_angles(data: bytes, cylinder: int) -> bytes:
             if name in added:
                 end, lines = added[name]
                 said = text.decode().replace(end, "".join(lines) + end)
-                if "xmlns:r=" not in said and name == "xl/workbook.xml":
-                    said = said.replace("<workbook ", f'<workbook xmlns:r="{_R}" ', 1)
                 text = said.encode()
             book.writestr(name, text)
     return made.getvalue()

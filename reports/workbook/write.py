@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import gc
 import io
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from math import ceil
 
 from lxml.etree import SerialisationError
@@ -65,7 +67,20 @@ def workbook_bytes(model: Model, values: Values | None = None) -> bytes:
     layout = Layout.of(model)
     check_names(layout)
     writer = Writer(layout, values or evaluate_model(model))
-    return saved(assemble(model, writer), writer.caches)
+    with _uncollected():
+        return saved(assemble(model, writer), writer.caches)
+
+
+@contextmanager
+def _uncollected() -> Iterator[None]:
+    """No search for garbage among many small objects that all stay until the book is written."""
+    running = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if running:
+            gc.enable()
 
 
 def assemble(

@@ -22,13 +22,13 @@ MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 # All of Excel 2007 and before, none volatile, the same in LibreOffice and formualizer.
 ALLOWED = {
     "ABS", "ACOS", "AND", "ASIN", "ATAN2", "AVERAGE", "COS", "COUNT", "COUNTIF", "DEGREES", "EXP",
-    "IF", "INDEX", "INT", "LN", "MATCH", "MAX", "MIN", "MOD", "NOT", "OR", "PI", "RADIANS", "RANK",
+    "IF", "INDEX", "INT", "LN", "MATCH", "MAX", "MIN", "MOD", "NOT", "OR", "PI", "RADIANS",
     "ROUND",
     "SIN", "SQRT", "SUM", "SUMPRODUCT", "TAN",
 }  # fmt: skip
 VOLATILE = {"CELL", "INDIRECT", "INFO", "NOW", "OFFSET", "RAND", "RANDBETWEEN", "TODAY"}
 OF_RANGES = {
-    "AVERAGE", "COUNT", "COUNTIF", "INDEX", "MATCH", "MAX", "MIN", "RANK", "SUM", "SUMPRODUCT",
+    "AVERAGE", "COUNT", "COUNTIF", "INDEX", "MATCH", "MAX", "MIN", "SUM", "SUMPRODUCT",
 }  # fmt: skip
 LONGEST = 250  # characters of a formula that a person reads
 _GUARD = re.compile(r"\b0\.0{6,}1\b|\b9999\b|\bMAX\(1,ABS\(")

@@ -59,6 +59,7 @@ SLOW = (
     "tests/validation/test_validation_book.py",
     "tests/workbook/test_golden.py::test_saved_by_libreoffice",
     "tests/workbook/test_motion.py::test_libreoffice",
+    "tests/workbook/test_print.py::test_the_textbooks",
     "tests/workbook/test_schema.py",
 )
 

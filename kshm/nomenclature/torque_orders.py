@@ -5,6 +5,8 @@ from __future__ import annotations
 from kshm.nomenclature.digits import Row
 
 ROWS: tuple[Row, ...] = (
+    ("t_part_cos", "a₂", r"a_2", "MPa", "косинусная составляющая 2-го порядка", 5),
+    ("t_part_sin", "b₂", r"b_2", "MPa", "синусная составляющая 2-го порядка", 5),
     ("t_gas_MPa", "tг", r"t_{\mathrm{г}}", "MPa", "удельная тангенциальная сила газов", 4),
     ("t_inertia_MPa", "tj", "t_j", "MPa", "удельная тангенциальная сила инерции", 4),
     ("t_motored_MPa", "tг без сгорания", r"t_{\mathrm{г0}}", "MPa", "удельная тангенциальная сила газов без сгорания", 4),

@@ -138,8 +138,20 @@ def _call(name: str, args: list[ast.expr], refs: References) -> tuple[str, int]:
         return f"SUM({refs.down_to_here(_key(args[0]))})", _ATOM
     if name in ("fourier_cos", "fourier_sin"):
         return _fourier(name, args, refs), 3
+    if name in ("wave_cos", "wave_sin"):
+        return _wave(name, args, refs), _ATOM
+    if name == "first_largest":
+        run = refs.column(_key(args[0]), repeat_last=True)
+        return f"MATCH(MAX({run}),{run},0)", _ATOM
+    if name == "place":
+        body = refs.column(_key(args[1]), repeat_last=False)
+        return f"MATCH({_emit(args[0], refs)[0]},{body},1)", _ATOM
+    if name == "rank":
+        run = refs.column(_key(args[1]), repeat_last=True)
+        return f"1+SUMPRODUCT(({run}<{_wrapped(args[0], 2, refs)})*1)", 2
     if name == "round":
-        return f"ROUND({_emit(args[0], refs)[0]},0)", _ATOM
+        decimals = _emit(args[1], refs)[0] if args[1:] else "0"
+        return f"ROUND({_emit(args[0], refs)[0]},{decimals})", _ATOM
     if name == "atan2":
         # Excel takes (x, y) where everybody else takes (y, x).
         y, x = (_emit(arg, refs)[0] for arg in args)
@@ -188,6 +200,13 @@ def _fourier(name: str, args: list[ast.expr], refs: References) -> str:
     angles = refs.column(_key(args[1]), repeat_last=False)
     turn = f"{name.removeprefix('fourier_').upper()}({angles}*({_emit(args[2], refs)[0]}*PI()/180))"
     return f"2*SUMPRODUCT({values},{turn})/COUNT({values})"
+
+
+def _wave(name: str, args: list[ast.expr], refs: References) -> str:
+    """Waves, weighted or not, over all of a run."""
+    *weights, angles = (refs.column(_key(arg), repeat_last=True) for arg in args[:-1])
+    turn = f"{name.removeprefix('wave_').upper()}({angles}*({_emit(args[-1], refs)[0]}*PI()/180))"
+    return f"SUMPRODUCT({','.join([*weights, turn])})"
 
 
 def _interpolate(args: list[ast.expr], refs: References) -> str:

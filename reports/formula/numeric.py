@@ -35,6 +35,22 @@ def _fourier(turn: Callable[[Value], Value]) -> Callable[[Value, Value, Value], 
     return coefficient
 
 
+def _wave(turn: Callable[[Value], Value]) -> Callable[..., Value]:
+    """Sum of waves, weighted or not, over all of a run; one order or one per row."""
+
+    def total(*given: Value) -> Value:
+        *weights, degrees, order = given
+        waves = turn(np.multiply.outer(order, np.radians(degrees)))
+        return waves @ np.asarray(weights[0], dtype=float) if weights else waves.sum(axis=-1)
+
+    return total
+
+
+def _place(x: Value, points: Value) -> Value:
+    known = np.asarray(points, dtype=float)
+    return np.clip(np.searchsorted(known, x, side="right"), 1, len(known) - 1).astype(float)
+
+
 def _element(run: Value, number: Value) -> Value:
     values = np.asarray(run, dtype=float)
     rows = np.asarray(number, dtype=float).astype(int) - 1
@@ -50,9 +66,10 @@ def _spline(x: Value, knots: Value, c0: Value, c1: Value, c2: Value, c3: Value) 
     return first + u * (second + u * (third + u * fourth))
 
 
-def _rounded(value: Value) -> Value:
-    # As a spreadsheet rounds: halves away from zero.
-    return np.copysign(np.floor(np.abs(value) + 0.5), value)
+def _rounded(value: Value, decimals: Value = 0.0) -> Value:
+    # As a spreadsheet rounds: halves away from zero, and zero has no sign.
+    scale = 10.0**decimals
+    return np.copysign(np.floor(np.abs(value) * scale + 0.5) / scale, value) + 0.0
 
 
 def _following(column: Value) -> Value:
@@ -63,9 +80,12 @@ def _previous(column: Value) -> Value:
     return np.insert(np.asarray(column, dtype=float)[:-1], 0, 0.0)
 
 
-_FUNCTIONS |= {"element": _element, "spline": _spline, "round": _rounded}
+_FUNCTIONS |= {"element": _element, "spline": _spline, "round": _rounded, "place": _place}
+_FUNCTIONS |= {"rank": lambda value, run: 1.0 + float(np.sum(np.asarray(run) < value))}
+_FUNCTIONS |= {"first_largest": lambda run: float(np.argmax(run) + 1)}
 _FUNCTIONS |= {"following": _following, "previous": _previous, "running_sum": np.cumsum}
 _FUNCTIONS |= {"fourier_cos": _fourier(np.cos), "fourier_sin": _fourier(np.sin)}
+_FUNCTIONS |= {"wave_cos": _wave(np.cos), "wave_sin": _wave(np.sin)}
 
 _JOINS: dict[str, Callable[[Value, Value], Value]] = {
     "min": np.minimum, "max": np.maximum, "total": np.add,

@@ -275,6 +275,10 @@ class _Printer:
         if name == "atan2":
             ratio = rf"\dfrac{{{self.text(args[0])}}}{{{self.text(args[1])}}}"
             return rf"\arctg {ratio}", _PRODUCT
+        if name in ("wave_cos", "wave_sin"):
+            *weight, angle = (_Printer(self.symbols, None).text(arg) for arg in args[:-1])
+            turn, order = name.removeprefix("wave_"), self.text(args[-1])
+            return rf"\sum {''.join(weight)} \{turn}\left({order} {angle}\right)", _PRODUCT
         if name == "total":
             return " + ".join(self._wrap(arg, _SUM) for arg in args), _SUM
         if name in _NAMES:

@@ -13,7 +13,7 @@ class Series:
     """A curve: columns or grid rows as ``table.key``; ``name`` overrides the symbol.
 
     ``only`` says who draws it where workbook and report differ.  An invisible curve keeps the
-    limits of both axes of the workbook's chart equal.
+    limits of both axes of the workbook's chart equal; a point is a run of one.
     """
 
     x: str
@@ -21,6 +21,7 @@ class Series:
     name: str = ""
     only: Literal["", "workbook", "report"] = ""
     invisible: bool = False
+    point: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,5 +158,6 @@ def wear_chart(
     curves = (
         Series(f"{grid}.circle_x", f"{grid}.circle_y", "шейка"),
         Series(f"{grid}.wear_x", f"{grid}.wear_y", "износ"),
+        Series(f"{grid}.hole_x", f"{grid}.hole_y", "отверстие", only="workbook", point=True),
     )
     return ChartSpec(chart, sheet, title, "wear", curves, x_reversed=True, hole=hole, **more)

@@ -5,23 +5,22 @@ from __future__ import annotations
 from reports.spec.blocks import Column, Scalar
 
 # Equal extremes may differ in the last bit between spreadsheet programs.
-TIE = "0.000000001"
-NEVER = "9999"
+TIE = "0.000001"
 
 
 def extreme_columns(column: str, name: str) -> tuple[Column, ...]:
-    """Helper columns: the angle where the value is the extreme, a large number elsewhere."""
+    """Helper columns: the angle where the value is the extreme, the last angle elsewhere."""
     high, low = f"{name}_max", f"{name}_min"
     return (
         Column(
             "at_max_deg",
-            f"phi_deg if {column} >= {high} - {TIE}*max(1, abs({high})) else {NEVER}",
+            f"phi_deg if {column} > {high} - {TIE} else col_last(phi_deg)",
             "вспомогательный",
             helper=True,
         ),
         Column(
             "at_min_deg",
-            f"phi_deg if {column} <= {low} + {TIE}*max(1, abs({low})) else {NEVER}",
+            f"phi_deg if {column} < {low} + {TIE} else col_last(phi_deg)",
             "вспомогательный",
             helper=True,
         ),
@@ -36,11 +35,3 @@ def extreme_scalars(table: str, column: str, name: str, source: str) -> tuple[Sc
         Scalar(f"{name}_min", f"col_min({table}.{column})", source),
         Scalar(f"phi_{name}_min_deg", f"col_min({table}.at_min_deg)", source),
     )
-
-
-def first_number(keys: list[tuple[int, str]], top: str) -> str:
-    """Number of the first value that equals the largest, ``top``, within rounding."""
-    text = NEVER
-    for number, key in reversed(keys):
-        text = f"({number} if {key} >= ({top}) - {TIE}*max(1, abs({top})) else {text})"
-    return text

@@ -12,6 +12,7 @@ from kshm.engine.arrangement import Arrangement, pins, throws
 from reports.inputs.sections.input_file import GeometrySection, InputFile
 from reports.inputs.to_si.engine import arrangement_of
 
+FIRING = "scheme.cyl_theta"  # the beginnings of all power strokes, side by side
 TIMING = "timing_deg"  # helper column: the angle in the cycle counted on from the piston's TDC
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from openpyxl.chart import ScatterChart
-from openpyxl.chart.data_source import AxDataSource, NumDataSource, NumRef
+from openpyxl.chart.data_source import AxDataSource, NumData, NumDataSource, NumRef, NumVal
 from openpyxl.chart.label import DataLabel, DataLabelList
 from openpyxl.chart.layout import Layout as PlotLayout
 from openpyxl.chart.layout import ManualLayout
@@ -22,12 +22,14 @@ from openpyxl.drawing.text import (
     ParagraphProperties,
     RegularTextRun,
 )
+from openpyxl.utils import get_column_letter
 
 from kshm.nomenclature.quantity import quantity, roman
 from reports.spec.charts import ChartSpec
 from reports.spec.charts import Series as SeriesSpec
 from reports.spec.evaluation import Values
-from reports.workbook.layout import Layout, column_range
+from reports.workbook.chapters import chapter_of
+from reports.workbook.layout import FIRST_ROW, Layout, column_range, quoted
 
 WIDE, HIGH = 408, 290  # px: several beside a table
 ROOMY = 500  # px: width of three in a row on a sheet of their own
@@ -35,6 +37,7 @@ STUDY = (16.0, 7.6)  # cm
 _LINE, _DEEP = 19050, 57150  # EMU: 1.5 pt, 4.5 pt
 # Told apart without colour too: solid, dashed, dotted.
 _DASHES = ("solid", "dash", "sysDot", "dashDot")
+_ZERO = 1e-9  # what rounding leaves of nothing
 _EDGE = 1.2  # of a drawing in a unit square, with room for numbers around it
 _COLOURS = ("1F3864", "C00000", "2E7D32", "7F6000")
 
@@ -58,10 +61,14 @@ def make_chart(
     chart = _empty(title)
     curves = spec.drawn_by("workbook")
     for number, series in enumerate(curves):
-        chart.series.append(_series(series, number, layout))
+        chart.series.append(_series(series, number, layout, smooth=is_smooth(spec)))
     if spec.kind == "wear":
         for line in _rays(spec, layout):
             chart.series.append(_ray(len(chart.series), line))
+    if spec.kind == "polar":
+        for mark in _marks(spec, layout):
+            chart.series.append(_mark(len(chart.series), mark))
+        chart.series.append(_pole(len(chart.series)))
     _axes(chart, spec, values, oblong)
     _legend(chart, shown=not spec.equal_axes and len(curves) > 1)
     return chart
@@ -87,6 +94,52 @@ def _ray(number: int, line: Curve) -> XYSeries:
     made.dLbls = DataLabelList(dLbl=[label], showSerName=False, showVal=False)
     made.dLbls.showLegendKey = made.dLbls.showCatName = made.dLbls.showPercent = False
     return made
+
+
+def _marks(spec: ChartSpec, layout: Layout) -> list[Curve]:
+    """Points of a polar diagram at round angles, called by them."""
+    path = spec.drawn_by("workbook")[0]
+    if path.y not in layout.columns:
+        return []
+    table = layout.columns[path.y][0]
+    angles = table.rows[:-1]
+    wanted = 90 if angles[-1] > 360 else 60
+    first = layout.rows_of(table)[0]
+    return [
+        Curve(f"{angle:g}°", *(
+            f"{quoted(table.sheet)}!${get_column_letter(layout.column_of(key))}${first + place}"
+            for key in (path.x, path.y)
+        ))
+        for place, angle in enumerate(angles)
+        if angle % wanted == 0
+    ]  # fmt: skip
+
+
+def _mark(number: int, point: Curve) -> XYSeries:
+    """A small point with its name beside it."""
+    made = _curve(number, point, _hidden())
+    made.marker = Marker(symbol="circle", size=4)
+    made.marker.spPr = GraphicalProperties(solidFill=_COLOURS[0])
+    made.dLbls = DataLabelList(dLblPos="r", showSerName=True, showVal=False)
+    made.dLbls.showLegendKey = made.dLbls.showCatName = made.dLbls.showPercent = False
+    return made
+
+
+def _pole(number: int) -> XYSeries:
+    """Where the vector is measured from."""
+    made = _mark(number, Curve("O", "", ""))
+    zero = NumData(ptCount=1, pt=[NumVal(idx=0, v="0")])
+    made.xVal, made.yVal = AxDataSource(numLit=zero), NumDataSource(numLit=zero)
+    made.marker.size = 7
+    made.marker.spPr = GraphicalProperties(solidFill="C00000")
+    return made
+
+
+def is_blank(spec: ChartSpec, layout: Layout, values: Values) -> bool:
+    """Whether all curves of a chart are zero; cells still to be filled in are not."""
+    found = ranges_of(spec, layout, values)
+    ends = [series.y for series in spec.drawn_by("workbook") if not series.invisible]
+    return all(abs(y) < _ZERO for key in ends for y in found[layout.range_of(key)])
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,7 +188,7 @@ def drawing(
         look.prstDash = "solid"
         made = _curve(
             number, Curve(line.name, line.x, line.y),
-            LineProperties(noFill=True) if line.hidden or line.point else look,
+            _hidden() if line.hidden or line.point else look,
         )  # fmt: skip
         if line.point:
             made.marker = Marker(symbol="circle", size=9)
@@ -236,12 +289,25 @@ def _axes(chart: ScatterChart, spec: ChartSpec, values: Values, oblong: float) -
             axis.number_format = "0.0"
 
 
-def _series(series: SeriesSpec, number: int, layout: Layout) -> XYSeries:
+def is_smooth(spec: ChartSpec) -> bool:
+    """Curves of motion and inertia have no corners: they are drawn round between their points."""
+    return spec.x_is_angle and chapter_of(spec.sheet).smooth
+
+
+def _series(series: SeriesSpec, number: int, layout: Layout, *, smooth: bool) -> XYSeries:
     node = layout.model.nodes.get(series.y)  # a column; rows of grids are called by quantity
     known = node.quantity if node is not None else quantity(series.y.split(".")[1])
     name = series.name or known.symbol
-    line = LineProperties(noFill=True) if series.invisible else _look(number)
-    return _curve(number, Curve(name, layout.range_of(series.x), layout.range_of(series.y)), line)
+    line = _hidden() if series.invisible or series.point else _look(number)
+    ranges = layout.range_of(series.x), layout.range_of(series.y)
+    if series.point:
+        made = _mark(number, Curve(name, *ranges))
+        made.marker.size = 9
+        made.marker.spPr = GraphicalProperties(solidFill="C00000")
+        return made
+    made = _curve(number, Curve(name, *ranges), line)
+    made.smooth = smooth
+    return made
 
 
 def _curve(number: int, curve: Curve, line: LineProperties) -> XYSeries:
@@ -254,6 +320,10 @@ def _curve(number: int, curve: Curve, line: LineProperties) -> XYSeries:
     made.spPr = GraphicalProperties(ln=line)
     made.marker = Marker(symbol="none")
     return made
+
+
+def _hidden() -> LineProperties:
+    return LineProperties(w=_LINE, noFill=True)  # without a width Gnumeric draws it
 
 
 def _look(number: int) -> LineProperties:
@@ -273,10 +343,16 @@ def ranges_of(spec: ChartSpec, layout: Layout, values: Values) -> dict[str, list
         else:
             numbers = [float(values.scalars[name]) for name in layout.keys_of_run(key)]
         found[layout.range_of(key)] = numbers
+    path = spec.drawn_by("workbook")[0]
     if spec.kind == "wear":
         circle, wear = (values_of for values_of in spec.drawn_by("workbook")[:2])
         for axis in "xy":
             ends = [found[layout.range_of(getattr(series, axis))] for series in (wear, circle)]
             for line, depth, edge in zip(_rays(spec, layout), *ends, strict=False):
                 found[getattr(line, axis)] = [depth, edge]
+    if spec.kind == "polar":
+        for mark in _marks(spec, layout):
+            row = int(mark.x.rpartition("$")[2]) - FIRST_ROW
+            for at, key in ((mark.x, path.x), (mark.y, path.y)):
+                found[at] = [found[layout.range_of(key)][row]]
     return found

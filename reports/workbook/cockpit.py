@@ -18,7 +18,7 @@ from reports.workbook import styles
 from reports.workbook.chapters import chapter_of, heading
 from reports.workbook.charts import HIGH, WIDE, make_chart, ranges_of
 from reports.workbook.inputs import shown
-from reports.workbook.layout import Cell
+from reports.workbook.layout import Cell, column_range
 from reports.workbook.links import link
 from reports.workbook.places import GAP, Box, anchor, flow, top_of
 from reports.workbook.sheets import Writer
@@ -35,8 +35,9 @@ RESULTS = (
     "delta_work", "I_flywheel",
 )  # fmt: skip
 CHARTS = ("p_phi", "fig49", "fig50", "fig52")
-_WIDTHS = {"A": 52, "B": 12, "C": 12, "D": 9, "E": 2}
+_WIDTHS = {"A": 62, "B": 12, "C": 12, "D": 9, "E": 2}
 _TOP = 3
+_TITLE_CHARS = 60  # of a line of the first column
 
 
 def write_cockpit(
@@ -87,9 +88,12 @@ def _verdict(sheet: Worksheet, model: Model, writer: Writer, row: int) -> int:
         return row
     passed = sum(values[key] == YES for key in keys) == len(keys)
     good, bad = "все выполнены", "есть невыполненные: лист «Проверки»"
-    test = ",".join(f'{key}="{YES}"' for key in keys)
+    first, last = (writer.layout.cells[key] for key in (keys[0], keys[-1]))
+    run = column_range(first.sheet, first.column, first.row, last.row)
     sheet.cell(row, 1, "Проверки расчёта").style = styles.TEXT
-    writer.formula(sheet, row, 2, f'=IF(AND({test}),"{good}","{bad}")', good if passed else bad)
+    writer.formula(
+        sheet, row, 2, f'=IF(COUNTIF({run},"{NO}")=0,"{good}","{bad}")', good if passed else bad
+    )
     sheet.cell(row, 2).style = styles.LINE
     return row + 1
 
@@ -99,6 +103,8 @@ def _values(sheet: Worksheet, writer: Writer, row: int, title: str, keys: Sequen
     sheet.cell(row, 1, title).style = styles.SUBTITLE
     for text, symbol, key, value, unit, look in known(writer, keys):
         row += 1
+        if len(text) > _TITLE_CHARS:
+            sheet.row_dimensions[row].height = 30
         for column, words in ((1, text), (2, symbol), (4, unit)):
             sheet.cell(row, column, words or None).style = styles.TEXT
         writer.formula(sheet, row, 3, f"={key}", value)

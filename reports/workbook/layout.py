@@ -212,32 +212,39 @@ class Layout:
 
 
 class RowReferences:
-    """References of a formula compiled once for a whole column, see ``at_row``."""
+    """References of a formula compiled once for a whole column, see ``at_row``.
 
-    def __init__(self, layout: Layout, table: TableSpec | None) -> None:
+    Cells of the formula's own sheet are called without its title.
+    """
+
+    def __init__(self, layout: Layout, table: TableSpec | None, sheet: str = "") -> None:
         self._layout = layout
         self._table = table
+        self._own = quoted(sheet or (table.sheet if table is not None else "")) + "!"
 
     def name(self, key: str) -> str:
         """Scalar, or this row's cell of a column."""
         found = self._column(key)
-        return self._layout.name_of(key) if found is None else self._cell(found, _ROW)
+        if found is None:
+            return self._layout.name_of(key).removeprefix(self._own)
+        return self._cell(found, _ROW)
 
     def column(self, key: str, *, repeat_last: bool) -> str:
         """Whole column."""
         full = self._qualified(key)
         if repeat_last:
-            return self._layout.range_of(full)
+            return self._layout.range_of(full).removeprefix(self._own)
         if full in self._layout.columns:
             count = len(self._layout.columns[full][0].rows)
         else:
             count = len(self._layout.cells_of_run(full))
-        return self._layout.range_of(full, rows=count - 1)
+        return self._layout.range_of(full, rows=count - 1).removeprefix(self._own)
 
     def last(self, key: str) -> str:
         """Last cell of a column."""
         table, column = self._layout.columns[self._qualified(key)]
-        return Cell(table.sheet, FIRST_ROW + len(table.rows) - 1, column).absolute
+        last = Cell(table.sheet, FIRST_ROW + len(table.rows) - 1, column).absolute
+        return last.removeprefix(self._own)
 
     def following(self, key: str) -> str:
         """Next row's cell."""

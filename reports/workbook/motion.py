@@ -167,17 +167,26 @@ def _by_cylinder(
 
 def _chosen(sheet: Worksheet, writer: Writer, view: _View, shape: Shape) -> None:
     """What is known of the chosen cylinder: angles, forces, pressure, torque."""
-    phase = "psi" if shape.single_rods else ANGLE
+
+    def at_psi(column: str) -> str:
+        before = f"element({column}, view_knot)"
+        return f"{before} + view_share*(element({column}, view_knot + 1) - {before})"
+
+    def of_pin(column: str) -> str:
+        return at_psi(column) if shape.single_rods else f"element({column}, view_row)"
+
     lines = (
         ("psi", "Угол от его ВМТ ψ", "°", f"element(all_psi, {CYLINDER})"),
         ("beta", "Угол шатуна β", "рад", shape.beta("psi")),
+        ("view_knot", "Строка таблиц до ψ", "", "floor(psi/calculation_step_deg) + 1"),
+        ("view_share", "Доля шага после неё", "",
+         "psi/calculation_step_deg - floor(psi/calculation_step_deg)"),
         *((f, f"Сила {f}", "МПа", f"element(all_{f}, {CYLINDER})") for f in _FORCES),
-        ("gas_p", "Давление газов p", "МПа", "interpolate(psi, gas.phi_deg, gas.p_MPa)"),
-        ("gas_V", "Объём V", "дм³", "interpolate(psi, gas.phi_deg, gas.volume_dm3)"),
+        ("gas_p", "Давление газов p", "МПа", at_psi("gas.p_MPa")),
+        ("gas_V", "Объём V", "дм³", at_psi("gas.volume_dm3")),
         ("torque", "Суммарный момент ΣM", "Н·м", "element(P4_2.Msum_Nm, view_row)"),
-        ("pin_T", "Нагрузка шейки: T", "МПа",
-         f"interpolate({phase}, crankpin.phi_deg, crankpin.T_MPa)"),
-        ("pin_K", "K − Kr ш", "МПа", f"interpolate({phase}, crankpin.phi_deg, crankpin.Krod_MPa)"),
+        ("pin_T", "Нагрузка шейки: T", "МПа", of_pin("crankpin.T_MPa")),
+        ("pin_K", "K − Kr ш", "МПа", of_pin("crankpin.Krod_MPa")),
         ("r", "Радиус кривошипа r", "мм", "to_mm(r_crank)"),
         ("L", "Длина шатуна L", "мм", "to_mm(L_rod)"),
         ("D", "Диаметр цилиндра D", "мм", "to_mm(sqrt(4*F_piston/pi))"),

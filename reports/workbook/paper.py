@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from math import floor
 
 import numpy as np
 from openpyxl.utils import get_column_letter
@@ -31,7 +32,8 @@ _CYCLE_WIDTHS = {2: 20, 4: 17, SOURCE_COLUMN: 28, 6: 17, 7: 17, 8: 17}
 _RANGE_WIDTHS = {1: 76, 2: 4, 4: 16, SOURCE_COLUMN: 42}
 UPRIGHT = 1290  # px: wider sheets lie
 _PAPER = {"portrait": (690, 1010), "landscape": (1030, 670)}  # px: A4 less its margins
-_LEAST = 0.5  # scale below which a sheet rather takes more pages
+_LEAST = 0.47  # scale below which a sheet rather takes more pages
+_SQUEEZED = 0.3  # what is made smaller by less than this saves a page
 
 
 def set_widths(sheet: Worksheet, model: Model, layout: Layout, values: Values) -> None:
@@ -82,10 +84,16 @@ def set_page(sheet: Worksheet, boxes: Sequence[Box]) -> None:
     page.paperSize = sheet.PAPERSIZE_A4
     scales = {name: min(w / width, h / height) for name, (w, h) in _PAPER.items()}
     page.orientation = max(scales, key=lambda name: scales[name])
-    whole = scales[page.orientation] >= _LEAST
-    if not whole and width > UPRIGHT:
-        page.orientation = "landscape"
-    page.fitToWidth, page.fitToHeight = 1, int(whole)
+    pages = int(scales[page.orientation] >= _LEAST)
+    if not pages:
+        if width > UPRIGHT:
+            page.orientation = "landscape"
+        across, down = _PAPER[page.orientation]
+        sheets = height * min(1, across / width) / down
+        # A few rows too many go onto the page before, or stand on one of their own.
+        spare = floor(sheets) and sheets <= floor(sheets) * (1 + _SQUEEZED)
+        pages = floor(sheets) if spare else 0
+    page.fitToWidth, page.fitToHeight = 1, pages
     sheet.sheet_properties.pageSetUpPr.fitToPage = True
     sheet.print_area = area(Cell("", 1, 1), last)
     margins = sheet.page_margins

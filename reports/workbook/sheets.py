@@ -11,6 +11,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from kshm.nomenclature.quantity import Quantity
 from reports.formula.excel import compile_formula
+from reports.formula.plain import plain
 from reports.shared.russian import capital
 from reports.spec.blocks import Grid, Scalar, ScalarTable, TableSpec
 from reports.spec.evaluation import Values
@@ -31,6 +32,7 @@ from reports.workbook.layout import (
 
 # Characters of a line in the columns of titles and sources, height of a line [pt].
 _TITLE_CHARS, _SOURCE_CHARS, _LINE_HEIGHT = 58, 24, 15
+_NOTE_CHARS, _LONGEST_NOTE = 38, 240  # of a line of a comment, of a formula in it
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +79,8 @@ class Writer:
             index = place.column + number - 1
             header = sheet.cell(HEADER_ROW, index, column.quantity.header)
             header.style = styles.HEADER
-            header.comment = note(column.quantity, column.source)
+            formula = self.explained(column.quantity, column.expr, table.id)
+            header.comment = note(column.quantity, column.source, formula)
             sheet.cell(NUMBER_ROW, index, number).style = styles.NUMBER
             values = self.values.columns[table.id][column.key]
             style = styles.HELPER if column.helper or table.helper else styles.FORMULA
@@ -96,6 +99,25 @@ class Writer:
             ]
             look = (style, styles.excel_format(column.quantity))
             self.column(sheet, index, texts, values.astype(float).tolist(), look)
+
+    def explained(self, quantity: Quantity, text: str | None, table: str = "") -> str:
+        """A quantity's formula in the symbols of the book; nothing of a copy or a very long one."""
+        if text is None:
+            return ""
+        said = plain(text, lambda name: self._symbol(name, table))
+        made = f"{quantity.symbol} = {said}"
+        return "" if said == quantity.symbol or len(made) > _LONGEST_NOTE else made
+
+    def _symbol(self, name: str, table: str) -> str:
+        model = self.layout.model
+        field = model.fields.get(name)
+        if field is not None:
+            return field.symbol.replace("_", "") or f"[{field.title}]"
+        node = model.nodes.get(f"{table}.{name}") or model.nodes.get(name)
+        if node is not None:
+            return node.quantity.symbol
+        run = model.grid_runs.get(name) or model.input_runs[name]
+        return self._symbol(run[0], "")
 
     def column(
         self,
@@ -137,7 +159,7 @@ class Writer:
     def scalar(self, sheet: Worksheet, scalar: Scalar) -> None:
         """The value cell of a scalar."""
         at = self.layout.cells[scalar.key]
-        text = compile_formula(scalar.expr, RowReferences(self.layout, None))
+        text = compile_formula(scalar.expr, RowReferences(self.layout, None, sheet.title))
         self.formula(sheet, at.row, at.column, text, self.values.scalars[scalar.key])
         cell = sheet.cell(at.row, at.column)
         cell.style = styles.CHECK if scalar.of == "check" else styles.FORMULA
@@ -181,8 +203,9 @@ class Writer:
             wide = first > VALUE_COLUMN - 1
             label = sheet.cell(at, 1, capital(quantity.title) if wide else quantity.header)
             label.style = styles.HEADER if not wide else styles.TEXT
-            source = next(cell.source for cell in row.cells if cell is not None)
-            label.comment = note(quantity, source)
+            first_cell = next(cell for cell in row.cells if cell is not None)
+            formula = self.explained(quantity, first_cell.expr)
+            label.comment = note(quantity, first_cell.source, formula)
             if wide:
                 sheet.cell(at, 2, quantity.header).style = styles.TEXT
                 _raise_row(sheet, at, quantity.title)
@@ -198,9 +221,9 @@ def _raise_row(sheet: Worksheet, row: int, title: str, source: str = "") -> None
         sheet.row_dimensions[row].height = _LINE_HEIGHT * lines
 
 
-def note(quantity: Quantity, source: str) -> Comment:
-    """Comment of a header: what the quantity is and where its formula stands."""
+def note(quantity: Quantity, source: str, formula: str = "") -> Comment:
+    """Comment of a header: what the quantity is, its formula and where this stands."""
     text = capital(quantity.title) + (f", {quantity.unit_label}" if quantity.unit_label else "")
-    comment = Comment(f"{text}\n{source}" if source else text, "kshm")
-    comment.width, comment.height = 260, 70
+    comment = Comment("\n".join(filter(None, (text, formula, source))), "kshm")
+    comment.width, comment.height = 260, 70 + 17 * ceil(len(formula) / _NOTE_CHARS)
     return comment

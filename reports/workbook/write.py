@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import gc
 import io
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from math import ceil
 
 from lxml.etree import SerialisationError
@@ -23,7 +25,7 @@ from reports.spec.evaluation import Values, evaluate_model
 from reports.workbook import motion, styles, what_if
 from reports.workbook.caches import finish
 from reports.workbook.chapters import chapter_of, diagrams_of, heading, ordered
-from reports.workbook.charts import WIDE, make_chart, pixels, ranges_of
+from reports.workbook.charts import WIDE, is_blank, make_chart, pixels, ranges_of
 from reports.workbook.cockpit import write_cockpit
 from reports.workbook.inputs import write_inputs
 from reports.workbook.layout import (
@@ -65,7 +67,20 @@ def workbook_bytes(model: Model, values: Values | None = None) -> bytes:
     layout = Layout.of(model)
     check_names(layout)
     writer = Writer(layout, values or evaluate_model(model))
-    return saved(assemble(model, writer), writer.caches)
+    with _uncollected():
+        return saved(assemble(model, writer), writer.caches)
+
+
+@contextmanager
+def _uncollected() -> Iterator[None]:
+    """No search for garbage among many small objects that all stay until the book is written."""
+    running = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if running:
+            gc.enable()
 
 
 def assemble(
@@ -182,8 +197,14 @@ def _charts(book: Workbook, model: Model, writer: Writer) -> dict[str, list[Box]
     found: dict[str, list[Box]] = {}
     homeless: dict[str, list[ChartSpec]] = {}
     for title in ordered(model.sheets):
-        specs = [spec for spec in model.charts if spec.sheet == title]
         sheet = book[title]
+        specs: list[ChartSpec] = []
+        blank: list[ChartSpec] = []
+        for spec in (spec for spec in model.charts if spec.sheet == title):
+            empty = is_blank(spec, writer.layout, writer.values)
+            (blank if empty else specs).append(spec)
+        if blank:
+            _say_blank(sheet, blank)
         boxes = _room(sheet, specs, frozen=title in {t.sheet for t in model.tables.values()})
         if boxes is None:
             homeless.setdefault(diagrams_of(chapter_of(title)), []).extend(specs)
@@ -196,6 +217,12 @@ def _charts(book: Workbook, model: Model, writer: Writer) -> dict[str, list[Box]
         found[title] = flow([pixels(spec, wide=True) for spec in specs], GAP, _ROWS_PX, SCREEN)
         _draw(sheet, specs, found[title], writer)
     return found
+
+
+def _say_blank(sheet: Worksheet, specs: Sequence[ChartSpec]) -> None:
+    """Which charts are left out, for all their values are zero."""
+    text = f"Не начерчено, все значения равны нулю: {'; '.join(spec.title for spec in specs)}."
+    _note(sheet, f"{sheet.cell(NOTE_ROW, 3).value or ''} {text}".strip())
 
 
 def _room(sheet: Worksheet, specs: Sequence[ChartSpec], *, frozen: bool) -> list[Box] | None:

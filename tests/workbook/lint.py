@@ -11,6 +11,7 @@ from lxml import etree
 
 from reports.formula.parse import SCALES, parse
 from reports.spec.blocks import Model, TableSpec, scalars_of
+from reports.workbook.chapters import chapter_of
 from reports.workbook.charts import HIGH, WIDE
 from reports.workbook.motion import SHAPE as MECHANISM
 
@@ -20,13 +21,17 @@ MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 
 # All of Excel 2007 and before, none volatile, the same in LibreOffice and formualizer.
 ALLOWED = {
-    "ABS", "ACOS", "AND", "ASIN", "ATAN2", "AVERAGE", "COS", "COUNT", "DEGREES", "EXP", "IF",
-    "INDEX", "INT", "LN", "MATCH", "MAX", "MIN", "MOD", "NOT", "OR", "PI", "RADIANS", "ROUND",
+    "ABS", "ACOS", "AND", "ASIN", "ATAN2", "AVERAGE", "COS", "COUNT", "COUNTIF", "DEGREES", "EXP",
+    "IF", "INDEX", "INT", "LN", "MATCH", "MAX", "MIN", "MOD", "NOT", "OR", "PI", "RADIANS",
+    "ROUND",
     "SIN", "SQRT", "SUM", "SUMPRODUCT", "TAN",
 }  # fmt: skip
 VOLATILE = {"CELL", "INDIRECT", "INFO", "NOW", "OFFSET", "RAND", "RANDBETWEEN", "TODAY"}
-OF_RANGES = {"AVERAGE", "COUNT", "INDEX", "MATCH", "MAX", "MIN", "SUM", "SUMPRODUCT"}
-_LONGEST = 8192  # characters of a formula in Excel
+OF_RANGES = {
+    "AVERAGE", "COUNT", "COUNTIF", "INDEX", "MATCH", "MAX", "MIN", "SUM", "SUMPRODUCT",
+}  # fmt: skip
+LONGEST = 250  # characters of a formula that a person reads
+_GUARD = re.compile(r"\b0\.0{6,}1\b|\b9999\b|\bMAX\(1,ABS\(")
 _LINES = ("19050", "57150")  # EMU: 1.5 pt, and 4.5 pt for worn depths
 
 # Literals that the compiler writes: scales of units, degrees and the two of a Fourier sum,
@@ -85,10 +90,13 @@ def _series_problems(root: etree._Element) -> Iterator[str]:
     if not series:
         yield "no series"
     for place, one in enumerate(series):
-        if _val(one, "smooth") != "0":
+        where = one.findtext(f"{C}xVal/{C}numRef/{C}f", "")
+        round_too = chapter_of(where.rpartition("!")[0].strip("'")).smooth
+        if _val(one, "smooth") not in (("0", "1") if round_too else ("0",)):
             yield f"series {place} is smoothed"
         symbol = one.find(f"{C}marker/{C}symbol")
-        moving = ":" not in one.findtext(f"{C}xVal/{C}numRef/{C}f", "")  # a point by one cell
+        ends = where.rpartition("!")[2].split(":")
+        moving = ends[0] == ends[-1]  # a point by one cell
         if symbol is None or symbol.get("val") != ("circle" if moving else "none"):
             yield f"series {place} has markers"
         line = one.find(f"{C}spPr/{A}ln")
@@ -102,7 +110,7 @@ def _cache_problems(root: etree._Element) -> list[str]:
         where = reference.findtext(f"{C}f")
         points = [point.text for point in reference.iterfind(f"{C}numCache/{C}pt/{C}v")]
         count = reference.find(f"{C}numCache/{C}ptCount")
-        least = 2 if ":" in where else 1
+        least = 2 if len(set(where.rpartition("!")[2].split(":"))) > 1 else 1
         if count is None or not len(points) == int(count.get("val")) >= least:
             found.append(f"{where}: the cache is not filled")
         elif not all(_is_number(text) for text in points):
@@ -126,7 +134,11 @@ def _polar_problems(root: etree._Element) -> list[str]:
     square = any(math.isclose(shape, wanted, rel_tol=1e-9) for wanted in shapes)
     if not square or _val(layout, "layoutTarget") != "inner":
         found.append("the plot area is not square")
-    texts = [formula.text for formula in root.iterfind(f".//{C}f")]
+    box = [s for s in root.findall(f".//{C}ser") if s.find(f"{C}spPr/{A}ln/{A}noFill") is not None]
+    texts = [formula.text for s in box for formula in s.iterfind(f".//{C}f")]
+    texts = [
+        text for text in texts if ":" in text and len(set(text.rpartition("!")[2].split(":"))) > 1
+    ]
     limits = [axis.find(f"{C}scaling/{C}max") for axis in root.findall(f".//{C}valAx")]
     # Equal limits are fixed, or a corner series spans the same range on both axes.
     if math.isclose(shape, shapes[2], rel_tol=1e-9):
@@ -151,8 +163,10 @@ def formula_problems(cell: etree._Element) -> list[str]:
         found.append(f"array or shared formula {dict(formula.attrib)}, not {wanted}")
     if re.search(r"\dE[+-]?\d", text) or re.search(r"(^=?|[(,*/+^<>=-])-\(", text):
         found.append("an exponent or a sign before a bracket")
-    if len(text) >= _LONGEST:
-        found.append("too long for Excel")
+    if len(formula.text or "") > LONGEST:
+        found.append("too long to be read")
+    if _GUARD.search(text):
+        found.append("a guard in place of a rounding, or a sentinel")
     if "[" in text or "#" in text:
         found.append("an external link or an error value")
     found += [f"{name} over a range" for name in _over_ranges(text)]

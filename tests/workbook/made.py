@@ -10,8 +10,11 @@ from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.spec.blocks import Model
 from reports.spec.charts import ChartSpec
+from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
+from reports.workbook.charts import is_blank
 from reports.workbook.cockpit import CHARTS
+from reports.workbook.layout import Layout
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
 
@@ -40,9 +43,10 @@ def coarse_book(name: str = "gots-diesel") -> bytes:
 
 
 def drawn(model: Model) -> list[ChartSpec]:
-    """All charts of a workbook: the first sheet's, then those of the tables."""
+    """All charts of a workbook: the first sheet's, then those of the tables that are not zero."""
     first = [model.charts_by_id[name] for name in CHARTS if name in model.charts_by_id]
-    return first + [spec for spec in model.charts if spec.sheet]
+    layout, values = Layout.of(model), evaluate_model(model)
+    return first + [s for s in model.charts if s.sheet and not is_blank(s, layout, values)]
 
 
 MOVING = 6  # charts of the mechanism's sheet, half of them with one scale on both axes

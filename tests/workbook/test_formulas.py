@@ -36,7 +36,9 @@ def cell(formula: str, value: str = "1") -> etree._Element:
         ("_xlfn.IFNA(A1,0)", "newer"), ("[1]Лист!A1+1", "external"), ("#REF!+1", "error value"),
         ("SUM(A1:A9*B1:B9)", "SUM on A1:A9"), ("MAX(ABS(A1:A9))", "ABS on A1:A9"),
         ("SUMPRODUCT(A1:A9,ABS(B1:B9))", "ABS on B1:B9"), ("A1:A9+1", "arithmetic on A1:A9"),
-        ("SUM(SIN('П4.1'!A1:A9))", "SIN on A1:A9"), ("A1" + "+A1" * 4000, "too long"),
+        ("SUM(SIN('П4.1'!A1:A9))", "SIN on A1:A9"), ("A1" + "+A1" * 90, "too long"),
+        ("IF(A1>=m-1,A6,9999)", "sentinel"),
+        ("A1<=180+0.0000001", "guard"), ("A1<b*MAX(1,ABS(b))", "guard"),
         ("A1*1E-07", "exponent"), ("2*(-(A1*B1))", "sign before"), ("-(A1+B1)", "sign before"),
     ],
 )  # fmt: skip
@@ -47,7 +49,7 @@ def test_the_lint_sees_each_defect(formula: str, said: str) -> None:
 @pytest.mark.parametrize(
     "formula",
     ["2*SUMPRODUCT('П4.2'!$B$6:$B$77,COS('П4.2'!$A$6:$A$77*(0.5*PI()/180)))/COUNT(B6:B77)",
-     'IF(A6<=0.0000001,"RAND()",MAX($B$6:$B$78,1))', "INDEX('Лист (2)'!A1:A9,MATCH(x,B1:B8,1)+1)",
+     'IF(A6<=0.000001,"RAND()",MAX($B$6:$B$78,1))', "INDEX('Лист (2)'!A1:A9,MATCH(x,B1:B8,1)+1)",
      "SUMPRODUCT(A1:A9*B1:B9)"],
 )  # fmt: skip
 def test_the_lint_passes_what_all_engines_share(formula: str) -> None:

@@ -33,9 +33,6 @@ def test_formulas_leave_the_repeated_last_row_out() -> None:
     made = model()
     references = RowReferences(Layout.of(made), made.tables["P4_2"])
     text = compile_formula("fourier_cos(M1_Nm, phi_deg, 0.5)", references)
-    assert text == (
-        "=2*SUMPRODUCT('П4.2'!$B$6:$B$77,COS('П4.2'!$A$6:$A$77*(0.5*PI()/180)))"
-        "/COUNT('П4.2'!$B$6:$B$77)"
-    )
+    assert text == ("=2*SUMPRODUCT($B$6:$B$77,COS($A$6:$A$77*(0.5*PI()/180)))/COUNT($B$6:$B$77)")
     running = compile_formula("running_sum(M1_Nm)", references)
     assert at_row(running, 9) == "=SUM($B$6:B9)"

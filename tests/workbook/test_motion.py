@@ -2,22 +2,30 @@
 
 from __future__ import annotations
 
+import io
+import zipfile
 from functools import lru_cache
 
 import formualizer
 import numpy as np
 import pytest
+from lxml import etree
 
 from kshm import solve
 from kshm.mechanics.kinematics import displacement_exact
 from reports.inputs.to_si.engine import engine_and_cycle
+from reports.workbook.caches import sheet_parts
 from reports.workbook.motion import SHEET
+from tests.workbook.lint import MAIN
 from tests.workbook.made import book, model
 from tools.referees.by_libreoffice import LibreOffice
 from tools.referees.cells import stripped
 
 TITLES = 1  # column
 TOLERANCE = 1e-9
+ANGLES = range(0, 720, 10)
+_R = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+_T = "application/vnd.openxmlformats-officedocument.spreadsheetml.worksheet+xml"
 
 
 @lru_cache
@@ -28,7 +36,7 @@ def opened(name: str) -> formualizer.Workbook:
 def rows(engine: formualizer.Workbook) -> dict[str, int]:
     """Row of each value beside the charts; the second of two alike is the ordinate."""
     found: dict[str, int] = {}
-    for row in range(4, 30):
+    for row in range(4, 32):
         title = engine.get_value(SHEET, row, TITLES)
         if title:
             found[f"{title}{row}" if title in found else title] = row
@@ -48,7 +56,7 @@ def test_points_and_forces_at_72_angles(name: str, cylinder: int) -> None:
     theta = next(f.value for f in model(name).inputs if f.name == f"firing_offset_{cylinder}_deg")
     engine.set_value(SHEET, at["Цилиндр"], 2, cylinder)
     top = np.sqrt((r + rod) ** 2 - offset**2)
-    for step, angle in enumerate(range(0, 720, 10)):
+    for step, angle in enumerate(ANGLES):
         engine.set_value(SHEET, at["Угол поворота вала φ"], 2, angle)
         engine.evaluate_all()
         psi = np.radians((angle - theta) % 720)
@@ -71,17 +79,58 @@ def test_points_and_forces_at_72_angles(name: str, cylinder: int) -> None:
         assert abs(found - total[step]) <= TOLERANCE * np.abs(total).max()
 
 
-def test_libreoffice_draws_the_same(libreoffice: LibreOffice) -> None:
+def at_all_angles(data: bytes, cylinder: int) -> bytes:
+    """The book with a sheet of the mechanism for each of 72 angles: «М0», «М10» …"""
+    made = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(data)) as given, zipfile.ZipFile(made, "w") as book:
+        part = sheet_parts(given)[SHEET]
+        root = etree.fromstring(given.read(part))
+        for name in ("drawing", "legacyDrawing"):
+            for element in root.findall(f"{MAIN}{name}"):
+                root.remove(element)
+        root.find(f".//{MAIN}c[@r='B5']/{MAIN}v").text = str(cylinder)
+        sheets, relations, types = [], [], []
+        for angle in ANGLES:
+            root.find(f".//{MAIN}c[@r='B4']/{MAIN}v").text = str(angle)
+            book.writestr(f"xl/worksheets/angle{angle}.xml", etree.tostring(root))
+            about = f'name="М{angle}" sheetId="{9000 + angle}" r:id="angle{angle}"'
+            sheets.append(f'<sheet xmlns:r="{_R}" {about}/>')
+            relations.append(
+                f'<Relationship Id="angle{angle}" Type="{_R}/worksheet"'
+                f' Target="worksheets/angle{angle}.xml"/>'
+            )
+            override = f'PartName="/xl/worksheets/angle{angle}.xml" ContentType="{_T}"'
+            types.append(f"<Override {override}/>")
+        added = {
+            "xl/workbook.xml": ("</sheets>", sheets),
+            "xl/_rels/workbook.xml.rels": ("</Relationships>", relations),
+            "[Content_Types].xml": ("</Types>", types),
+        }
+        for name in given.namelist():
+            text = given.read(name)
+            if name in added:
+                end, lines = added[name]
+                said = text.decode().replace(end, "".join(lines) + end)
+                text = said.encode()
+            book.writestr(name, text)
+    return made.getvalue()
+
+
+def test_libreoffice_draws_the_same_at_72_angles(libreoffice: LibreOffice) -> None:
+    """Every cell of the sheet as formualizer has it, whose points are held to the solver above."""
     engine = opened("gots-diesel")
     at = rows(engine)
-    (found,) = libreoffice.recalculate([book()])
-    engine.set_value(SHEET, at["Угол поворота вала φ"], 2, 30)
-    engine.set_value(SHEET, at["Цилиндр"], 2, 1)
-    engine.evaluate_all()
-    assert len(found[SHEET]) > 100
+    (found,) = libreoffice.recalculate([at_all_angles(book(), 3)])
+    engine.set_value(SHEET, at["Цилиндр"], 2, 3)
     letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
-    for cell, value in found[SHEET].items():
-        if len(cell.rstrip("0123456789")) > 1:
-            continue
-        row, column = int(cell[1:]), letters.index(cell[0]) + 1
-        assert value == pytest.approx(engine.get_value(SHEET, row, column), abs=1e-9, rel=1e-12)
+    for angle in ANGLES:
+        engine.set_value(SHEET, at["Угол поворота вала φ"], 2, angle)
+        engine.evaluate_all()
+        cells = found[f"М{angle}"]
+        assert len(cells) > 100
+        for cell, value in cells.items():
+            if len(cell.rstrip("0123456789")) > 1:
+                continue
+            row, column = int(cell[1:]), letters.index(cell[0]) + 1
+            ours = engine.get_value(SHEET, row, column)
+            assert value == pytest.approx(ours, abs=1e-9, rel=1e-12), (angle, cell)

@@ -91,3 +91,17 @@ def test_chapters_order_and_name_sheets() -> None:
     assert all(len(title) <= 31 for title in titles)
     assert len(set(titles)) == len(titles)
     assert all(math.isclose(place_of(title)[1], -1) for title in titles)
+
+
+@pytest.mark.parametrize("name", sample_names())
+def test_sheets_open_with_their_subject_and_axes_have_its_unit(name: str) -> None:
+    """No sheet begins with what only draws a chart; limits are in the unit of their axis."""
+    model = coarse_model(name)
+    first = {}
+    for block in model.blocks:
+        first.setdefault(block.sheet, block.id)
+    assert [one for one in first.values() if one.endswith(("_sizes", "_box"))] == []
+    for spec in (spec for spec in model.charts if spec.kind == "polar"):
+        box = spec.drawn_by("workbook")[-1].y
+        unit = model.scalars[model.grid_runs[box][0]].quantity.unit_label
+        assert unit in spec.y_title, (spec.id, unit)

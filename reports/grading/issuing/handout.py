@@ -14,6 +14,7 @@ from openpyxl.workbook import Workbook
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
 
+from kshm.nomenclature.quantity import Quantity
 from reports.grading.issuing.assignment import Assignment
 from reports.spec.blocks import Block, Grid, Model, TableSpec, scalars_of
 from reports.spec.charts import ChartSpec
@@ -52,6 +53,10 @@ class _HandoutWriter(Writer):
     ) -> None:
         """Cell by cell: what is to be filled in gets its own look afterwards."""
         self.cells(sheet, index, dict(enumerate(texts)), values, look)
+
+    def explained(self, quantity: Quantity, text: str | None, table: str = "") -> str:
+        """Nothing: the formulas are what a student is asked for."""
+        return ""
 
     def formula(
         self, sheet: Worksheet, row: int, column: int, text: str, value: float | str

@@ -173,7 +173,7 @@ def _issued(assignment: Assignment, layout: Layout) -> dict[str, tuple[Formula, 
             expr = assignment.graph.expression(node)
             if node not in live or expr is None:
                 continue
-            text = compile_formula(expr, RowReferences(layout, table))
+            text = compile_formula(expr, RowReferences(layout, table, block.sheet))
             made[node] = tuple(
                 formula_at(
                     at_row(text, cell.row, last=cell.row == cells[-1].row).removeprefix("="),

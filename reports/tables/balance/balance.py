@@ -10,10 +10,9 @@ from reports.spec.listing import column_list, corners
 from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape
 from reports.tables.balance.balance_sums import (
-    NOTHING,
     RESULTS,
+    cylinders_grid,
     devices_table,
-    place,
     sides,
     sums_table,
     throws_grid,
@@ -37,15 +36,14 @@ def _amplitude() -> str:
 
 
 def _orders(shape: Shape) -> TableSpec:
-    far = "max(" + ", ".join(f"abs({place(shape, i)})" for i in numbers(shape)) + ")"
     columns = [
         *column_list(f"""
         order
         order_amplitude = {_amplitude()} | Нейман (36)
     """)
     ]
-    for across, letter, unit, scale in (("order", "F", "kN", "1"), ("arm", "M", "Nm", far)):
-        columns += _order_columns(shape, across, letter, unit, scale)
+    for across, letter, unit in (("order", "F", "kN"), ("arm", "M", "Nm")):
+        columns += _order_columns(shape, across, letter, unit)
     first, second = "balance_first_shafts_share", "balance_second_shafts_share"
     rest = f"(1 - {first} if order == 1 else 1 - {second} if order == 2 else 1)"
     columns += [
@@ -75,9 +73,7 @@ def _orders(shape: Shape) -> TableSpec:
     )
 
 
-def _order_columns(
-    shape: Shape, across: str, letter: str, unit: str, scale: str
-) -> Iterator[Column]:
+def _order_columns(shape: Shape, across: str, letter: str, unit: str) -> Iterator[Column]:
     """Vector sums of one order and the force or the moment that they make."""
     end = "_mm" if across == "arm" else ""
     title = "свободная сила" if letter == "F" else "свободный момент"
@@ -85,14 +81,14 @@ def _order_columns(
     for side in sides(shape):
         for turn in ("cos", "sin"):
             key = names[turn + side] = f"{across}{side}_{turn}{end}"
-            text = vector_sum(shape, "order", turn, across, side)
+            text = vector_sum("order", turn, across, side)
             yield Column(key, text, "сложение векторов")
-    unit_force, least = "Pj_unit_kN*abs(order_amplitude)", f"{NOTHING}*{scale}"
+    unit_force = "Pj_unit_kN*abs(order_amplitude)"
     cos, sin = names["cos"], names["sin"]
     if not shape.banks:
         size = f"sqrt({cos}**2 + {sin}**2)"
-        sine = f"(0 if abs({sin}) < {least} else {sin})"
-        phase = f"0 if {size} <= {least} else deg(atan2({sine}, {cos}))/order"
+        sine = f"(0 if round({sin}, 9) == 0 else {sin})"
+        phase = f"0 if round({size}, 9) == 0 else deg(atan2({sine}, {cos}))/order"
         yield Column(f"{letter}_order_{unit}", f"{unit_force}*{size}", title)
         yield Column(f"{letter}_order_deg", phase, "направление")
         return
@@ -118,7 +114,7 @@ def _order_columns(
     yield Column(f"{letter}_order_min_{unit}", f"{unit_force}*abs({along} - {against})", title)
     yield Column(
         f"{letter}_order_dir_deg",
-        f"0 if min({along}, {against}) <= {least}"
+        f"0 if round(min({along}, {against}), 9) == 0"
         f" else 90 - mod(90 - {angle} + 0.000001, 180) + 0.000001",
         "направление",
     )
@@ -191,8 +187,8 @@ def balance(scope: Scope) -> Part:
     if not shape.by_orders:
         return Part()
     blocks: list[Block] = [
-        _turn(shape, scope.turn), *_boxes(shape), devices_table(shape), vectors_table(shape),
-        sums_table(shape), throws_grid(shape), _orders(shape),
+        _turn(shape, scope.turn), devices_table(shape), vectors_table(shape), sums_table(shape),
+        throws_grid(shape), cylinders_grid(shape), _orders(shape), *_boxes(shape),
     ]  # fmt: skip
     if shape.strokes == 4 and shape.cylinders <= MAX_CYLINDERS:
         loads = has_loads(shape, forced=scope.forced)
@@ -206,14 +202,20 @@ def _boxes(shape: Shape) -> Iterator[Block]:
     """Greatest components of the vectors: they keep the axes of the diagrams equal."""
     for key, unit in (("F", "kN"), ("L", "Nm")):
         right = "right" if shape.banks else "rot_right"
-        names = (f"{key}up_{unit}", f"{key}up_after_{unit}", f"{key}{right}_{unit}",
-                 f"{key}right_after_{unit}")  # fmt: skip
-        ends = ", ".join(f"col_max(balance.{name}), -(col_min(balance.{name}))" for name in names)
-        size = f"balance_{key}_size"
-        found = Scalar(size, f"max({ends}, {NOTHING})", "оси диаграммы", of="box")
-        yield ScalarTable(f"balance_{key}_sizes", "Наибольшая составляющая", RESULTS, (found,))
+        parts = {}
+        for when in ("", "_after"):
+            across = f"{key}right_after_{unit}" if when else f"{key}{right}_{unit}"
+            names = (f"balance.{key}up{when}_{unit}", f"balance.{across}")
+            ends = ", ".join(f"col_max({name}), -col_min({name})" for name in names)
+            parts[f"balance_{key}_reach{when}"] = f"max({ends})"
+        # An axis needs a length even where there is nothing to be drawn.
+        size, of = f"balance_{key}_size", f"box_{unit}"
+        parts[size] = f"max({', '.join(parts)}, 0.001)"
+        found = tuple(Scalar(k, text, "оси диаграммы", of=of) for k, text in parts.items())
+        what = "силы" if key == "F" else "момента"
+        yield ScalarTable(f"balance_{key}_sizes", f"Оси диаграммы {what}", RESULTS, found)
         box = f"balance_{key}_box"
-        yield corners(box, "Оси диаграммы", RESULTS, box, size)
+        yield corners(box, f"Углы диаграммы {what}", RESULTS, box, size, of=of)
 
 
 def _charts(shape: Shape) -> tuple[ChartSpec, ...]:
@@ -246,7 +248,7 @@ def _vector(
     right = "right" if shape.banks else "rot_right"
     at, letter, label = f"balance.{key}", "F" if key == "F" else "M", axes[0].rpartition(", ")[2]
     return polar(
-        f"balance_{key}_vector", SHEET, title, axes, f"balance_{key}_box.box",
+        f"balance_{key}_vector", SHEET, title, axes, f"balance_{key}_box.box_{unit}",
         Series(f"{at}{right}_{unit}", f"{at}up_{unit}", "до"),
         Series(f"{at}right_after_{unit}", f"{at}up_after_{unit}", "после", only="workbook"),
         caption=f"Конец вектора {of} за оборот до уравновешивания",

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from reports.spec.blocks import Grid, GridRow, Scalar, ScalarTable
-from reports.spec.listing import scalar_list
-from reports.spec.shape import Shape
+from reports.spec.listing import grid_row, scalar_list
+from reports.spec.shape import FIRING, Shape
 
 RESULTS = "Уравновешивание, итоги"
-NOTHING = "0.000000001"
 
 
 def place(shape: Shape, cylinder: int) -> str:
@@ -19,10 +18,10 @@ def place(shape: Shape, cylinder: int) -> str:
 
 
 def pin_angle(shape: Shape, cylinder: int) -> str:
-    """Angle of a cylinder's crankpin from crank 1 [rad]."""
+    """Angle of a cylinder's crankpin from crank 1 [deg]."""
     angle = f"throw_angle_{shape.throw_of(cylinder)}_deg"
     turned = shape.arrangement[cylinder - 1].pin_angle
-    return f"rad({angle} + crankshaft_split_pin_deg)" if turned else f"rad({angle})"
+    return f"{angle} + crankshaft_split_pin_deg" if turned else angle
 
 
 def sides(shape: Shape) -> tuple[str, ...]:
@@ -30,15 +29,32 @@ def sides(shape: Shape) -> tuple[str, ...]:
     return ("", "_right") if shape.banks else ("",)
 
 
-def vector_sum(shape: Shape, order: str, turn: str, across: str, side: str) -> str:
+def vector_sum(order: str, turn: str, across: str, side: str) -> str:
     """Sum of cos or sin of the phases over the cylinders, with arms, along one direction."""
-    terms = []
-    for i in range(1, shape.cylinders + 1):
-        part = f"{turn}(rad({order}*firing_offset_{i}_deg))"
-        if shape.banks:
-            part += f"*{'sin' if side else 'cos'}(rad({shape.axis(i)}))"
-        terms.append(part if across == "order" else f"{place(shape, i)}*{part}")
-    return f"total({', '.join(terms)})"
+    weight = f"cylinder_{'right' if side else 'up'}" + ("" if across == "order" else "_mm")
+    return f"wave_{turn}(balance_cylinders.{weight}, {FIRING}, {order})"
+
+
+def cylinders_grid(shape: Shape) -> Grid:
+    """Directions, arms and crankpins of the cylinders side by side, to be summed over."""
+    numbers = range(1, shape.cylinders + 1)
+    rows = {"cylinder_z_mm": [place(shape, i) for i in numbers]}
+    for side in sides(shape):
+        key = f"cylinder_{'right' if side else 'up'}"
+        turn = "sin" if side else "cos"
+        along = [f"{turn}(rad({shape.axis(i)}))" if shape.banks else "1" for i in numbers]
+        rows[key] = along
+        rows[f"{key}_mm"] = [
+            f"{place(shape, i)}*{text}" for i, text in zip(numbers, along, strict=True)
+        ]
+    rows["cylinder_crank_deg"] = [pin_angle(shape, i) for i in numbers]
+    return Grid(
+        "balance_cylinders",
+        "Цилиндры: направления и плечи",
+        RESULTS,
+        tuple(f"цилиндр {i}" for i in numbers),
+        tuple(grid_row(key, texts, "сложение векторов") for key, texts in rows.items()),
+    )
 
 
 def throws_grid(shape: Shape) -> Grid:
@@ -50,16 +66,17 @@ def throws_grid(shape: Shape) -> Grid:
         p, t = f"throw{i}_", f"throw_{i}"
         start = f"-(({half})/2)" if i == 1 else f"throw{i - 1}_z_left + throw{i - 1}_length"
         z, rod = f"{p}z_left", f"{p}z_rod"
-        left = f"({z} + {t}_l1_mm + {t}_left_web_mm/2)"
-        right = f"({z} + {p}length - {t}_l6_mm - {t}_right_web_mm/2)"
-        pin = f"({rod} + {t}_l3_mm)"
+        left, pin, right = f"{p}z_web", f"{p}z_pin", f"{p}z_web2"
         loads = {
             "up_bare": [(f"{p}C2", left), (f"{p}C3", rod), (f"{p}C4", pin), (f"{p}C6", right)],
             "side_bare": [(f"{p}C14", left), (f"{p}C15", right)],
         }
         made = {
             "z_left": start,
-            "z_rod": f"{z} + {t}_l1_mm + {t}_left_web_mm + {t}_l2_mm",
+            "z_web": f"{z} + {p}arm_left",
+            "z_rod": f"{z} + {p}arm_rod",
+            "z_pin": f"{z} + {p}arm_pin",
+            "z_web2": f"{z} + {p}length - {p}arm_right",
         }
         if not shape.single_rods:
             made["z_rod2"] = f"{rod} + {t}_l3_mm + {t}_l4_mm"
@@ -79,6 +96,12 @@ def throws_grid(shape: Shape) -> Grid:
         for part in ("up", "side", "up_bare", "side_bare"):
             made[f"F_{part}"] = _sum(force for force, _ in loads[part])
             made[f"L_{part}"] = "(" + _sum(f"{f}*{place}" for f, place in loads[part]) + ")/1000"
+        turn = f"rad(throw_angle_{i}_deg)"
+        for key in "FL":
+            for bare in ("", "_bare"):
+                up, side = f"{p}{key}_up{bare}", f"{p}{key}_side{bare}"
+                made[f"{key}_re{bare}"] = f"{up}*cos({turn}) + {side}*sin({turn})"
+                made[f"{key}_im{bare}"] = f"{up}*sin({turn}) - {side}*cos({turn})"
         for key, text in made.items():
             cells.setdefault(key, []).append(Scalar(p + key, text, "статика, рис. 35 Гоца"))
     return Grid(
@@ -96,7 +119,7 @@ def _sum(terms: Iterable[str]) -> str:
 
 def clean(text: str) -> str:
     """Rounding noise of a sum that vanishes as zero: a chart would blow it up."""
-    return f"0 if abs({text}) < {NOTHING} else {text}"
+    return f"round({text}, 11)"
 
 
 def sums_table(shape: Shape) -> ScalarTable:
@@ -107,22 +130,16 @@ def sums_table(shape: Shape) -> ScalarTable:
             for n in (1, 2, 4):
                 for turn in ("cos", "sin"):
                     of = f"{across}{side}_{turn}" + ("_mm" if across == "arm" else "")
-                    text = clean(vector_sum(shape, str(n), turn, across, side))
+                    text = clean(vector_sum(str(n), turn, across, side))
                     key = f"balance{side}_{turn}{n}_{across}"
                     scalars.append(Scalar(key, text, f"порядок {n}", of=of))
     numbers = range(1, shape.throws + 1)
     for key in "FL":
         scale = "to_kN({})" if key == "F" else "{}"
         for bare in ("", "_bare"):
-            re = _sum(
-                f"throw{i}_{key}_up{bare}*cos(rad(throw_angle_{i}_deg))"
-                f" + throw{i}_{key}_side{bare}*sin(rad(throw_angle_{i}_deg))"
-                for i in numbers
-            )
-            im = _sum(
-                f"throw{i}_{key}_up{bare}*sin(rad(throw_angle_{i}_deg))"
-                f" - throw{i}_{key}_side{bare}*cos(rad(throw_angle_{i}_deg))"
-                for i in numbers
+            re, im = (
+                f"total({', '.join(f'throw{i}_{key}_{part}{bare}' for i in numbers)})"
+                for part in ("re", "im")
             )
             if bare:
                 size = f"sqrt(({re})**2 + ({im})**2)"
@@ -136,12 +153,10 @@ def sums_table(shape: Shape) -> ScalarTable:
                     ),
                 ]
         for part, turn in (("re", "cos"), ("im", "sin")):
-            terms = ", ".join(
-                ("" if key == "F" else f"{place(shape, i)}*") + f"{turn}({pin_angle(shape, i)})"
-                for i in range(1, shape.cylinders + 1)
-            )
+            weight = "" if key == "F" else "balance_cylinders.cylinder_z_mm, "
+            around = f"wave_{turn}({weight}balance_cylinders.cylinder_crank_deg, 1)"
             scalars.append(
-                Scalar(f"{key}cw_{part}", clean(f"-(Pj_unit_kN*total({terms}))"), "mj против колен")
+                Scalar(f"{key}cw_{part}", clean(f"-(Pj_unit_kN*{around})"), "mj против колен")
             )
     title = "Векторные суммы при φ = 0"
     return ScalarTable("balance_sums", title, RESULTS, tuple(scalars))
@@ -170,14 +185,13 @@ def vectors_table(shape: Shape) -> ScalarTable:
     scalars = []
     for key, across in (("F", "order"), ("L", "arm")):
         half = "Pj_unit_kN/2"
-        scale = "Pj_unit_kN" + ("" if key == "F" else "*(-throw1_z_left)")
         for name in ("before", "after"):
             n = f"{key}1_{name}"
             rest = "*(1 - balance_first_shafts_share)" if name == "after" else ""
             more = "balance_counterweight_share" if name == "after" else "0"
             cos, sin, back_cos, back_sin = turning(shape, 1, across)
             add = {p: f" + {more}*{key}cw_{p}" if name == "after" else "" for p in ("re", "im")}
-            least = f"min({n}_along, {n}_against) <= {NOTHING}*{scale}"
+            least = f"round(min({n}_along, {n}_against), 9) == 0"
             angle = f"(deg(atan2({n}_im, {n}_re)) + deg(atan2({back_sin}, {back_cos})))/2"
             scalars += [
                 *scalar_list(f"""

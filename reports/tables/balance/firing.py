@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from reports.spec.blocks import Column, TableSpec
 from reports.spec.listing import column_list
 from reports.spec.shape import Shape
@@ -16,14 +18,14 @@ def firing_loads(shape: Shape, cycle: tuple[float, ...]) -> TableSpec:
     A journal feels only its two neighbours, and they fire either as they do or a turn apart
     from that: two curves for each journal give the loads of all orders.
     """
-    columns = [Column("phi_deg", None)]
-    turned = "mod(phi_deg + 360, 720)"
+    columns = [
+        Column("phi_deg", None),
+        Column("row_later", "round(mod(phi_deg + 360, 720)/calculation_step_deg) + 1",
+               "на оборот позже", helper=True),
+    ]  # fmt: skip
     for k in range(2, shape.throws + 1):
         t = f"P4_3_{k}"
-        later = {
-            axis: f"interpolate({turned}, firing_loads.phi_deg, firing_loads.after_{axis}{k}_MPa)"
-            for axis in "xy"
-        }
+        later = {axis: f"element(firing_loads.after_{axis}{k}_MPa, row_later)" for axis in "xy"}
         columns += [
             *column_list(f"""
                 helpers:
@@ -50,15 +52,18 @@ def has_loads(shape: Shape, *, forced: bool) -> bool:
     return shape.single_rods and not forced
 
 
-def _load(shape: Shape) -> str:
-    """Greatest load of a main journal with the order of a row [kN]."""
+def _loads(shape: Shape) -> Iterator[Column]:
+    """Greatest load of each inner main journal with the order of a row, then of all [kN]."""
     found = ["Rmain1_max", f"Rmain{shape.throws + 1}_max"]
     for k in range(2, shape.throws + 1):
         (i,), (j,) = shape.groups[k - 2], shape.groups[k - 1]
         apart = f"theta{j}_deg - theta{i}_deg - firing_offset_{j}_deg + firing_offset_{i}_deg"
         same = f"abs(mod({apart} + 180, 720) - 180) < 1"
-        found.append(f"(Rmain{k}_max if {same} else col_max(firing_loads.Rturned{k}_MPa))")
-    return f"to_kN(of_MPa(max({', '.join(found)}))*F_piston)"
+        load = f"Rmain{k}_max if {same} else col_max(firing_loads.Rturned{k}_MPa)"
+        yield Column(f"Rnext{k}_MPa", load, "Гоц (59)", helper=True)
+        found.append(f"Rnext{k}_MPa")
+    text = f"to_kN(of_MPa(max({', '.join(found)}))*F_piston)"
+    yield Column("Rorder_max_kN", text, "Гоц (59)")
 
 
 def firing_table(shape: Shape, *, loads: bool) -> TableSpec:
@@ -70,43 +75,19 @@ def firing_table(shape: Shape, *, loads: bool) -> TableSpec:
         base = f"mod(720 - {_before_tdc(shape, i)}, 360)"
         turn = f" + 360*mod(floor((variant - 1)/{2 ** (i - 2)}), 2)" if i > 1 else ""
         columns.append(Column(f"theta{i}_deg", base + turn, "колено в ВМТ"))
-    digits, gaps = [], []
-    for i in numbers:
-        before = [
-            f"(1 if theta{j}_deg < theta{i}_deg + {'0.0001' if j < i else '-0.0001'} else 0)"
-            for j in numbers
-            if j != i
-        ]
-        place = " - ".join([str(cylinders - 1), *before])
-        digits.append(f"{i}*10**({place})")
-        # Of two cylinders that fire together the later number follows the earlier one.
-        others = [
-            f"(mod(theta{j}_deg - theta{i}_deg {'-' if j < i else '+'} 0.0001, 720)"
-            f" {'+' if j < i else '-'} 0.0001)"
-            for j in numbers
-            if j != i
-        ]
-        gaps.append(f"min({', '.join(others)})" if others else "720")
-
-    def vector(order: str) -> str:
-        terms = {
-            turn: ", ".join(f"{turn}(rad({order}*theta{i}_deg))" for i in numbers)
-            for turn in ("cos", "sin")
-        }
-        return f"sqrt(total({terms['cos']})**2 + total({terms['sin']})**2)"
-
-    columns += [
-        *column_list(f"""
-            order_code = {" + ".join(digits)} | по возрастанию θ
-            gap_max_deg = max({", ".join(gaps)}) | промежутки
-            gap_min_deg = min({", ".join(gaps)}) | промежутки
-            unevenness = (gap_max_deg - gap_min_deg)/(720/{cylinders}) | промежутки
-            half_order_sum = {vector("0.5")} | сложение векторов
-            first_order_sum = {vector("1")} | сложение векторов
-        """),
-    ]
+    places = ", ".join(f"place{i}" for i in numbers)
+    gaps = ", ".join(f"gap{i}_deg" for i in numbers)
+    columns += column_list(f"""
+        order_code = total({places}) | по возрастанию θ
+        gap_max_deg = max({gaps}) | промежутки
+        gap_min_deg = min({gaps}) | промежутки
+        unevenness = (gap_max_deg - gap_min_deg)/(720/{cylinders}) | промежутки
+        half_order_sum = sqrt(half_cos**2 + half_sin**2) | сложение векторов
+        first_order_sum = sqrt(first_cos**2 + first_sin**2) | сложение векторов
+    """)
     if loads:
-        columns.append(Column("Rorder_max_kN", _load(shape), "Гоц (59)"))
+        columns += reversed([*_loads(shape)])  # the result before what it takes
+    columns += _steps(numbers)
     return TableSpec(
         "firing_orders",
         "У.р",
@@ -120,6 +101,29 @@ def firing_table(shape: Shape, *, loads: bool) -> TableSpec:
         ),
         step=1.0,
     )
+
+
+def _steps(numbers: range) -> Iterator[Column]:
+    """Helper columns: digits of the order, gap behind each cylinder, sums of waves."""
+    for i in numbers:
+        before = [
+            f"(1 if theta{j}_deg < theta{i}_deg {'+' if j < i else '-'} 0.0001 else 0)"
+            for j in numbers
+            if j != i
+        ]
+        place = " - ".join([str(len(numbers) - 1), *before])
+        yield Column(f"place{i}", f"{i}*10**({place})", "по возрастанию θ", helper=True)
+    for i in numbers:
+        # Of two cylinders that fire together the later number follows the earlier one.
+        ways = [(j, "-", "+") if j < i else (j, "+", "-") for j in numbers if j != i]
+        ahead = [f"(mod(theta{j}_deg - theta{i}_deg {one} 0.0001, 720) {two} 0.0001)"
+                 for j, one, two in ways]  # fmt: skip
+        gap = f"min({', '.join(ahead)})" if ahead else "720"
+        yield Column(f"gap{i}_deg", gap, "промежутки", helper=True)
+    for name, order in (("half", "0.5*"), ("first", "")):
+        for turn in ("cos", "sin"):
+            terms = ", ".join(f"{turn}(rad({order}theta{i}_deg))" for i in numbers)
+            yield Column(f"{name}_{turn}", f"total({terms})", "сложение векторов", helper=True)
 
 
 def _before_tdc(shape: Shape, cylinder: int) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, columns_of, over_phi
@@ -15,45 +17,51 @@ SHEET, RESULTS, MODEL_SHEET = "Момент инерции", "Маховик", "
 _STEEL = "7800"
 
 
-def _moving(shape: Shape, phi: str) -> tuple[str, str]:
+def _moving(shape: Shape, cylinder: int) -> tuple[str, str]:
     """Reduced inertia of rod and piston at an angle, Ilchenko (6)-(10), (13), (15).
 
     With an offset the same by the angle β of Gots (17).
     """
-    side = f"(sin({phi}) - k_offset)" if shape.offset else f"sin({phi})"
-    beta, cos_b = f"asin(lam*{side})", f"sqrt(1 - lam**2*{side}**2)"
-    share = "((L_rod - rod_x)/L_rod)"
+    phi, beta, share = f"turn{cylinder}", f"tilt{cylinder}", "(1 - rod_x/L_rod)"
     centre = (
-        f"({share}**2*cos({phi})**2/{cos_b}**2 + 1"
-        f" - 2*{share}*cos({phi} + {beta})*cos({phi})/{cos_b})"
+        f"({share}**2*cos({phi})**2/cos({beta})**2 + 1"
+        f" - 2*{share}*cos({phi} + {beta})*cos({phi})/cos({beta}))"
     )
-    rod = f"rod_mass*r_crank**2*{centre} + I_rod*(lam*cos({phi})/{cos_b})**2"
-    piston = f"piston_mass*r_crank**2*sin({phi})**2*(1 + lam*cos({phi})/{cos_b})**2"
+    rod = f"rod_mass*r_crank**2*{centre} + I_rod*(lam*cos({phi})/cos({beta}))**2"
+    piston = f"piston_mass*r_crank**2*sin({phi})**2*(1 + lam*cos({phi})/cos({beta}))**2"
     if shape.offset:
-        piston = f"piston_mass*r_crank**2*(sin({phi}) + cos({phi})*lam*{side}/{cos_b})**2"
+        piston = f"piston_mass*r_crank**2*(sin({phi}) + cos({phi})*tan({beta}))**2"
     return rod, piston
+
+
+def _turns(cylinder: int) -> Iterator[Column]:
+    """Helper columns: angles of a cylinder's crank and rod [rad]."""
+    table = cylinder_table_id(cylinder)
+    phi = "phi_deg" if cylinder == 1 else f"{table}.phase_deg"
+    yield Column(f"turn{cylinder}", f"rad({phi})", "угол кривошипа", helper=True)
+    yield Column(f"tilt{cylinder}", f"{table}.beta_rad", "угол шатуна", helper=True)
 
 
 def _table(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
     phi, numbers = "rad(phi_deg)", range(1, shape.cylinders + 1)
-    rod, piston = _moving(shape, phi)
+    rod, piston = _moving(shape, 1)
     share = "((L_rod - rod_x)*cos(rad(phi_deg))**2 - L_rod)"
     near = (
         f"I_crank + lam**2*(rod_mass*{share}**2 + I_rod*cos({phi})**2)"
         f" + piston_mass*r_crank**2*sin({phi})**2*(1 + lam*cos({phi}))**2"
     )
-    gas = []
-    for i in numbers:
-        table = cylinder_table_id(i)
-        angle = phi if i == 1 else f"rad({table}.phase_deg)"
-        gas.append(f"of_MPa({table}.Pg_MPa)*sin({angle} + {table}.beta_rad)/cos({table}.beta_rad)")
-    moving = [
+    gas = [
         Column(
-            f"moving{i}",
-            " + ".join(_moving(shape, f"rad(phi_deg - firing_offset_{i}_deg)")),
-            "вспомогательный",
+            f"Mgas{i}_Nm",
+            f"of_MPa({cylinder_table_id(i)}.Pg_MPa)*F_piston*r_crank*sin(turn{i} + tilt{i})"
+            f"/cos(tilt{i})",
+            "Гоц (37) без сил инерции",
             helper=True,
         )
+        for i in numbers
+    ]
+    moving = [
+        Column(f"moving{i}", " + ".join(_moving(shape, i)), "Ильченко (18)", helper=True)
         for i in numbers
     ]
     step = "rad(calculation_step_deg)"
@@ -93,7 +101,7 @@ def _table(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
                 + " + ".join(f"moving{i}" for i in numbers),
                 "сумма по цилиндрам",
             ),
-            Column("Mgas_Nm", f"F_piston*r_crank*({' + '.join(gas)})", "Гоц (37) без сил инерции"),
+            Column("Mgas_Nm", " + ".join(f"Mgas{i}_Nm" for i in numbers), "сумма по цилиндрам"),
             work,
             gas_work,
             *column_list("""
@@ -105,6 +113,8 @@ def _table(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
             d_work,
             d_gas,
             *moving,
+            *gas,
+            *(column for i in numbers for column in _turns(i)),
         ),
         rows,
         note=(
@@ -132,15 +142,22 @@ def _main_journals(model: InputFile, count: int) -> tuple[str, str]:
     return f"(of_mm({' + '.join(sizes)})/{count})", f"pi/32*({' + '.join(each)})/{count}*{_STEEL}"
 
 
-def _throw(number: int, d_k: str) -> tuple[str, str]:
-    """Moments of inertia of a throw's pin and of one of its webs [kg·m²]."""
+def _throw(number: int, d_k: str) -> list[str]:
+    """Lines of a throw: web's height and mass, inertia of its pin, of a web, of itself."""
     d_sh, length = f"of_mm(pin_diameter_{number}_mm)", f"of_mm(pin_length_{number}_mm)"
+    end = "" if number == 1 else f"_throw{number}"
     bore = "2*sqrt(F_piston/pi)"
-    height = f"(r_crank + {d_sh}/2 + {d_k}/2 + 1/100)"
-    wide, thick = f"(balance_web_width_share*{bore})", f"(balance_web_thickness_share*{bore})"
-    web = f"{height}*{wide}*{thick}*{_STEEL}"
+    high, heavy = f"web_height{end}", f"web_weight{end}"
     pin = f"pi*{d_sh}**4/32*{length}*{_STEEL} + pi*{d_sh}**2/4*{length}*{_STEEL}*r_crank**2"
-    return pin, f"{web}/12*({height}**2 + {wide}**2) + {web}*r_crank**2/4"
+    web = f"{heavy}/12*({high}**2 + (balance_web_width_share*{bore})**2) + {heavy}*r_crank**2/4"
+    return [
+        f"{high} of web_height = r_crank + {d_sh}/2 + {d_k}/2 + 1/100 | Ильченко, под (34)",
+        f"{heavy} of web_weight = {high}*balance_web_width_share*balance_web_thickness_share"
+        f"*({bore})**2*{_STEEL} | Ильченко, под (34)",
+        f"I_pin{end} of I_pin = {pin} | Ильченко (33), d⁴",
+        f"I_web{end} of I_web = {web} | Ильченко (34), толщина h",
+        f"I_crank{end} of I_crank = I_main + I_pin{end} + 2*I_web{end} | Ильченко (35)",
+    ]
 
 
 def _parts(model: InputFile, shape: Shape) -> ScalarTable:
@@ -159,12 +176,8 @@ def _parts(model: InputFile, shape: Shape) -> ScalarTable:
     lengths = len(model.crankshaft.main_lengths_mm)
     d_k, main = _main_journals(model, lengths)
     own = range(2, shape.throws + 1) if shape.own_pins else ()
-    others = [
-        f"I_crank_throw{i} of I_crank = I_main + {pin} + 2*({web}) | Ильченко (35)"
-        for i, (pin, web) in ((i, _throw(i, d_k)) for i in own)
-    ]
-    pin, web = _throw(1, d_k)
-    webs = " + ".join(f"web_{k}_counterweight_kg" for k in range(1, 2 * (lengths - 1) + 1))
+    throws = [line for i in (1, *own) for line in _throw(i, d_k)]
+    webs = " + ".join(f"throw{i}_weights_kg" for i in range(1, lengths))
     return ScalarTable(
         "inertia_parts",
         "Звенья одного цилиндра",
@@ -172,13 +185,10 @@ def _parts(model: InputFile, shape: Shape) -> ScalarTable:
         (
             *scalar_list(f"""
                 I_main = {main} | Ильченко (32), d⁴
-                I_pin = {pin} | Ильченко (33), d⁴
-                I_web = {web} | Ильченко (34), толщина h
-                I_crank = I_main + I_pin + 2*I_web | Ильченко (35)
                 rod_mass = {rod} | исходные данные или m₂ и доля
                 rod_x = {centre} | исходные данные или доля
             """),
-            *(scalar for text in others for scalar in scalar_list(text)),
+            *(scalar for text in throws for scalar in scalar_list(text)),
             _rod_inertia(model),
             *scalar_list(f"""
                 piston_mass = {piston} | исходные данные или m_j

@@ -10,30 +10,27 @@ from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi
 from reports.spec.listing import column_list, scalar_list
 from reports.spec.parts import Part, Scope, stepped
-from reports.spec.shape import Shape
+from reports.spec.shape import FIRING, Shape
 from reports.tables.gas.cycle_names import section_of
-from reports.tables.gas.diagram import is_smooth, smooth_pressure
+from reports.tables.gas.diagram import is_smooth, smooth_pressure, straight_pressure
 
 SHEET, SHAFTS, RESULTS = "Гармоники момента", "Гашение 2-го порядка", "Гармоники момента, итоги"
 LAST_ORDER = 8.0
-_NOISE = "0.000000001"
 _CANCELLED = 1e-6  # of a vector sum of unit vectors
 
 
 def _tangential(model: InputFile, cycle: tuple[float, ...], *, motored: bool) -> TableSpec:
     shape = "sin(rad(phi_deg) + P4_1.beta_rad)/cos(P4_1.beta_rad)"
+    knots: tuple[Column, ...] = ()
     if isinstance(model.gas, TableGasSection):
-        cold = (
-            smooth_pressure("min(phi_deg, 720 - phi_deg)")
-            if is_smooth(model)
-            else ("interpolate(min(phi_deg, 720 - phi_deg), gas_points_deg, gas_points_mpa)")
-        )
+        way = smooth_pressure if is_smooth(model) else straight_pressure
+        cold, knots = way("min(phi_deg, 720 - phi_deg)")
     else:
         cold = (
             "gas_intake_pressure_mpa"
             "*(geometry_compression_ratio/gas.volume_ratio)**gas_compression_exponent"
         )
-    inside = "phi_deg > 180 + 0.0000001 and phi_deg < 540 - 0.0000001"
+    inside = "phi_deg > 180 and phi_deg < 540"
     compressed = column_list(f"""
         t_motored_MPa = (p_motored - gas_ambient_pressure_mpa)*{shape} | сжатие, отражённое от ВМТ
         helpers:
@@ -50,13 +47,13 @@ def _tangential(model: InputFile, cycle: tuple[float, ...], *, motored: bool) ->
                 t_gas_MPa = P4_1.Pg_MPa*{shape} | Чудаков, tг = Mг/(FпR)
                 t_inertia_MPa = P4_1.Pj_MPa*{shape} | Чудаков (3)
             """),
-            *(compressed if motored else ()),
+            *((*compressed, *knots) if motored else ()),
         ),
         cycle,
     )
 
 
-def _orders(model: InputFile, cylinders: int) -> TableSpec:
+def _orders(model: InputFile) -> TableSpec:
     columns = [Column("order", None)]
     for name in ("gas", "inertia", "total"):
         for part in ("cos", "sin"):
@@ -65,25 +62,18 @@ def _orders(model: InputFile, cylinders: int) -> TableSpec:
                 text = f"gas_{part}_MPa + inertia_{part}_MPa"
             columns.append(Column(f"{name}_{part}_MPa", text, "ряд Фурье"))
         cos, sin, size = (f"{name}_{part}_MPa" for part in ("cos", "sin", "amplitude"))
-        least = f"{_NOISE}*col_max({size})"
-        clean = f"(0 if abs({cos}) < {least} else {cos})"
+        clean = f"(0 if round({cos}, 12) == 0 else {cos})"
         columns += [
             *column_list(f"""
                 {size} = sqrt({cos}**2 + {sin}**2) | Чудаков (1)
-                {name}_phase_deg = 0 if {size} < {least} else deg(atan2({clean}, {sin}))
+                {name}_phase_deg = 0 if round({size}, 12) == 0 else deg(atan2({clean}, {sin}))
                     | Чудаков (1)
             """),
         ]
-    sums = {
-        turn: ", ".join(
-            f"{turn}(rad(order*firing_offset_{i}_deg))" for i in range(1, cylinders + 1)
-        )
-        for turn in ("cos", "sin")
-    }
     columns += [
         *column_list(f"""
-            cylinders_sum = sqrt(total({sums["cos"]})**2 + total({sums["sin"]})**2)
-                | сложение векторов
+            cylinders_sum = sqrt(wave_cos({FIRING}, order)**2
+                + wave_sin({FIRING}, order)**2) | сложение векторов
             M_engine_order_Nm = of_MPa(total_amplitude_MPa)*F_piston*r_crank*cylinders_sum
                 | сложение векторов
         """),
@@ -119,14 +109,14 @@ def _coefficients(model: InputFile) -> ScalarTable:
     unit = "m_j*r_crank*omega**2/F_piston"
     shapes = ("lam/4", "-1/2", "-(3*lam/4)", "-(lam**2/4)")
 
-    def second(curve: str, part: str) -> str:
-        return f"fourier_{part}(tangential.{curve}, tangential.phi_deg, 2)"
-
-    def size(curve: str) -> str:
-        return f"sqrt({second(curve, 'cos')}**2 + {second(curve, 'sin')}**2)"
-
-    def phase(curve: str) -> str:
-        return f"deg(atan2({second(curve, 'cos')}, {second(curve, 'sin')}))"
+    def second(of: str, curve: str) -> str:
+        """Both parts of a curve's second order and its size."""
+        waves = f"(tangential.t_{curve}_MPa, tangential.phi_deg, 2)"
+        return f"""
+            {of}_cos of t_part_cos = fourier_cos{waves} | ряд Фурье
+            {of}_sin of t_part_sin = fourier_sin{waves} | ряд Фурье
+            {of} = sqrt({of}_cos**2 + {of}_sin**2) | Чудаков (1)
+        """
 
     shafts: tuple[Scalar, ...] = scalar_list("""
         P_shafts = to_kN(0.5*engine_cylinders*lam*m_j*r_crank*omega**2)
@@ -155,17 +145,22 @@ def _coefficients(model: InputFile) -> ScalarTable:
                 Scalar(f"t_j_order{n}", f"to_MPa({unit}*({shape}))", "двучленное движение")
                 for n, shape in enumerate(shapes, 1)
             ),
-            *scalar_list(f"""
+            *scalar_list(
+                """
                 d_j = m_j*r_crank/F_piston | Чудаков, под (5)
                 d_j_technical = 10*d_j | Чудаков, под (5)
-                {t_gas} = {size("t_gas_MPa")} | Чудаков (1)
-                gamma_gas2_deg = {phase("t_gas_MPa")} | Чудаков (1)
-                t_inertia2 = {size("t_inertia_MPa")} | Чудаков (3)
-                gamma_inertia2_deg = mod({phase("t_inertia_MPa")}, 360) | Чудаков (2)
+                """,
+                second("t_gas2", "gas"),
+                "gamma_gas2_deg = deg(atan2(t_gas2_cos, t_gas2_sin)) | Чудаков (1)",
+                second("t_inertia2", "inertia"),
+                """
+                gamma_inertia2_deg = mod(deg(atan2(t_inertia2_cos, t_inertia2_sin)), 360)
+                    | Чудаков (2)
                 t_j2 = to_MPa(d_j*omega**2/2) | Чудаков (5)
-                {t_cold} = {size("t_motored_MPa")} | Чудаков (1)
-                t_gas2_idle = {t_cold} + ({t_gas} - {t_cold})*(1 - {efficiency}) | линейно по pi
-            """),
+                """,
+                second("t_motored2", "motored"),
+                f"t_gas2_idle = {t_cold} + ({t_gas} - {t_cold})*(1 - {efficiency}) | линейно по pi",
+            ),
             *of_shafts,
         ),
         note=(
@@ -210,7 +205,7 @@ def torque_orders(scope: Scope) -> Part:
     motored = shape.strokes == 4 and not shape.offset
     blocks = (
         _tangential(model, scope.cycle, motored=motored),
-        _orders(model, model.engine.cylinders),
+        _orders(model),
     )
     if not motored:
         return Part(blocks, _charts(motored=motored))

@@ -97,7 +97,7 @@ def _sizes(section: CycleSection) -> ScalarTable:
 
     def rounded(size: str) -> str:
         nearest = f"{step}*round({size}/{step})"
-        up = f"-({step}*floor(0.000000001 - {size}/{step}))"
+        up = f"-({step}*floor(-round({size}/{step}, 9)))"
         if section.rounding is None:
             return nearest
         return f'({up}) if cycle_rounding == "{ROUNDINGS["up"]}" else ({nearest})'

@@ -184,10 +184,8 @@ def _ranges(section: CycleSection) -> ScalarTable:
         note = f"{about.title} {about.symbol.replace('_', '')}{unit}: обычно {low}…{high}"
         about_value = f"range_value_{name}"
         # A limit is met, though the last digit of a computed value may miss it.
-        test = (
-            f"{about_value} >= {usual.low!r} - 0.000000001"
-            f" and {about_value} <= {usual.high!r} + 0.000000001"
-        )
+        rounded = f"round({about_value}, 9)"
+        test = f"{rounded} >= {usual.low!r} and {rounded} <= {usual.high!r}"
         scalars += [
             Scalar(about_value, name, usual.reference or UNCHECKED, note=note, of="check_value"),
             Scalar(

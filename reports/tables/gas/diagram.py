@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from reports.inputs.sections.gas import RoundedGasSection, TableGasSection
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.gas import places
-from reports.spec.blocks import Block, Grid, GridRow, Scalar, ScalarTable, TableSpec
+from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
 from reports.spec.listing import column_list, scalar_list
 from reports.spec.shape import central_volume_ratio
 
 SHEET, POINTS = "Газы", "Точки диаграммы"
-EDGE = "0.0000001"
 _EPS = "geometry_compression_ratio"
 NODES = ("r", "a′", "a", "c′", "c″", "zд", "j", "b′", "b″", "r′", "r")
+KNOT = "knot_number"  # helper column: the number of the last given point before the angle
 
 
 def diagram_blocks(model: InputFile) -> tuple[Block, ...]:
@@ -31,28 +33,67 @@ def is_smooth(model: InputFile) -> bool:
     return isinstance(model.gas, TableGasSection) and model.gas.interpolation == "monotone"
 
 
-def smooth_pressure(phi: str) -> str:
-    """Pressure [MPa] through the given points."""
-    knots = ", ".join(f"points.point_{key}" for key in ("deg", "MPa", "slope", "two", "three"))
-    return f"spline({phi}, {knots})"
+def process_columns(parts: dict[str, str]) -> tuple[Column, ...]:
+    """Helper columns from which a pressure is put together."""
+    return tuple(Column(key, text, "Гоц, 2.4", helper=True) for key, text in parts.items())
 
 
-def rounded_pressure(phi: str, ratio: str) -> str:
-    """Pressure [MPa] of the rounded diagram at an angle and a volume ratio."""
-    knots = ", ".join(f"nodes.node_{key}" for key in ("deg", "MPa", "slope", "two", "three"))
-    smooth = f"spline({phi}, {knots})"
-    steps = (
-        ("gas_intake_settle_deg", smooth),
-        ("180", "gas_intake_pressure_mpa"),
-        ("phi_c_deg", _compression(ratio)),
-        ("phi_join_deg", smooth),
-        ("phi_open_deg", _expansion(ratio)),
-        ("phi_close_deg", smooth),
-    )
-    text = "gas_residual_pressure_mpa"
+def by_angle(phi: str, steps: Sequence[tuple[str, str]], last: str) -> str:
+    """One value up to each angle, and the last one behind all."""
+    text = last
     for limit, value in reversed(steps):
-        text = f"({value}) if {phi} <= {limit} + {EDGE} else ({text})"
+        text = f"({value}) if {phi} <= {limit} else ({text})"
     return text
+
+
+def straight_pressure(phi: str) -> tuple[str, tuple[Column, ...]]:
+    """Pressure [MPa] on straight lines between the given points, and its helper columns."""
+    at = f"element(gas_points_deg, {KNOT})"
+    after = f"element(gas_points_deg, {KNOT} + 1)"
+    before = f"element(gas_points_mpa, {KNOT})"
+    parts = {
+        KNOT: f"place({phi}, gas_points_deg)",
+        "knot_share": f"({phi} - {at})/({after} - {at})",
+    }
+    text = f"{before} + (element(gas_points_mpa, {KNOT} + 1) - {before})*knot_share"
+    return text, process_columns(parts)
+
+
+def smooth_pressure(phi: str) -> tuple[str, tuple[Column, ...]]:
+    """Pressure [MPa] through the given points, and its helper columns."""
+    return _cubic("points.point", phi)
+
+
+def _cubic(points: str, phi: str) -> tuple[str, tuple[Column, ...]]:
+    """Cubic from the last point before an angle."""
+    zero, one, two, three = (
+        f"element({points}_{key}, {KNOT})" for key in ("MPa", "slope", "two", "three")
+    )
+    parts = {
+        KNOT: f"place({phi}, {points}_deg)",
+        "knot_past_deg": f"{phi} - element({points}_deg, {KNOT})",
+    }
+    past = "knot_past_deg"
+    return f"{zero} + {past}*({one} + {past}*({two} + {past}*{three}))", process_columns(parts)
+
+
+def rounded_pressure(phi: str, ratio: str) -> tuple[str, tuple[Column, ...]]:
+    """Pressure [MPa] of the rounded diagram at an angle and a volume ratio, and its helpers."""
+    smooth, knots = _cubic("nodes.node", phi)
+    parts = {
+        "p_smooth_MPa": smooth,
+        "p_compression_MPa": _compression(ratio),
+        "p_expansion_MPa": _expansion(ratio),
+    }
+    text = by_angle(phi, (
+        ("gas_intake_settle_deg", "p_smooth_MPa"),
+        ("180", "gas_intake_pressure_mpa"),
+        ("phi_c_deg", "p_compression_MPa"),
+        ("phi_join_deg", "p_smooth_MPa"),
+        ("phi_open_deg", "p_expansion_MPa"),
+        ("phi_close_deg", "p_smooth_MPa"),
+    ), "gas_residual_pressure_mpa")  # fmt: skip
+    return text, (*knots, *process_columns(parts))
 
 
 def _compression(ratio: str) -> str:

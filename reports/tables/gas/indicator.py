@@ -44,17 +44,19 @@ def hung_corners(shape: Shape) -> Corners:
 def _table(model: InputFile, rows: tuple[float, ...]) -> TableSpec:
     """The indicator diagram of cylinder 1 over φ and over the volume."""
     shape = Shape.of(model)
+    text, helpers = own_pressure(model, shape, "phi_deg")
     columns = [
         *column_list(f"""
             phi_deg
             x_exact_mm = to_mm(r_crank*{shape.displacement("phi_deg")}) | {displaced(shape)}
             volume_ratio = {shape.volume_ratio("phi_deg")} | {displaced(shape)}
             volume_dm3 = V_c*volume_ratio | Гоц, 1.1
-            p_MPa = {own_pressure(model, shape, "phi_deg")} | Гоц, 2.4
+            p_MPa = {text} | Гоц, 2.4
             helpers:
             work_J = {WORK} | ∫p dV
         """),
         *timing(model, shape, "phi_deg"),
+        *helpers,
     ]
     return TableSpec("gas", "Г", "Индикаторная диаграмма", "Газы", tuple(columns), rows)
 
@@ -76,8 +78,8 @@ def _is_timed(model: InputFile, shape: Shape) -> bool:
     return shape.offset and not isinstance(model.gas, TableGasSection)
 
 
-def own_pressure(model: InputFile, shape: Shape, phi: str) -> str:
-    """Pressure [MPa] of a cylinder with a rod of its own at an angle."""
+def own_pressure(model: InputFile, shape: Shape, phi: str) -> tuple[str, tuple[Column, ...]]:
+    """Pressure [MPa] of a cylinder with a rod of its own at an angle, and its helper columns."""
     corners = Corners(shape, shape.volume_ratio, shape.tdc, shape.bdc)
     return pressure(model, TIMING if _is_timed(model, shape) else phi, "volume_ratio", corners)
 

@@ -7,11 +7,17 @@ from dataclasses import dataclass
 
 from reports.inputs.sections.gas import RoundedGasSection, TableGasSection
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Scalar, ScalarTable
+from reports.spec.blocks import Column, Scalar, ScalarTable
 from reports.spec.shape import Shape
-from reports.tables.gas.diagram import is_smooth, rounded_pressure, smooth_pressure
+from reports.tables.gas.diagram import (
+    by_angle,
+    is_smooth,
+    process_columns,
+    rounded_pressure,
+    smooth_pressure,
+    straight_pressure,
+)
 
-EDGE = "0.0000001"  # degrees: the angles come from whole degrees and sums of them
 WORK = "(p_MPa + following(p_MPa))/2*(following(volume_dm3) - volume_dm3)*1000"
 _P_A, _P_R, _P_Z = "gas_intake_pressure_mpa", "gas_residual_pressure_mpa", "gas_max_pressure_mpa"
 _OPENS, _CLOSES = "gas_exhaust_start_before_bdc_deg", "gas_exhaust_end_after_bdc_deg"
@@ -111,19 +117,21 @@ def _note(corners: Corners) -> str:
     return " ".join(notes)
 
 
-def pressure(model: InputFile, phi: str, ratio: str, corners: Corners) -> str:
-    """Absolute gas pressure [MPa] at the angle and volume ratio of the named columns."""
+def pressure(
+    model: InputFile, phi: str, ratio: str, corners: Corners
+) -> tuple[str, tuple[Column, ...]]:
+    """Absolute gas pressure [MPa] at the angle and volume ratio of the named columns.
+
+    With it the helper columns that it takes: every process has its own.
+    """
     if isinstance(model.gas, RoundedGasSection):
         return rounded_pressure(phi, ratio)
     if is_smooth(model):
         return smooth_pressure(phi)
     if isinstance(model.gas, TableGasSection):
-        return f"interpolate({phi}, gas_points_deg, gas_points_mpa)"
+        return straight_pressure(phi)
     steps = _two_stroke if corners.shape.strokes == 2 else _four_stroke
-    limits, text = steps(phi, ratio, corners)
-    for limit, value in reversed(limits):
-        text = f"({value}) if {phi} <= {limit} + {EDGE} else ({text})"
-    return text
+    return steps(phi, ratio, corners)
 
 
 def _rise(phi: str, corners: Corners) -> str:
@@ -140,29 +148,40 @@ def _line(phi: str, begin: str, at_begin: str, end: str, at_end: str) -> str:
     return f"{at_begin} + ({at_end} - {at_begin})*({phi} - {begin})/({end} - {begin})"
 
 
-def _four_stroke(phi: str, ratio: str, corners: Corners) -> tuple[list[tuple[str, str]], str]:
+def _four_stroke(phi: str, ratio: str, corners: Corners) -> tuple[str, tuple[Column, ...]]:
     name = corners.name
     opens, closes = name("phi_open_deg"), name("phi_close_deg")
-    compression = f"{_P_A}*({_EPS}/{ratio})**{_N_1}"
-    limits = [
+    top = corners.after_tdc("360")
+    parts = {
+        "p_compression_MPa": f"{_P_A}*({_EPS}/{ratio})**{_N_1}",
+        "p_burning_MPa": f"{_rise(phi, corners)} if {phi} <= {top} else {_expansion(ratio)}",
+        "p_exhaust_MPa": _line(phi, opens, name("p_open"), closes, _P_R),
+    }
+    text = by_angle(phi, (
         (corners.after_tdc("0"), _P_R),
         (corners.after_bdc("180"), _P_A),
-        (name("phi_c_deg"), compression),
-        (corners.after_tdc("360"), _rise(phi, corners)),
-        (opens, _expansion(ratio)),
-        (closes, _line(phi, opens, name("p_open"), closes, _P_R)),
-    ]
-    return limits, _P_R
+        (name("phi_c_deg"), "p_compression_MPa"),
+        (opens, "p_burning_MPa"),
+        (closes, "p_exhaust_MPa"),
+    ), _P_R)  # fmt: skip
+    return text, process_columns(parts)
 
 
-def _two_stroke(phi: str, ratio: str, corners: Corners) -> tuple[list[tuple[str, str]], str]:
+def _two_stroke(phi: str, ratio: str, corners: Corners) -> tuple[str, tuple[Column, ...]]:
     name = corners.name
     opens, scavenge, closes = (name(f"phi_{key}_deg") for key in ("open", "scavenge", "close"))
-    limits = [
-        (corners.after_tdc("0"), _rise(f"({corners.after_tdc('360')})", corners)),
-        (opens, _expansion(ratio)),
-        (scavenge, _line(phi, opens, name("p_open"), scavenge, _P_R)),
-        (closes, _line(phi, scavenge, _P_R, closes, _P_A)),
-        (name("phi_c_deg"), f"{_P_A}*({name('x_close')}/{ratio})**{_N_1}"),
-    ]
-    return limits, _rise(phi, corners)
+    top = corners.after_tdc("0")
+    rise = _rise(f"({corners.after_tdc('360')})", corners)
+    parts = {
+        "p_compression_MPa": f"{_P_A}*({name('x_close')}/{ratio})**{_N_1}",
+        "p_burning_MPa": f"{rise} if {phi} <= {top} else {_expansion(ratio)}",
+        "p_exhaust_MPa": _line(phi, opens, name("p_open"), scavenge, _P_R),
+        "p_scavenge_MPa": _line(phi, scavenge, _P_R, closes, _P_A),
+    }
+    text = by_angle(phi, (
+        (opens, "p_burning_MPa"),
+        (scavenge, "p_exhaust_MPa"),
+        (closes, "p_scavenge_MPa"),
+        (name("phi_c_deg"), "p_compression_MPa"),
+    ), _rise(phi, corners))  # fmt: skip
+    return text, process_columns(parts)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from kshm.mechanics.pin_bearing import PLANES
 from reports.spec.blocks import Block, Grid, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, over_phi, polar
-from reports.spec.extremes import NEVER, TIE, extreme_columns, extreme_scalars
+from reports.spec.extremes import TIE, extreme_columns, extreme_scalars
 from reports.spec.listing import column_list, grid_row, scalar_list
 from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape, rods_table
@@ -124,8 +124,8 @@ def _bending_results(*, given: bool) -> tuple[Block, ...]:
     numbers = range(1, PLANES + 1)
     t, plane = "pin_bending", "pin_bending.plane{i}_MPa"
     swing = f"of_MPa(col_max({plane}) - col_min({plane}))*F_piston*of_mm(throw1_length)/4/2"
-    low = f"min({', '.join(f'swing{i}' for i in numbers)})"
-    best = f"plane_deg{{i}} if swing{{i}} <= {low} + {TIE}*max(1, {low}) else {NEVER}"
+    low = "col_min(planes.plane_swing)"
+    best = f"plane_deg{{i}} if swing{{i}} < {low} + {TIE} else plane_deg{PLANES}"
     grid = Grid(
         "planes",
         "Размах момента по плоскостям",
@@ -146,7 +146,7 @@ def _bending_results(*, given: bool) -> tuple[Block, ...]:
         Malpha_min = col_min({t}.Malpha_Nm) | Гоц, 2.6
         Malpha_swing = (Malpha_max - Malpha_min)/2 | амплитуда
         Malpha_mean = (Malpha_max + Malpha_min)/2 | среднее цикла
-        alpha_best_deg = min({", ".join(f"plane_best{i}" for i in numbers)})
+        alpha_best_deg = col_min(planes.plane_best)
             | плоскость наименьшей амплитуды
         Mbest_swing = {low} | наименьшая амплитуда
     """)

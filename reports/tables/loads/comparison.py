@@ -89,12 +89,12 @@ def _row(key: str, of: str, numbers: tuple[int, ...], model: InputFile, *, low: 
     """One quantity at every regime and the name of the one that governs."""
     cells = [Scalar(f"cmp{n}_{key}", _key(key, n), "Гоц, 2.4", of=of) for n in numbers]
     values = [f"cmp{n}_{key}" for n in numbers]
-    way, sign, slack = ("min", "<=", "+") if low else ("max", ">=", "-")
+    way, sign, slack = ("min", "<", "+") if low else ("max", ">", "-")
     top = f"{way}({', '.join(values)})"
     names = [_name(model, n) for n in numbers]
     text = names[-1]
     for value, name in list(zip(values, names, strict=True))[-2::-1]:
-        test = f"{value} {sign} {top} {slack} {TIE}*max(1, abs({top}))"
+        test = f"{value} {sign} {top} {slack} {TIE}"
         text = f"{name} if {test} else ({text})"
     cells.append(Scalar(f"governs_{key}", text, "Гоц, 2.4", of="governs"))
     return GridRow(of, tuple(cells))

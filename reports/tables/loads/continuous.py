@@ -54,15 +54,13 @@ def _beam(groups: Groups) -> Grid:
 
 
 def _span(i: int, group: list[tuple[int, str]]) -> dict[str, Scalar]:
-    t, p = f"throw_{i}", f"throw{i}_"
-    near = f"({t}_l1_mm + {t}_left_web_mm + {t}_l2_mm)"
-    length = f"of_mm({p}length)"
+    p, length = f"throw{i}_", f"of_mm(throw{i}_length)"
     places = {
-        "a": f"of_mm{near}",
-        "b": f"of_mm({near} + {t}_l3_mm + {t}_l4_mm)",
-        "pin": f"of_mm({near} + {t}_l3_mm)",
-        "left": f"of_mm({t}_l1_mm + {t}_left_web_mm/2)",
-        "right": f"({length} - of_mm({t}_l6_mm + {t}_right_web_mm/2))",
+        "a": f"of_mm({p}arm_rod)",
+        "b": f"of_mm({p}arm_rod2)",
+        "pin": f"of_mm({p}arm_pin)",
+        "left": f"of_mm({p}arm_left)",
+        "right": f"of_mm({p}length - {p}arm_right)",
     }
 
     def right(at: str) -> str:
@@ -72,22 +70,19 @@ def _span(i: int, group: list[tuple[int, str]]) -> dict[str, Scalar]:
         return f"({length} - {at})*({length}**2 - ({length} - {at})**2)/{length}"
 
     cells: dict[str, Scalar] = {}
-    for name in dict.fromkeys(place for _, place in group):
+    rods_at = tuple(dict.fromkeys(place for _, place in group))
+    for name in (*rods_at, "pin", "left", "right"):
         for side, term in (("A", right), ("B", left)):
             key = f"beam{side}{name}"
             cells[key] = Scalar(f"beam{i}_{side}{name}", term(places[name]), "три момента", of=key)
     spin = f"m_2*{UNIT}"
-    for side, term in (("A", right), ("B", left)):
+    for side in "AB":
         rods = " + ".join(f"{spin}*beam{i}_{side}{name}" for _, name in group)
         ups = (
-            f"{rods} + {p}C4*({term(places['pin'])})"
-            f" + ({p}C2 - {p}C1)*({term(places['left'])})"
-            f" + ({p}C6 - {p}C7)*({term(places['right'])})"
+            f"{rods} + {p}C4*beam{i}_{side}pin + ({p}C2 - {p}C1)*beam{i}_{side}left"
+            f" + ({p}C6 - {p}C7)*beam{i}_{side}right"
         )
-        sides = (
-            f"({p}C8 + {p}C14)*({term(places['left'])})"
-            f" + ({p}C9 + {p}C15)*({term(places['right'])})"
-        )
+        sides = f"({p}C8 + {p}C14)*beam{i}_{side}left + ({p}C9 + {p}C15)*beam{i}_{side}right"
         for axis, text in (("U", ups), ("L", sides)):
             key = f"beam{side}{axis}"
             cells[key] = Scalar(f"beam{i}_{side}{axis}", text, "центробежные силы", of=key)

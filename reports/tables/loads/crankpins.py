@@ -11,7 +11,6 @@ from reports.spec.shape import Shape, pin_name, rods_table
 from reports.tables.loads.cylinder import cylinder_table_id
 
 SPLIT = "rad(crankshaft_split_pin_deg)"
-NOISE = "0.000000001"  # MPa: rounding noise of zero would turn an angle round
 
 
 def crankpins(scope: Scope) -> Part:
@@ -142,8 +141,8 @@ def _rods(shape: Shape, throw: int, rows: tuple[float, ...]) -> TableSpec:
 def angle(side: str, along: str) -> str:
     """Angle of a vector from its second component [deg], steady where the first vanishes."""
     return (
-        f"0 if abs({side}) < {NOISE} and {along} >= 0"
-        f" else 180 if abs({side}) < {NOISE} else deg(atan2({side}, {along}))"
+        # Rounding noise of zero would turn an angle round.
+        f"(0 if {along} >= 0 else 180) if round({side}, 9) == 0 else deg(atan2({side}, {along}))"
     )
 
 

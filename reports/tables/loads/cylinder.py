@@ -51,6 +51,7 @@ def _shifted(
     if shape.is_hung(number):
         return hung_table(model, rows, number)
     offset = f"force_offset_{number}_deg" if forced else f"firing_offset_{number}_deg"
+    text, helpers = own_pressure(model, shape, "phase_deg")
     return TableSpec(
         f"forced_{number}" if forced else f"cylinder_{number}",
         f"Ц{number}",
@@ -59,10 +60,10 @@ def _shifted(
         (
             *column_list(f"""
                 phi_deg
-                phase_deg of phase{number}_deg = mod(phi_deg - {offset}, {shape.period})
+                phase_deg of phase{number}_deg = round(mod(phi_deg - {offset}, {shape.period}), 9)
                     | угол в цикле
                 volume_ratio = {shape.volume_ratio("phase_deg")} | {displaced(shape)}
-                p_MPa = {own_pressure(model, shape, "phase_deg")} | Гоц, 2.4
+                p_MPa = {text} | Гоц, 2.4
                 Pg_MPa = p_MPa - gas_ambient_pressure_mpa | Гоц (33)
             """),
             *_chain("phase_deg"),
@@ -72,6 +73,7 @@ def _shifted(
                 j_m_s2 = {acceleration(model, "phase_deg", "beta_rad")} | Гоц (6) или точно
             """),
             *timing(model, shape, "phase_deg"),
+            *helpers,
         ),
         rows,
         helper=forced,

@@ -15,17 +15,18 @@ def hung_table(model: InputFile, rows: tuple[float, ...], number: int) -> TableS
     """Forces of a cylinder whose rod hangs on the master rod."""
     shape = Shape.of(model)
     corners = hung_corners(shape)
-    period = shape.period
+    period, offset = shape.period, f"firing_offset_{number}_deg"
     timing = f"mod(phase_deg - phi_tdc_art_deg, {period}) + phi_tdc_art_deg"
     unit = "articulated_big_end_kg*omega**2"
     phi = "rad(phase_deg)"
+    text, helpers = pressure(model, TIMING, "volume_ratio", corners)
     columns = [
         *column_list(f"""
             phi_deg
-            phase_deg of phase{number}_deg = mod(phi_deg - firing_offset_{number}_deg, {period})
+            phase_deg of phase{number}_deg = round(mod(phi_deg - {offset}, {period}), 9)
                 | угол в цикле
             volume_ratio = {hung_ratio('y')} | {SOURCE}
-            p_MPa = {pressure(model, TIMING, 'volume_ratio', corners)} | Гоц, 2.4
+            p_MPa = {text} | Гоц, 2.4
             Pg_MPa = p_MPa - gas_ambient_pressure_mpa | Гоц (33)
             Pj_MPa = to_MPa(articulated_reciprocating_kg*omega**2*y_2/F_piston) | Гоц (30)
             Ps_MPa = Pg_MPa + Pj_MPa | Гоц, 2.4
@@ -39,6 +40,7 @@ def hung_table(model: InputFile, rows: tuple[float, ...], number: int) -> TableS
         """),
         *hung_helpers(shape, "phase_deg"),
         Column(TIMING, timing, "угол от ВМТ", helper=True, of="phase_deg"),
+        *helpers,
         _force("push_x", f"N_MPa - to_MPa({unit}*q_x2/F_piston)"),
         _force("push_y", f"-Ps_MPa - to_MPa({unit}*q_y2/F_piston)"),
         *column_list(f"""

@@ -79,14 +79,25 @@ def _throw(i: int, shape: Shape) -> dict[str, Scalar]:
     h_left, h_right = f"{t}_left_web_mm", f"{t}_right_web_mm"
     rod = f"{t}_l1_mm + {h_left} + {t}_l2_mm"
     rest = f"{t}_l3_mm + {t}_l4_mm + {t}_l5_mm + {h_right} + {t}_l6_mm"
+    arms = {
+        "arm_left": f"{t}_l1_mm + {h_left}/2",
+        "arm_rod": rod,
+        "arm_pin": f"throw{i}_arm_rod + {t}_l3_mm",
+        "arm_right": f"{t}_l6_mm + {h_right}/2",
+    }
+    if second:
+        arms["arm_rod2"] = f"throw{i}_arm_pin + {t}_l4_mm"
     cells = {
-        "length": Scalar(f"throw{i}_length", f"{rod} + {rest}", "Гоц, рис. 35"),
-        "share": Scalar(f"throw{i}_share", f"({rod})/throw{i}_length", "Гоц (50)"),
-        **_second_share(i, rod, second=second),
+        **{key: Scalar(f"throw{i}_{key}", text, "Гоц, рис. 35") for key, text in arms.items()},
+        "length": Scalar(f"throw{i}_length", f"throw{i}_arm_rod + {rest}", "Гоц, рис. 35"),
+        "share": Scalar(f"throw{i}_share", f"throw{i}_arm_rod/throw{i}_length", "Гоц (50)"),
+        **_second_share(i, second=second),
         **{key: Scalar(f"throw{i}_{key}", text, "Гоц, рис. 35") for key, text in forces.items()},
-        **_reactions(i, shape, rod, rest),
+        **_reactions(i, shape),
     }
     side = f"throw{i}_C14 + throw{i}_C8" + (f" - throw{i}_C10" if i == 1 else "")
+    weights = " + ".join(f"{web}_counterweight_kg" for web in (left, right))
+    cells["weights_kg"] = Scalar(f"throw{i}_weights_kg", weights, "исходные данные")
     cells["side"] = Scalar(f"throw{i}_side", side, "Гоц, рис. 35")
     return cells
 
@@ -96,11 +107,11 @@ def _has_second_rod(shape: Shape) -> bool:
     return not shape.single_rods and not shape.articulated
 
 
-def _second_share(i: int, rod: str, *, second: bool) -> dict[str, Scalar]:
+def _second_share(i: int, *, second: bool) -> dict[str, Scalar]:
     if not second:
         return {}
-    place = f"{rod} + throw_{i}_l3_mm + throw_{i}_l4_mm"
-    return {"share2": Scalar(f"throw{i}_share2", f"({place})/throw{i}_length", "Гоц (50)")}
+    share = f"throw{i}_arm_rod2/throw{i}_length"
+    return {"share2": Scalar(f"throw{i}_share2", share, "Гоц (50)")}
 
 
 def _split_share(shape: Shape) -> str:
@@ -108,32 +119,27 @@ def _split_share(shape: Shape) -> str:
     return f"*(1 + cos({SPLIT}))/2" if shape.split else ""
 
 
-def _reactions(i: int, shape: Shape, rod: str, rest: str) -> dict[str, Scalar]:
-    throws = shape.throws
-    p, t = f"throw{i}_", f"throw_{i}"
-    length = f"{p}length"
-    left = f"({t}_l1_mm + {t}_left_web_mm/2)"
-    right = f"({t}_l6_mm + {t}_right_web_mm/2)"
-    pin_left, pin_right = f"({rod} + {t}_l3_mm)", f"({rest} - {t}_l3_mm)"
-    far_left, far_right = f"({length} - {right})", f"({length} - {left})"
+def _reactions(i: int, shape: Shape) -> dict[str, Scalar]:
+    throws, p = shape.throws, f"throw{i}_"
+    length, left, right = f"{p}length", f"{p}arm_left", f"{p}arm_right"
+    rod, pin = f"{p}arm_rod", f"{p}arm_pin"
     rkp = (
-        f"(({p}C1 - {p}C2)*{left} - {p}C3*({rod}) - {p}C4*{pin_left}"
-        f" - ({p}C6 - {p}C7)*{far_left})/{length}"
+        f"(({p}C1 - {p}C2)*{left} - {p}C3*{rod} - {p}C4*{pin}"
+        f" - ({p}C6 - {p}C7)*({length} - {right}))/{length}"
     )
-    rtp = f"-((({p}C8 + {p}C14)*{left} + ({p}C9 + {p}C15)*{far_left})/{length})"
+    rtp = f"-((({p}C8 + {p}C14)*{left} + ({p}C9 + {p}C15)*({length} - {right}))/{length})"
     rkl = (
-        f"(({p}C7 - {p}C6)*{right} - {p}C4*{pin_right} - {p}C3*({rest})"
-        f" - ({p}C2 - {p}C1)*{far_right})/{length}"
+        f"(({p}C7 - {p}C6)*{right} - {p}C4*({length} - {pin}) - {p}C3*({length} - {rod})"
+        f" - ({p}C2 - {p}C1)*({length} - {left}))/{length}"
     )
-    rtl = f"-((({p}C9 + {p}C15)*{right} + ({p}C8 + {p}C14)*{far_right})/{length})"
+    rtl = f"-((({p}C9 + {p}C15)*{right} + ({p}C8 + {p}C14)*({length} - {left}))/{length})"
+    far = f"{p}arm_rod2"
     if _has_second_rod(shape):
-        between = f"({t}_l3_mm + {t}_l4_mm)"
-        far, near = f"({rod} + {between})", f"({rest} - {between})"
         rkp += f" - {p}C5*{far}/{length}"
-        rkl += f" - {p}C5*{near}/{length}"
+        rkl += f" - {p}C5*({length} - {far})/{length}"
     if shape.split:
-        rtp += f" - ({p}C5x*{far} + {p}C4x*{pin_left})/{length}"
-        rtl += f" - ({p}C5x*{near} + {p}C4x*{pin_right})/{length}"
+        rtp += f" - ({p}C5x*{far} + {p}C4x*{pin})/{length}"
+        rtl += f" - ({p}C5x*({length} - {far}) + {p}C4x*({length} - {pin}))/{length}"
     sources = {"RKCP": "Гоц (44)", "RTCP": "Гоц (45)", "RKCL": "Гоц (46)", "RTCL": "Гоц (47)"}
     texts = {"RKCP": rkp, "RTCP": rtp, "RKCL": rkl, "RTCL": rtl}
     if i == 1:

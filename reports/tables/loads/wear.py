@@ -5,12 +5,10 @@ from __future__ import annotations
 from kshm.nomenclature.quantity import ray_key, roman
 from reports.spec.blocks import Block, Column, Grid, GridRow, Scalar, TableSpec
 from reports.spec.charts import ChartSpec, wear_chart
-from reports.spec.extremes import NEVER, TIE
-from reports.spec.listing import scalar_list
+from reports.spec.extremes import TIE
+from reports.spec.listing import grid_row, scalar_list
 from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape, pin_name
-
-HALF = f"(0.5 - {TIE})"  # cos 60°; the window includes its edges
 
 
 def wear(scope: Scope) -> Part:
@@ -42,8 +40,9 @@ def _surface(
 ) -> tuple[TableSpec, Grid]:  # fmt: skip
     columns = [Column("phi_deg", None)]
     for i in range(rays):
-        turn = f"rad({360 * i // rays})"
-        inside = f"({up})*cos({turn}) + ({against})*sin({turn}) >= {size}*{HALF}"
+        turn = f"rad({name}_deg{i + 1})"
+        # cos 60° is a half; the window includes its edges.
+        inside = f"round(({up})*cos({turn}) + ({against})*sin({turn}) - {size}/2, 9) >= 0"
         columns.append(Column(ray_key(i + 1), f"{size} if {inside} else 0", "Гоц, табл. 14"))
     table = TableSpec(
         table_id,
@@ -64,8 +63,7 @@ def _surface(
 def _sums(table_id: str, name: str, journal: str, sheet: str, rays: int) -> Grid:
     """Sums by rays, the least loaded ray and the points of the drawn diagram."""
     numbers = range(1, rays + 1)
-    sums = [f"{name}_sum{i}" for i in numbers]
-    low, high = f"min({', '.join(sums)})", f"max({', '.join(sums)})"
+    grid = f"{table_id}_sums"
 
     def row(of: str, key: str, text: str) -> GridRow:
         cells: list[Scalar] = []
@@ -78,19 +76,19 @@ def _sums(table_id: str, name: str, journal: str, sheet: str, rays: int) -> Grid
         return GridRow(of, tuple(cells))
 
     # Drawn on the side of contact, half a turn from the ray; the deepest wear is half the radius.
-    radius = f"(1 - {{sum}}/(2*({high})))"
+    radius = f"(1 - {{sum}}/(2*col_max({grid}.ray_sum)))"
     return Grid(
-        f"{table_id}_sums",
+        grid,
         f"Суммы сил по лучам и условная диаграмма износа: {sheet.removeprefix('Износ ')}",
         sheet,
         (*(roman(i) for i in numbers), "I"),
         (
-            row("ray_deg", "deg", f"({{i}} - 1)*360/{rays}"),
+            row("ray_deg", "deg", "({i} - 1)*360/calculation_wear_rays"),
             row("ray_sum", "sum", f"col_sum({table_id}.{{ray}})"),
             row(
                 "ray_candidate",
                 "best",
-                f"{{i}} if {{sum}} <= ({low}) + {TIE}*max(1, {low}) else {NEVER}",
+                f"{{i}} if {{sum}} < col_min({grid}.ray_sum) + {TIE} else {rays}",
             ),
             # x grows to the left, as the axes of the journals do; the chart turns it round.
             # A ray's points of wear and circle stand one below the other: a line joins them.
@@ -98,17 +96,29 @@ def _sums(table_id: str, name: str, journal: str, sheet: str, rays: int) -> Grid
             row("circle_x", "cx", "-sin(rad({deg}))"),
             row("wear_y", "y", f"-({radius}*cos(rad({{deg}})))"),
             row("circle_y", "cy", "-cos(rad({deg}))"),
+            # The oil hole on the journal, seen as the report draws it.
+            *(
+                grid_row(
+                    of,
+                    (f"{turn}(rad(hole_{name}_deg))", *[None] * rays),
+                    "Гоц, рис. 33",
+                    f"{name}_{of}",
+                )
+                for of, turn in (("hole_x", "sin"), ("hole_y", "cos"))
+            ),
         ),
     )
 
 
-def hole_scalars(name: str, rays: int) -> tuple[Scalar, ...]:
+def hole_scalars(name: str) -> tuple[Scalar, ...]:
     """Least loaded ray and the place of the oil hole opposite to it."""
-    key = f"hole_{name}"
-    candidates = ", ".join(f"{name}_best{i}" for i in range(1, rays + 1))
+    key, number = f"hole_{name}", name.removeprefix("pin")
+    table = f"table_14_pin_{number}" if number.isdigit() else "table_14"
+    if name.startswith("main"):
+        table = f"table_14_main_{name.removeprefix('main')}"
     return scalar_list(f"""
-        {key}_ray = min({candidates}) | Гоц, рис. 33
-        {key}_deg = mod(({key}_ray - 1)*360/{rays} + 180, 360) | Гоц, 2.6
+        {key}_ray = col_min({table}_sums.ray_candidate) | Гоц, рис. 33
+        {key}_deg = mod(({key}_ray - 1)*360/calculation_wear_rays + 180, 360) | Гоц, 2.6
     """)
 
 

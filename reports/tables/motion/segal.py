@@ -17,7 +17,6 @@ J = "cos(rad(alpha_deg) + {beta})/cos({beta}) + {lam}*cos(rad(alpha_deg))**2/cos
 ALPHA = ("alpha_deg", "φ, °")
 TITLES = {"s": "Перемещение", "v": "Скорость", "j": "Ускорение"}
 _INDEX = Column("alpha_deg", None)
-_NEVER = "9999"
 
 
 def filled(text: str, lam: str) -> str:
@@ -40,11 +39,11 @@ def _errors() -> TableSpec:
             Column(f"{letter}_two_term", *near[letter]),
             Column(f"d{letter}", f"{letter}_two_term - {letter}_exact", "погрешность"),
         ]
-        reached = f"abs(d{letter}) >= d{letter}_max - 0.000000001"
+        reached = f"abs(d{letter}) >= d{letter}_max*0.999999"
         helpers.append(
             *column_list(f"""
                 helpers:
-                at_{letter}_deg of at_error_deg = alpha_deg if {reached} else {_NEVER}
+                at_{letter}_deg of at_error_deg = alpha_deg if {reached} else col_last(alpha_deg)
                     | вспомогательный
             """)
         )

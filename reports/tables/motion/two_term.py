@@ -5,13 +5,13 @@ from __future__ import annotations
 from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, only, over_phi
-from reports.spec.extremes import NEVER, TIE
 from reports.spec.listing import scalar_list
 from reports.spec.parts import Part, Scope
 from reports.tables.motion.mechanism import offset_sum
 
 SHEET = "Погрешность"
 _PHI = "rad(phi_deg)"
+_NEARLY = "0.999999"  # equal extremes differ in their last digits
 _ERRORS = (
     ("s", "mm", "перемещение"), ("v", "m_s", "скорость"), ("j", "m_s2", "ускорение"),
     ("Pj", "MPa", ""), ("N", "MPa", ""), ("T", "MPa", ""), ("M", "Nm", ""),
@@ -59,9 +59,9 @@ def _table(rows: tuple[float, ...]) -> TableSpec:
     )
     for name, suffix, _ in _ERRORS:
         value, most = f"abs(e{name}_{suffix})", f"e{name}_max"
-        test = f"{value} >= {most} - {TIE}*max(1, {most})"
+        test = f"{value} >= {most}*{_NEARLY}"
         columns.append(
-            Column(f"at_e{name}", f"phi_deg if {test} else {NEVER}", "вспомогательный",
+            Column(f"at_e{name}", f"phi_deg if {test} else col_last(phi_deg)", "вспомогательный",
                    helper=True, of="at_max_deg")
         )  # fmt: skip
     return TableSpec(

@@ -8,7 +8,7 @@ from reports.spec.blocks import Grid, GridRow
 from reports.spec.charts import ChartSpec, Series
 from reports.spec.listing import grid_row
 from reports.spec.parts import Part, Scope
-from reports.spec.shape import Shape
+from reports.spec.shape import FIRING, Shape
 
 SHEET = "Схема"
 _REACH = "0.95"  # rows of cylinders reach nearly to the edge of the drawing
@@ -29,14 +29,6 @@ def _lean(shape: Shape) -> str:
 def _cylinders(shape: Shape) -> Grid:
     numbers = range(1, shape.cylinders + 1)
 
-    def rank(i: int) -> str:
-        before = [
-            f"(1 if firing_offset_{j}_deg < firing_offset_{i}_deg else 0)"
-            for j in numbers
-            if j != i
-        ]
-        return " + ".join(["1", *before])
-
     def row(of: str, texts: Iterable[str]) -> GridRow:
         return grid_row(of, texts, _SOURCE)
 
@@ -52,7 +44,7 @@ def _cylinders(shape: Shape) -> Grid:
             row("cyl_throw", (str(shape.throw_of(i)) for i in numbers)),
             row("cyl_axis", map(shape.axis, numbers)),
             row("cyl_theta", (f"firing_offset_{i}_deg" for i in numbers)),
-            row("cyl_rank", map(rank, numbers)),
+            row("cyl_rank", (f"rank(cyl_theta{i}, {FIRING})" for i in numbers)),
             row("cyl_x", (f"{_REACH}*sin({axis(i)})" for i in numbers)),
             row("cyl_y", (f"{_REACH}*cos({axis(i)})" for i in numbers)),
         ),

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Scalar, ScalarTable
-from reports.spec.extremes import extreme_scalars, first_number
-from reports.spec.listing import scalar_list
+from reports.spec.blocks import Block, Grid, GridRow, Scalar, ScalarTable
+from reports.spec.extremes import extreme_scalars
+from reports.spec.listing import grid_row, scalar_list
 from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape, pin_name
 from reports.tables.gas.cycle_names import section_of
@@ -21,13 +21,13 @@ def summary(scope: Scope) -> Part:
     model, shape = scope.input, scope.shape
     throws, pins = shape.throws, len(shape.pins)
     journals = throws + 1
-    rays = model.calculation.wear_rays
-    blocks = (
+    blocks: tuple[Block, ...] = (
         _torque(model, shape),
-        *(_pin(number, shape, rays) for number in range(1, pins + 1)),
-        *(_journal(k, rays) for k in range(1, journals + 1)),
+        *(_pin(number, shape) for number in range(1, pins + 1)),
+        *(_journal(k) for k in range(1, journals + 1)),
         _running(throws),
-        _loads(journals, pins),
+        _loads(pins),
+        _ranks(shape),
         checks(model, shape),
     )
     return Part(blocks)
@@ -79,7 +79,7 @@ def _hung_work(shape: Shape) -> tuple[Scalar, ...]:
     return (Scalar("W_hung", f"col_sum({table}.work_J)", "∫p dV"),)
 
 
-def _pin(number: int, shape: Shape, rays: int) -> ScalarTable:
+def _pin(number: int, shape: Shape) -> ScalarTable:
     n, pins = pin_name(number), len(shape.pins)
     throw = shape.throw_of(shape.pins[number - 1][0])
     projected = f"(of_mm(pin_diameter_{throw}_mm)*of_mm(pin_length_{throw}_mm))"
@@ -97,12 +97,12 @@ def _pin(number: int, shape: Shape, rays: int) -> ScalarTable:
                 q_pin{n}_mean = {name}_mean*F_piston/{projected} | Гоц, 2.6
                 q_pin{n}_max = {name}_max*F_piston/{projected} | Гоц, 2.6
             """),
-            *hole_scalars(f"pin{n}", rays),
+            *hole_scalars(f"pin{n}"),
         ),
     )
 
 
-def _journal(k: int, rays: int) -> ScalarTable:
+def _journal(k: int) -> ScalarTable:
     name, table = f"Rmain{k}", f"P4_3_{k}"
     projected = f"(of_mm(main_diameter_{k}_mm)*of_mm(main_length_{k}_mm))"
     return ScalarTable(
@@ -117,7 +117,7 @@ def _journal(k: int, rays: int) -> ScalarTable:
                 q_main{k}_mean = {name}_mean*F_piston/{projected} | Гоц, 2.6
                 q_main{k}_max = {name}_max*F_piston/{projected} | Гоц, 2.6
             """),
-            *hole_scalars(f"main{k}", rays),
+            *hole_scalars(f"main{k}"),
         ),
     )
 
@@ -130,34 +130,46 @@ def _running(throws: int) -> ScalarTable:
     for i in range(1, throws + 1):
         column = f"P4_5.Mpin{i}_Nm"
         scalars.append(Scalar(f"dM_pin{i}", f"col_max({column}) - col_min({column})", "Гоц, 2.8"))
-    main = [(k, f"dM_main{k}") for k in range(2, throws + 2)]
-    pin = [(i, f"dM_pin{i}") for i in range(1, throws + 1)]
-    scalars += [
-        *scalar_list(f"""
-            worst_main_torque = {_worst(main)} | Гоц, 2.8
-            worst_pin_torque = {_worst(pin)} | Гоц, 2.8
-        """),
-    ]
+    scalars += scalar_list("""
+        worst_main_torque = first_largest(ranks.rank_dM_main) + 1 | Гоц, 2.8
+        worst_pin_torque = first_largest(ranks.rank_dM_pin) | Гоц, 2.8
+    """)
     return ScalarTable("summary_running", "Размах набегающих моментов", SHEET, tuple(scalars))
 
 
-def _loads(journals: int, pins: int) -> ScalarTable:
-    keys = [(k, f"Rmain{k}_max") for k in range(1, journals + 1)]
-    scalars = [Scalar("worst_main_load", _worst(keys), "Гоц, 2.9")]
+def _loads(pins: int) -> ScalarTable:
+    lines = ["worst_main_load = first_largest(ranks.rank_Rmain) | Гоц, 2.9"]
     if pins > 1:
-        others = [(n, f"Rpin{pin_name(n)}_max") for n in range(1, pins + 1)]
-        scalars.append(Scalar("worst_pin_load", _worst(others), "Гоц, 2.9"))
+        lines.append("worst_pin_load = first_largest(ranks.rank_Rpin) | Гоц, 2.9")
     title = "Наиболее нагруженная коренная шейка" if pins == 1 else "Наиболее нагруженные шейки"
-    return ScalarTable("summary_loads", title, SHEET, tuple(scalars))
+    return ScalarTable("summary_loads", title, SHEET, scalar_list(*lines))
 
 
-def _worst(keys: list[tuple[int, str]]) -> str:
-    return first_number(keys, f"max({', '.join(key for _, key in keys)})")
+def _ranks(shape: Shape) -> Grid:
+    """What is compared among journals, pins and cylinders, equal values made equal."""
+    journals, throws = range(1, shape.throws + 2), range(1, shape.throws + 1)
+    most = max(shape.cylinders, shape.throws + 1)
+
+    def row(of: str, texts: dict[int, str]) -> GridRow:
+        rounded = (f"round({texts[n]}, 6)" if n in texts else None for n in range(1, most + 1))
+        return grid_row(of, rounded, "округлено до шести знаков")
+
+    rows = [
+        row("rank_Rmain", {k: f"Rmain{k}_max" for k in journals}),
+        row("rank_dM_main", {k: f"dM_main{k}" for k in journals if k > 1}),
+        row("rank_dM_pin", {i: f"dM_pin{i}" for i in throws}),
+    ]
+    pins = range(1, len(shape.pins) + 1)
+    if len(pins) > 1:
+        rows.append(row("rank_Rpin", {n: f"Rpin{pin_name(n)}_max" for n in pins}))
+    rows.append(row("rank_phase", {i: _phase(shape, i) for i in range(1, shape.cylinders + 1)}))
+    labels = tuple(f"№ {n}" for n in range(1, most + 1))
+    return Grid("ranks", "Сравнение шеек и цилиндров по номерам", SHEET, labels, tuple(rows))
 
 
 def checks(model: InputFile, shape: Shape) -> ScalarTable:
     """Checks with their value and verdict; a failed check shows НЕТ."""
-    cylinders, throws = shape.cylinders, shape.throws
+    throws = shape.throws
     work = "W_cycle" if not shape.articulated else "((W_cycle + W_hung)/2)"
     tests: list[tuple[str, str, str, str]] = [
         ("closure", "Последний набегающий момент равен суммарному: наибольшее расхождение, Н·м",
@@ -170,7 +182,7 @@ def checks(model: InputFile, shape: Shape) -> ScalarTable:
         ("lam", "λ в обычных пределах 0,24…0,31 (расширенно 0,15…0,45)",
          "lam", "{value} >= 0.15 and {value} <= 0.45"),
         ("phases", "Углы колен согласованы с началом рабочих ходов: наибольшее расхождение, °",
-         f"max({', '.join(_phase(shape, i) for i in range(1, cylinders + 1))})", "{value} <= 0.01"),
+         "col_max(ranks.rank_phase)", "{value} <= 0.01"),
         ("symmetry", "Колена симметричны: наибольшее |aп/l − 0,5|",
          f"max({', '.join(_asymmetry(shape, i) for i in range(1, throws + 1))})",
          "{value} <= 0.000001"),

@@ -1,0 +1,102 @@
+"""Expressions as a line of text with the symbols of the book, for the comments of a workbook."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable
+
+from reports.formula.parse import SCALE_FUNCTIONS, parse
+from reports.shared.russian import short
+
+_SUM, _PRODUCT, _POWER, _ATOM = 2, 3, 4, 9
+_SIGNS: dict[type[ast.AST], tuple[str, int]] = {
+    ast.Lt: (" < ", 1), ast.LtE: (" ≤ ", 1), ast.Gt: (" > ", 1), ast.GtE: (" ≥ ", 1),
+    ast.Eq: (" = ", 1), ast.NotEq: (" ≠ ", 1),
+    ast.Add: (" + ", _SUM), ast.Sub: (" − ", _SUM), ast.Mult: ("·", _PRODUCT),
+    ast.Div: ("/", _PRODUCT),
+}  # fmt: skip
+_WORDS = {
+    "asin": "arcsin", "acos": "arccos", "total": "Σ", "floor": "целая часть", "round": "окр",
+    "mod": "остаток", "col_max": "max", "col_min": "min", "col_mean": "среднее", "col_sum": "Σ",
+    "col_last": "последнее", "element": "из строки", "place": "номер", "following": "следующее",
+    "running_sum": "Σ до строки", "first_largest": "номер наибольшего", "rank": "место",
+}  # fmt: skip
+_SUPERSCRIPT = {"2": "²", "3": "³", "4": "⁴", "5": "⁵"}
+
+
+def plain(text: str, symbol: Callable[[str], str]) -> str:
+    """An expression as people write it in a line; ``symbol`` gives the symbol of a name.
+
+    Factors between units are left out, as the book does.
+    """
+    return _text(parse(text), symbol)[0]
+
+
+def _text(node: ast.expr, symbol: Callable[[str], str]) -> tuple[str, int]:
+    """Text and the precedence of its outermost operator."""
+
+    def inside(part: ast.expr, least: int) -> str:
+        said, level = _text(part, symbol)
+        return said if level >= least else f"({said})"
+
+    match node:
+        case ast.Constant(value=str() as value):
+            return f"«{value}»", _ATOM
+        case ast.Constant(value=value):
+            return short(float(value)), _ATOM  # type: ignore[arg-type]
+        case ast.Name(id="pi"):
+            return "π", _ATOM
+        case ast.Name(id=name):
+            return _symbol(symbol(name))
+        case ast.Attribute(value=ast.Name(id=table), attr=column):
+            return _symbol(symbol(f"{table}.{column}"))
+        case ast.BinOp(left=left, op=ast.Pow(), right=right):
+            power = inside(right, _ATOM)
+            return f"{inside(left, _ATOM)}{_SUPERSCRIPT.get(power, f'^{power}')}", _POWER
+        case ast.BinOp(left=left, op=op, right=right):
+            sign, level = _SIGNS[type(op)]
+            last = inside(right, level + (type(op) in (ast.Sub, ast.Div)))
+            # A sign at the beginning takes in all factors.
+            first = inside(left, 0 if isinstance(left, ast.UnaryOp) else level)
+            return f"{first}{sign}{last}", level
+        case ast.Compare(left=left, ops=[op], comparators=[right]):
+            sign, level = _SIGNS[type(op)]
+            return f"{inside(left, _SUM)}{sign}{inside(right, _SUM)}", level
+        case ast.UnaryOp(op=ast.USub(), operand=operand):
+            return f"−{inside(operand, _PRODUCT)}", _SUM
+        case ast.UnaryOp(operand=operand):
+            return f"не {inside(operand, _ATOM)}", 0
+        case ast.BoolOp(op=joint, values=values):
+            word = " и " if isinstance(joint, ast.And) else " или "
+            return word.join(inside(value, 1) for value in values), 0
+        case ast.IfExp(test=test, body=body, orelse=orelse):
+            said, otherwise = inside(body, 1), _text(orelse, symbol)[0]
+            return f"{said} при {_text(test, symbol)[0]}, иначе {otherwise}", 0
+        case ast.Call(func=ast.Name(id=name), args=args):
+            return _call(name, [_text(arg, symbol) for arg in args])
+    msg = f"unexpected node {ast.dump(node)}"
+    raise AssertionError(msg)
+
+
+def _symbol(text: str) -> tuple[str, int]:
+    """A symbol; one that is a sum or a ratio itself wants brackets among others."""
+    text = text.rpartition(" = ")[2]
+    level = _SUM if " − " in text or " + " in text else _PRODUCT if "/" in text else _ATOM
+    return text, level
+
+
+def _call(name: str, args: list[tuple[str, int]]) -> tuple[str, int]:
+    if name in SCALE_FUNCTIONS or name in ("rad", "deg"):
+        return args[0]
+    if name == "abs":
+        return f"|{args[0][0]}|", _ATOM
+    if name == "sqrt":
+        return f"√({args[0][0]})", _ATOM
+    if name.startswith("wave_"):
+        *weight, angle, order = (said for said, _ in args)
+        return f"Σ {''.join(weight)} {name[-3:]}({order}·{angle})".replace("  ", " "), _PRODUCT
+    if name.startswith("fourier_"):
+        return f"2/m·Σ {args[0][0]}·{name[-3:]}({args[2][0]}·{args[1][0]})", _PRODUCT
+    if name == "atan2":
+        return f"arctg({args[0][0]} : {args[1][0]})", _ATOM
+    return f"{_WORDS.get(name, name)}({'; '.join(said for said, _ in args)})", _ATOM

@@ -1,0 +1,47 @@
+"""Comments of headers: every column tells its formula in the symbols of the book."""
+
+from __future__ import annotations
+
+import io
+
+import pytest
+from openpyxl import load_workbook
+
+from reports.formula.plain import plain
+from reports.spec.blocks import TableSpec
+from reports.workbook.layout import HEADER_ROW, Layout
+from tests.conftest import sample_names
+from tests.workbook.made import coarse_book, coarse_model
+
+SYMBOLS = {"a": "a", "b": "b", "t.x": "x", "m": "m − n", "q": "V/Vc"}
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("a*(b + 2)", "a·(b + 2)"), ("-(a*b)/2.5", "−a·b/2,5"), ("a - (b - a)", "a − (b − a)"),
+        ("sqrt(a**2 + m**2)", "√(a² + (m − n)²)"), ("b/q", "b/(V/Vc)"),
+        ("to_MPa(a)*sin(rad(b))", "a·sin(b)"), ("(a + b)**1.5", "(a + b)^1,5"),
+        ("a if t.x <= 180 and b > 0 else 0", "a при x ≤ 180 и b > 0, иначе 0"),
+        ("col_mean(t.x)", "среднее(x)"), ("abs(a)*pi", "|a|·π"), ("a - -b", "a − (−b)"),
+    ],
+)  # fmt: skip
+def test_an_expression_as_a_line(text: str, said: str) -> None:
+    assert plain(text, SYMBOLS.__getitem__) == said
+
+
+@pytest.mark.parametrize("name", sample_names())
+def test_every_column_explains_itself(name: str) -> None:
+    """Formula and place in the book, unless the formula only repeats another column."""
+    book, model = load_workbook(io.BytesIO(coarse_book(name))), coarse_model(name)
+    layout = Layout.of(model)
+    told = bare = 0
+    for table in (block for block in model.blocks if isinstance(block, TableSpec)):
+        for column in table.columns[1:]:
+            at = layout.column_of(f"{table.id}.{column.key}")
+            text = book[table.sheet].cell(HEADER_ROW, at).comment.text
+            assert column.source in text, (table.id, column.key)
+            assert "_" not in text.partition("\n")[2], text
+            told += " = " in text
+            bare += " = " not in text
+    assert told > 5 * bare

@@ -13,6 +13,7 @@ from reports.tables.torsion.train import RESULTS, Train, asked, train_of
 
 FREQUENCY, VARIANTS = "Крутильная частота {}", "Частоты вариантов"
 FORMS = "Крутильные формы"
+_SIGNS = 5
 STEPS = 50  # 2⁻⁵⁰ of the bound
 HOLZER = "цепочка Хольцера"
 
@@ -49,16 +50,13 @@ def _names(train: Train) -> tuple[list[str], list[str]]:
 
 def _with_other_flywheel(train: Train, inertias: Sequence[str]) -> list[str]:
     """The other flywheel in place of the one, which is the first of the greatest masses given."""
-    if not train.own:
-        last = train.flywheel - 1
-        return [*inertias[:last], "tor_flywheel_other", *inertias[last + 1 :]]
-    found = []
-    for k, name in enumerate(inertias):
-        first = f"{name} == tor_flywheel"
-        if k:
-            first += f" and max({', '.join(inertias[:k])}) < tor_flywheel"
-        found.append(f"(tor_flywheel_other if {first} else {name})")
-    return found
+    if train.own:
+        return [
+            f"(tor_flywheel_other if tor_greatest == {k} else {name})"
+            for k, name in enumerate(inertias, 1)
+        ]
+    last = train.flywheel - 1
+    return [*inertias[:last], "tor_flywheel_other", *inertias[last + 1 :]]
 
 
 def _springs_by(key: str, train: Train, scope: Scope) -> list[str]:
@@ -92,6 +90,11 @@ def _bisection(
         if k == len(inertias):
             rest = f"{spring}*{angle} - tor_turned{k}"
             signs.append(f"1 if ({angle} < 0) != ({rest} < 0) else 0")
+    # A formula that one can read holds the signs of a few masses.
+    parts = [signs[at : at + _SIGNS] for at in range(0, len(signs), _SIGNS)]
+    for k, part in enumerate(parts, 1):
+        chain.append(f"tor_signs{k} = total({', '.join(part)}) | перемены знака")
+    below = ", ".join(f"tor_signs{k}" for k in range(1, len(parts) + 1))
     # A train free at both ends turns as a whole: one frequency more, of zero.
     low = f"previous(tor_below) < {mode} + (1 if torsion_ground_nm_rad + {springs[-1]} == 0 else 0)"
     return TableSpec(
@@ -109,7 +112,7 @@ def _bisection(
             tor_mid = (tor_low + tor_high)/2 | деление пополам
             """,
             *chain,
-            f"tor_below = total({', '.join(signs)}) | перемены знака (Штурм)",
+            f"tor_below = total({below}) | перемены знака (Штурм)",
         ),
         stepped(0, STEPS, 1),
         note=(

@@ -28,7 +28,7 @@ def resonance(scope: Scope) -> Part:
     train = train_of(scope.input, scope.shape)
     blocks: tuple[Block, ...] = (
         _torque(scope), _critical(scope, train, section), _star(scope), _phases(scope, train),
-        _box(scope), _campbell(train), _worst(train), _damper(section), _forced(), _fresh(),
+        _box(), _campbell(train), _worst(train), _damper(section), _forced(), _fresh(),
     )  # fmt: skip
     return Part(blocks, _charts(scope, train))
 
@@ -56,16 +56,9 @@ def _critical(scope: Scope, train: Train, section: TorsionSection) -> TableSpec:
     last = min(LAST_ORDER, 180 / model.calculation.step_deg - step)
     columns = [Column("tor_order", None)]
     for m in train.modes:
-        parts = []
-        for turn in ("cos", "sin"):
-            terms = [
-                f"element(torsion_forms.tor_theta{m}, {mass})"
-                f"*{turn}(rad(tor_order*firing_offset_{i}_deg))"
-                for i in range(1, shape.cylinders + 1)
-                if (mass := train.mass_of(shape.throw_of(i)))
-            ]
-            parts.append(f"total({', '.join(terms or ['0'])})**2")
-        columns += column_list(f"tor_sum{m} = sqrt({' + '.join(parts)}) | сложение векторов")
+        size, phase = f"torsion_phases.tor_amplitude{m}", "torsion_phases.tor_phase_deg"
+        waves = (f"wave_{turn}({size}, {phase}, tor_order)**2" for turn in ("cos", "sin"))
+        columns += column_list(f"tor_sum{m} = sqrt({' + '.join(waves)}) | сложение векторов")
     for m in train.modes:
         columns += column_list(
             f"tor_n{m}_rpm = 60*tor_f{m}_hz/tor_order | n = 60f/ν",
@@ -102,7 +95,9 @@ def _critical(scope: Scope, train: Train, section: TorsionSection) -> TableSpec:
 def _place(key: str) -> tuple[int, str]:
     """Results by quantity and form, then the helpers."""
     kinds = ("tor_sum", "tor_n", "tor_M", "tor_A", "tor_tau", "tor_in", "tor_")
-    helper = key.startswith(("tor_gas", "tor_in_", "tor_scale", "tor_at"))
+    helper = key.startswith(
+        ("tor_gas", "tor_in_", "tor_speed", "tor_row", "tor_part", "tor_scale", "tor_at")
+    )
     place = len(kinds) if helper else next(i for i, k in enumerate(kinds) if key.startswith(k))
     return place, "" if helper else key
 
@@ -122,21 +117,28 @@ def _helpers(train: Train, section: TorsionSection) -> str:
         ]
     for m in train.modes:
         lines += [
-            f"tor_scale{m} = {_scale(m, len(section.peaks))} | давления по частоте вращения",
+            *_scale(m, len(section.peaks)),
             f"tor_at{m} = tor_order if tor_worst_mode == {m}"
             f" and tor_in{m}_MPa >= tor_worst*{_TIE} else 0 | наибольший резонанс",
         ]
     return "\n".join(lines)
 
 
-def _scale(m: int, points: int) -> str:
-    if not points:
-        return "1"
-    if points == 1:
-        return "torpeakp1/col_max(gas.p_MPa)"
-    at = f"min(max(tor_n{m}_rpm, torpeakn1), torpeakn{points})"
-    peak = f"interpolate({at}, torsion_peaks.tor_peak_rpm, torsion_peaks.tor_peak_MPa)"
-    return f"({peak})/col_max(gas.p_MPa)"
+def _scale(m: int, points: int) -> list[str]:
+    """The peak of the pressure at the critical speed over that of the diagram."""
+    why, most = "давления по частоте вращения", "col_max(gas.p_MPa)"
+    if points < 2:
+        return [f"tor_scale{m} = {'1' if not points else f'torpeakp1/{most}'} | {why}"]
+    n, p = "torsion_peaks.tor_peak_rpm", "torsion_peaks.tor_peak_MPa"
+    row = f"tor_row{m}"
+    low, next_p, next_n = f"element({p}, {row})", f"element({p}, {row} + 1)", f"{row} + 1"
+    return [
+        f"tor_speed{m}_rpm = min(max(tor_n{m}_rpm, torpeakn1), torpeakn{points}) | {why}",
+        f"{row} = place(tor_speed{m}_rpm, {n}) | {why}",
+        f"tor_part{m} = (tor_speed{m}_rpm - element({n}, {row}))"
+        f"/(element({n}, {next_n}) - element({n}, {row})) | {why}",
+        f"tor_scale{m} = ({low} + tor_part{m}*({next_p} - {low}))/{most} | {why}",
+    ]
 
 
 def _worst(train: Train) -> ScalarTable:
@@ -162,20 +164,26 @@ def _worst(train: Train) -> ScalarTable:
 
 
 def _phases(scope: Scope, train: Train) -> Grid:
-    """Angles of the cylinders and their amplitudes in the first form."""
+    """Angles of the cylinders and their amplitudes in the forms."""
     shape = scope.shape
     numbers = range(1, shape.cylinders + 1)
     masses = [train.mass_of(shape.throw_of(i)) for i in numbers]
-    sizes = (f"element(torsion_forms.tor_theta1, {mass})" if mass else "0" for mass in masses)
+
+    def sizes(m: int) -> list[str]:
+        return [f"element(torsion_forms.tor_theta{m}, {k})" if k else "0" for k in masses]
+
     return Grid(
         "torsion_phases",
-        "Цилиндры в первой форме",
+        "Цилиндры в формах колебаний",
         STAR,
         tuple(f"цилиндр {i}" for i in numbers),
         (
             grid_row("tor_phase_deg", (f"firing_offset_{i}_deg" for i in numbers), GIVEN,
                      "torphase{n}"),
-            grid_row("tor_amplitude", sizes, "форма колебаний", "toramplitude{n}"),
+            *(
+                grid_row(f"tor_amplitude{m}", sizes(m), "форма колебаний", f"toramplitude{m}_{{n}}")
+                for m in train.modes
+            ),
         ),
     )  # fmt: skip
 
@@ -188,7 +196,7 @@ def _star_orders(scope: Scope) -> list[float]:
 
 def _star(scope: Scope) -> TableSpec:
     lines = ["tor_cylinder"]
-    a = "element(torsion_phases.tor_amplitude, tor_cylinder)"
+    a = "element(torsion_phases.tor_amplitude1, tor_cylinder)"
     for k, order in enumerate(_star_orders(scope), 1):
         turn = f"rad({order:g}*element(torsion_phases.tor_phase_deg, tor_cylinder))"
         lines += [
@@ -196,6 +204,9 @@ def _star(scope: Scope) -> TableSpec:
             f" else previous(tor_star_{axis}{k}) {sign} {a}*{wave}({turn}) | сложение векторов"
             for axis, sign, wave in (("x", "-", "sin"), ("y", "+", "cos"))
         ]
+    stars = range(1, len(_star_orders(scope)) + 1)
+    ends = ", ".join(f"abs(tor_star_{axis}{k})" for k in stars for axis in "xy")
+    lines += ["helpers:", f"tor_star_most = max({ends}) | наибольшее из строки"]
     return TableSpec(
         "torsion_star",
         "К.з",
@@ -213,15 +224,9 @@ def _star(scope: Scope) -> TableSpec:
     )
 
 
-def _box(scope: Scope) -> Grid:
-    ends = [
-        f"{sign}col_{way}(torsion_star.tor_star_{axis}{k})"
-        for k in range(1, len(_star_orders(scope)) + 1)
-        for axis in "xy"
-        for sign, way in (("", "max"), ("-", "min"))
-    ]
+def _box() -> Grid:
     return corners("torsion_star_box", "Границы звёзд фаз", STAR, "torstar",
-                   f"(max({', '.join(ends)})*1.1)", of="tor_star_box")  # fmt: skip
+                   "(col_max(torsion_star.tor_star_most)*1.1)", of="tor_star_box")  # fmt: skip
 
 
 def _campbell(train: Train) -> TableSpec:
@@ -310,7 +315,7 @@ def _fresh() -> ScalarTable:
     )
     stored = "col_last(torsion_response.tor_mark)"
     yes, no = "отвечают исходным данным", "ДАННЫЕ ИЗМЕНЕНЫ: соберите книгу заново"
-    text = f'"{yes}" if abs({live} - {stored}) <= 0.000000001*abs({stored}) else "{no}"'
+    text = f'"{yes}" if round(({live})/{stored}, 8) == 1 else "{no}"'
     return ScalarTable(
         "torsion_fresh",
         "Значения этого листа",

@@ -67,12 +67,16 @@ def train_of(model: InputFile, shape: Shape) -> Train:
     if section is None:
         msg = "no torsional vibration is asked for"
         raise ValueError(msg)
-    return _given(section, shape) if section.masses else _equivalent(section, shape)
+    alike = model.crankshaft.main_diameters_mm is None
+    if section.masses:
+        return _given(section, 1 if alike else shape.throws + 1)
+    return _equivalent(section, shape)
 
 
-def _given(section: TorsionSection, shape: Shape) -> Train:
+def _given(section: TorsionSection, sizes: int) -> Train:
+    """The train of the input; ``sizes`` is how many diameters the journals have."""
     numbers = range(1, len(section.masses) + 1)
-    journals = [f"main_diameter_{k}_mm" for k in range(1, shape.throws + 2)]
+    journals = [f"main_diameter_{k}_mm" for k in range(1, sizes + 1)]
     mean = f"total({', '.join(journals)})/{len(journals)}"
     inertias = [mass.inertia_kg_m2 for mass in section.masses]
     return Train(
@@ -308,6 +312,11 @@ def _list(train: Train, section: TorsionSection, scope: Scope) -> ScalarTable:
         "Маховики и рабочий диапазон",
         SHEET,
         scalar_list(
+            *(
+                ["tor_greatest = first_largest(torsion_train.tor_J_kgm2) | место наибольшего"]
+                if train.own
+                else []
+            ),
             f"tor_flywheel = {_flywheel(train, section, scope.shape)}",
             _chosen("tor_flywheel_other", "other_flywheel_kg_m2", section, "1.5*tor_flywheel",
                     "в полтора раза тяжелее"),
@@ -326,8 +335,7 @@ def _chosen(key: str, given: str, section: TorsionSection, guess: str, words: st
 
 def _flywheel(train: Train, section: TorsionSection, shape: Shape) -> str:
     if train.own:
-        inertias = ", ".join(f"torJ{k}" for k in range(1, train.count + 1))
-        return f"max({inertias}) | наибольшая масса схемы"
+        return "element(torsion_train.tor_J_kgm2, tor_greatest) | наибольшая масса схемы"
     if section.flywheel_kg_m2 is not None:
         return f"torsion_flywheel_kg_m2 | {GIVEN}"
     share = f"8*total({', '.join(f'torJ{k + 1}' for k in range(1, shape.throws + 1))})"

@@ -6,17 +6,24 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 from reports.inputs.load import Loaded, load_toml
+from reports.inputs.sections.report import USUAL_FORMATS
+from reports.inputs.sections.report import Format as Kind
 from reports.shared.aside import aside
 from reports.shared.errors import SystemPartMissing
 from reports.shared.files import make_dir, write_bytes, write_text
 from reports.shared.progress import Progress
 
-Kind = Literal["xlsx", "pdf", "html"]
 Further = Sequence[Callable[[Any], Any]]  # chapters, see `reports.document.report`
-KINDS: tuple[Kind, ...] = ("xlsx", "pdf", "html")
+# What the files of a kind are called behind the name of the input.
+ENDINGS: dict[Kind, tuple[str, ...]] = {
+    "xlsx": (".xlsx",),
+    "pdf": (".pdf",),
+    "html": (".html",),
+    "docx": (".docx",),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +47,13 @@ def load_input(path: Path) -> Loaded:
 
         return load_workbook_input(path)
     return load_toml(path)
+
+
+def kinds_of(loaded: Loaded, only: Kind | None = None) -> tuple[Kind, ...]:
+    """What a person asks for, or the input, or the workbook and the PDF."""
+    if only is not None:
+        return (only,)
+    return loaded.model.report.formats or USUAL_FORMATS
 
 
 def find_templates(path: Path, loaded: Loaded, style: Path | None = None) -> None:
@@ -76,10 +90,13 @@ def build(
         InputError: the input gives no finite result.
     """
     from reports.inputs.checks.grid import grid_remark
+    from reports.shared.doctor import need_packages
     from reports.spec.evaluation import evaluate_model
     from reports.tables.overview.verdicts import failed_checks
     from reports.tables.registry import build_model
 
+    if "docx" in kinds:
+        need_packages("нужен для записки Word", docx="python-docx", resvg_py="resvg-py")
     make_dir(folder)
     grid = grid_remark(loaded.model)
     model = build_model(loaded.model, (*remarks_of(loaded), *((grid,) if grid else ())))
@@ -109,6 +126,15 @@ def build(
                 files.append(target)
             except SystemPartMissing as error:
                 missing, wants_html = error, True
+        if "docx" in kinds:
+            from reports.word.write import report_docx
+
+            progress.step("Записка Word")
+            target = folder / f"{path.stem}.docx"
+            write_bytes(
+                target, report_docx(model, values, source=path, style=style, further=further)
+            )
+            files.append(target)
         if "xlsx" in kinds:
             target = folder / f"{path.stem}.xlsx"
             write_bytes(target, book())
@@ -123,7 +149,7 @@ def build(
             )
             files.append(target)
     failed = tuple(check.line() for check in checks if not check.reason)
-    if "pdf" in kinds or wants_html:
+    if wants_html or {"pdf", "docx"} & set(kinds):
         from reports.document.report import remarks_on
 
         failed += remarks_on(loaded.model, path.parent, style)

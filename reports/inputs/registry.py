@@ -72,7 +72,10 @@ _ALL = (
         "Сведения о работе",
         Report,
         optional=True,
-        lists={"chapters": ListKey("Главы отчета", "report_chapter_{n}")},
+        lists={
+            "chapters": ListKey("Главы отчета", "report_chapter_{n}"),
+            "formats": ListKey("Документы", "report_format_{n}"),
+        },
     ),
     Section("engine", "Двигатель", EngineSection),
     Section("calculation", "Расчет", Calculation, optional=True),

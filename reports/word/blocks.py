@@ -29,7 +29,7 @@ _DIVS = {"kind": "CoverKind", "title": "Title", "people": "CoverPeople", "approv
 _PARTS = {"cover": "Cover", "task": "Task", "notation": "Notation"}
 _PARAGRAPHS = {"flush": "Flush", "keys": "Keywords"}
 _BLOCKS = {"div", "p", "section", "ul", "ol", "figure", "table", "nav", "h1", "h2", "h3"}
-_SIDE = 0.07  # of the width: room beside a numbered formula
+_BESIDE = (0.04, 0.86, 0.10)  # of the width: left of a numbered formula, it, its number
 _APPENDIX = re.compile(r"(Приложение )([А-Я])$")
 
 
@@ -97,7 +97,9 @@ class Blocks:
         for number in element.iterfind("span[@class='hn']"):  # the list of headings has its own
             number.tail = (number.tail or "").lstrip("\u00a0 ")
             number.text = ""
-        own_page = [w("pageBreakBefore", val=0)] if "runon" in names else []
+        own_page = []
+        if "runon" in names:
+            own_page = [w("pageBreakBefore", val=0), w("spacing", before=360)]
         anchor = element.get("id")
         if anchor is None or usual != "BodyText":
             return paragraph("FrontHeading", self.lines.runs(element))
@@ -150,8 +152,7 @@ class Blocks:
         if number is None:
             yield from made
             return
-        side = round(self.width * _SIDE)
-        widths = [side, self.width - 2 * side, side]
+        widths = [round(self.width * share) for share in _BESIDE]
         numbered = paragraph("FormulaNumber", self.lines.runs(number))
         row = w("tr", w("trPr", w("cantSplit")))
         for width, content in zip(widths, ([paragraph("Formula")], made, [numbered]), strict=True):

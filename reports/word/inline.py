@@ -63,15 +63,18 @@ class Lines:
         if child.tag == "a" and target == "#report-end":
             return word_field(f"PAGEREF {bookmark_name(target[1:])} \\h", "", looks)
         if child.tag == "a" and target.startswith("#"):
-            shown = "".join(child.itertext()).strip(" ")
-            lead = self._text(" ", looks) if child.text and child.text[0] == " " else []
+            words = "".join(child.itertext())
+            shown = words.lstrip(f" {NBSP}")  # the page moves a blank before a link into it
+            lead = self._text(words[: len(words) - len(shown)], looks)
             return [*lead, *word_field(f"REF {bookmark_name(target[1:])} \\h", shown, looks)]
         if child.tag == "img":
             return []
         if child.get("data-tex"):
             return [omml.omath(child.get("data-tex", ""))]
         if child.tag in _FACES:
-            return self._inside(child, looks | {_FACES[child.tag]})
+            face = _FACES[child.tag]
+            lower = looks - {"sub", "sup"} if face in ("sub", "sup") else looks
+            return self._inside(child, lower | {face})
         return self._span(child, name, looks)
 
     def _span(self, child: HtmlElement, name: str, looks: Looks) -> list[Element]:

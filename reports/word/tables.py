@@ -99,7 +99,7 @@ def stamp(lines: Lines, source: HtmlElement, indent: int) -> Element:
     widths = [twips(float(_found(column)[1])) for column in source.iterfind("colgroup/col")]
     made = frame_of("ReportTableLined", widths, indent)
     open_down: dict[int, tuple[int, int]] = {}  # column: rows still covered, width in columns
-    for row in source.iterfind("tbody/tr"):
+    for row in source.iter("tr"):
         height = w("trPr", w("trHeight", val=twips(5), hRule="exact"))
         made.append(w("tr", height, *_stamp_cells(lines, row, widths, open_down)))
     return made

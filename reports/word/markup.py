@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import re
 from collections.abc import Iterable
+from typing import TypeAlias
 
 from lxml import etree
 
@@ -12,7 +13,7 @@ W = "http://schemas.openxmlformats.org/wordprocessingml/2006/main"
 _SPACE = "{http://www.w3.org/XML/1998/namespace}space"
 _LONGEST = 40  # letters of a bookmark's name
 TWIPS_MM = 1440 / 25.4
-Element = etree._Element
+Element: TypeAlias = etree._Element
 
 
 def w(name: str, /, *children: Element, **attributes: object) -> Element:

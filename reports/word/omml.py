@@ -35,6 +35,7 @@ _MORE_SIGNS = {"neq": "≠", "ne": "≠", "equiv": "≡", "mp": "∓", "{": "{",
                "%": "%"}  # fmt: skip
 _THIN, _MEDIUM = "\u2009", "\u2005"
 _JOINING = "=≈≤≥<>+−·×±≠≡"
+_SPACES_SET = "\u2003\u2005\u2009"
 _ITALIC, _PLAIN, _TEXT = "", "sty", "nor"  # faces: a variable, a number or a sign, a word
 
 
@@ -104,6 +105,8 @@ def _elements(nodes: Sequence[Node], upright: bool) -> Math:
     out: Math = []
     place = 0
     while place < len(nodes):
+        if nodes[place].command in _FUNCTIONS and out and _takes_room(out[-1]):
+            out.append(_run(_THIN, _PLAIN))
         atom, place = _atom(nodes, place, upright)
         if atom.big:
             following: Math = []
@@ -173,6 +176,11 @@ def _delimited(nodes: Sequence[Node], place: int, upright: bool) -> tuple[Math, 
     inner = _merged(_elements(nodes[place + 2 : end - 1], upright))
     marks = (_element("begChr", val=opening), _element("endChr", val=closing))
     return [_element("d", _element("dPr", *marks), _element("e", *inner))], end + 1
+
+
+def _takes_room(part: etree._Element) -> bool:
+    """Whether a name of a function behind it stands off: not behind a sign or a space."""
+    return not _is_run(part) or (part[-1].text or "")[-1] not in _JOINING + _SPACES_SET + "([{"
 
 
 def _bracket(node: Node) -> str:

@@ -7,7 +7,6 @@ which hardly one has.  As outlines they look the same everywhere.
 from __future__ import annotations
 
 import functools
-import re
 from xml.etree import ElementTree as ET  # our own output, no foreign XML
 
 from reports.document.text import fonts

@@ -9,7 +9,7 @@ from lxml import etree
 from reports.document.page.style import Style
 from reports.word import tables
 from reports.word.inline import Lines
-from reports.word.markup import Element, field, paragraph, run, twips, w
+from reports.word.markup import Element, field, paragraph, twips, w
 
 if TYPE_CHECKING:
     from docx.section import Section

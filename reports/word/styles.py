@@ -105,8 +105,8 @@ def looks(style: Style) -> dict[str, Look]:
         points = round(style.table_em_px(name) * 0.75, 2)
         made[cell_style(name, text=False)] = Look(f"Ячейка{word}", jc="center", line=_CELL,
                                                   size=points)  # fmt: skip
-        made[cell_style(name, text=True)] = Look(f"Ячейка{word}: текст",
-                                                 cell_style(name, text=False), jc="left")  # fmt: skip
+        usual = cell_style(name, text=False)
+        made[cell_style(name, text=True)] = Look(f"Ячейка{word}: текст", usual, jc="left")
     return made
 
 

@@ -56,6 +56,8 @@ SLOW = (
     "tests/tables/test_reference.py",
     "tests/tables/test_regimes.py",
     "tests/validation/test_validation_book.py",
+    "tests/word/test_docx_file.py::test_the_schema",
+    "tests/word/test_docx_in_libreoffice.py",
     "tests/workbook/test_golden.py::test_saved_by_libreoffice",
     "tests/workbook/test_motion.py::test_libreoffice",
     "tests/workbook/test_schema.py",

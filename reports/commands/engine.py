@@ -223,7 +223,7 @@ def _print_summary(scalars: dict[str, float]) -> None:
     help="Папка для результатов (по умолчанию текущая).",
 )
 @click.option(
-    "--only", type=click.Choice(["xlsx", "pdf", "html", "docx"]),
+    "--only", type=click.Choice(["xlsx", "pdf", "html", "docx", "sheet"]),
     help="Только один вид документа.",
 )  # fmt: skip
 @path_option("--style", metavar="FILE", help="Оформление отчёта: файл кафедры .toml.")

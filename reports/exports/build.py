@@ -28,6 +28,7 @@ ENDINGS: dict[Kind, tuple[str, ...]] = {
     "pdf": (".pdf",),
     "html": (".html",),
     "docx": (".docx",),
+    "sheet": ("-sheet.pdf", "-sheet.dxf", "-throw.dxf", "-mechanism.dxf"),
 }
 
 
@@ -117,6 +118,8 @@ def build(
                 missing, wants_html = error, True
         if "docx" in kinds:
             making.docx()
+        if "sheet" in kinds:
+            making.sheet()
         if "xlsx" in kinds:
             making.written(".xlsx", book(), first=True)
         if wants_html:
@@ -138,6 +141,8 @@ def needs(kinds: Sequence[Kind]) -> None:
     """
     if "docx" in kinds:
         need_packages("нужен для записки Word", docx="python-docx", resvg_py="resvg-py")
+    if "sheet" in kinds:
+        need_packages("нужен для чертежей DXF", ezdxf="ezdxf")
 
 
 @dataclass
@@ -178,6 +183,13 @@ class _Making:
 
         self.progress.step("Записка Word")
         self.written(".docx", report_docx(self.model, self.values, **self._how()))
+
+    def sheet(self) -> None:
+        from reports.sheet.write import sheet_files
+
+        self.progress.step("Лист динамики")
+        for ending, data in sheet_files(self.model, self.values).items():
+            self.written(ending, data)
 
     def html(self) -> None:
         from reports.document.report import report_html

@@ -26,6 +26,7 @@ from reports.inputs.sections.input_file import (
 from reports.inputs.sections.masses import MassesSection
 from reports.inputs.sections.reference import ReferenceSection
 from reports.inputs.sections.report import Report
+from reports.inputs.sections.sheet import SheetSection
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,6 +157,15 @@ _ALL = (
         absent=True,
         lists={"lambdas": ListKey("Справочные таблицы: значения λ", "reference_lambda_{n}_value")},
         words=("Таблицы 1–3, 5–8 и рисунки 3–10 учебника для любых λ; lambdas — список:",),
+    ),
+    Section(
+        "sheet",
+        "Лист динамики",
+        SheetSection,
+        optional=True,
+        absent=True,
+        lists={"diagrams": ListKey("Лист динамики", "sheet_diagram_{n}")},
+        words=("Лист A1 или A2 с диаграммами: kshm build --only sheet (PDF и DXF):",),
     ),
     Section(
         "checks",

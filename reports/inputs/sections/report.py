@@ -42,8 +42,9 @@ FORMATS = {
     "pdf": "отчет PDF",
     "html": "отчет HTML",
     "docx": "записка Word",
+    "sheet": "лист динамики: PDF и DXF",
 }
-Format = Literal["xlsx", "pdf", "html", "docx"]
+Format = Literal["xlsx", "pdf", "html", "docx", "sheet"]
 USUAL_FORMATS: tuple[Format, ...] = ("xlsx", "pdf")
 FRAMES = {"none": "без рамки", "eskd": "рамка и основная надпись по ГОСТ 2.104"}
 

@@ -84,7 +84,8 @@ def curves(canvas: Canvas, room: Room, terms: Terms, chart: ChartSpec, *, closed
     for number, (series, y) in enumerate(zip(drawn, ys, strict=True)):
         points = _points(origin, across, up, x, y)
         dash = _DASHES[number % len(_DASHES)]
-        canvas.line(*points, layer=CURVES, dash=dash, closed=closed, name=series.y)
+        name = f"{chart.id}:{series.y}"
+        canvas.line(*points, layer=CURVES, dash=dash, closed=closed, name=name)
     for level in levels:
         high = origin[1] + up.at(level)
         canvas.line((origin[0], high), (origin[0] + across.length, high), layer=AXES)
@@ -149,7 +150,7 @@ def path(canvas: Canvas, room: Room, terms: Terms, chart: ChartSpec) -> None:
     origin = (_whole(room.middle[0] - across.length / 2 + 5), _whole(room.low + _FOOT))
     _square(canvas, origin, across, up, signs)
     points = _points(origin, across, up, xs, ys)
-    canvas.line(*points, layer=CURVES, closed=True, name=drawn.y)
+    canvas.line(*points, layer=CURVES, closed=True, name=f"{chart.id}:{drawn.y}")
     frame = (origin[0], origin[1], origin[0] + across.length, origin[1] + up.length)
     for px, py, name in poles:
         place = (origin[0] + across.at(signs[0] * px), origin[1] + up.at(signs[1] * py))
@@ -167,9 +168,11 @@ def _equal(xs: Values, ys: Sequence[float], room: Room) -> tuple[Scale, Scale]:
     free = room.width - 24, room.height - _FOOT - 2 * TEXT - 4
     unit = max(round_scale(*span, size).unit for span, size in zip(spans, free, strict=True))
     while True:
-        made = [Scale(unit, np.floor(low / STEP / unit + 1e-9) * STEP * unit,
-                      np.ceil(high / STEP / unit - 1e-9) * STEP * unit)
-                for low, high in spans]  # fmt: skip
+        step = STEP * unit
+        made = []
+        for low, high in spans:
+            first, last = np.floor(low / step + 1e-9), np.ceil(high / step - 1e-9)
+            made.append(Scale(unit, first * step, max(last, first + 2) * step))
         if all(s.length <= size + 1e-9 for s, size in zip(made, free, strict=True)):
             return made[0], made[1]
         unit = round_scale(0.0, unit * 1.001, 1.0).unit
@@ -177,10 +180,11 @@ def _equal(xs: Values, ys: Sequence[float], room: Room) -> tuple[Scale, Scale]:
 
 def _square(canvas: Canvas, origin: Point, across: Scale, up: Scale, signs: Point) -> None:
     left, base = origin
-    for value in across.marks():
+    widest = max(width_of(across.text(signs[0] * value), TEXT) for value in across.marks())
+    for number, value in enumerate(across.marks()):
         x = left + across.at(value)
         canvas.line((x, base), (x, base + up.length), layer=GRID)
-        if round(value / across.unit / STEP) % 2 == 0:
+        if widest < 0.9 * STEP or number % 2 == 0:
             text = across.text(signs[0] * value)
             canvas.words((x, base - TEXT - 3.8), text, TEXT, align=0.5)
     for value in up.marks():
@@ -237,7 +241,7 @@ def wear(canvas: Canvas, room: Room, terms: Terms, chart: ChartSpec) -> None:
     points = [
         polar(centre, radius - depth / unit, -angle) for angle, depth in outline(sums, angles)
     ]
-    canvas.line(*points, layer=CURVES, closed=True, name=f"{grid}.ray_sum")
+    canvas.line(*points, layer=CURVES, closed=True, name=f"{chart.id}:{grid}.ray_sum")
     for number, (angle, depth) in enumerate(zip(angles.tolist(), sums.tolist(), strict=True), 1):
         canvas.line(centre, polar(centre, radius + 3, -angle), layer=AXES)
         canvas.circle(polar(centre, radius - depth / unit, -angle), 0.6, layer=THIN, filled=True)

@@ -79,4 +79,4 @@ def chain(
             foot = canvas.items[-1].place[1] + 1.1 * letters  # type: ignore[union-attr]
             canvas.line((middle, y), (middle, foot), layer=SIZES)
     for x in sorted(set(stations)):
-        canvas.line((x, y - letters), (x, y + 3 * letters), layer=SIZES)
+        canvas.line((x, y - 0.5 * letters), (x, y + 3 * letters), layer=SIZES)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 
 from reports.document.chapters import facts
@@ -86,32 +87,34 @@ def _pin(number: int) -> str:
 def cells(width: float, height: float, count: int, section: SheetSection) -> list[Room]:
     """Equal cells for so many blocks, row by row from the top; none under the title block.
 
+    What was not picked one by one gives way where the sheet is too small for all of it.
+
     Raises:
-        InputError: they would be too small.
+        InputError: the cells would be too small.
     """
-    left, right, top, bottom = stamp.MARGINS
-    wide, tall = width - left - right - _GAP, height - top - bottom - _GAP
-    found: tuple[float, list[Room]] = (0.0, [])
-    most = 0
-    for columns in range(1, 9):
-        for rows in range(1, 9):
-            across, down = wide / columns, tall / rows
-            if across < _LEAST[0] or down < _LEAST[1]:
-                continue
-            taken = (math.ceil((stamp.WIDTH + _GAP) / across), math.ceil(stamp.HEIGHT / down))
-            free = [
-                Room(left + _GAP + c * across, height - top - (r + 1) * down,
-                     across - _GAP, down - _GAP)
-                for r in range(rows) for c in range(columns)
-                if not (c >= columns - taken[0] and r >= rows - taken[1])
-            ]  # fmt: skip
-            most = max(most, len(free))
-            size = min(across / 1.4, down)
-            if len(free) >= count and size > found[0]:
-                found = (size, free)
-    if not found[1]:
+    grids = [g for g in _grids(width, height) if g]
+    most = max(map(len, grids), default=0)
+    if count > most and section.diagrams:
         way = "альбомный" if width > height else "книжный"
         what = f"на лист {section.size} ({way}) помещается {most}, выбрано {count}"
-        hint = "уберите лишнее из sheet.diagrams" + ("" if section.size == "A1" else " или size A1")
+        hint = "уберите лишнее" + ("" if section.size == "A1" else ' или выберите size = "A1"')
         raise InputError(Problem("sheet.diagrams", what, hint))
-    return found[1]
+    fitting = [g for g in grids if len(g) >= min(count, most)]
+    return max(fitting, key=lambda g: min(g[0].width / 1.4, g[0].height))
+
+
+def _grids(width: float, height: float) -> Iterator[list[Room]]:
+    """Free cells of every division of the sheet into columns and rows."""
+    left, right, top, bottom = stamp.MARGINS
+    wide, tall = width - left - right - _GAP, height - top - bottom - _GAP
+    for columns, rows in itertools.product(range(1, 9), repeat=2):
+        across, down = wide / columns, tall / rows
+        if across < _LEAST[0] or down < _LEAST[1]:
+            continue
+        taken = math.ceil((stamp.WIDTH + _GAP) / across), math.ceil((stamp.HEIGHT + _GAP) / down)
+        yield [
+            Room(left + _GAP + c * across, height - top - (r + 1) * down, across - _GAP,
+                 down - _GAP)
+            for r in range(rows) for c in range(columns)
+            if not (c >= columns - taken[0] and r >= rows - taken[1])
+        ]  # fmt: skip

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 from reports.document.text.terms import Terms
+from reports.drawing.lettering import fitted
 from reports.drawing.primitives import AXES, CONTOUR, SIZES, THIN, Canvas, Point, polar
 from reports.shared.russian import fixed
 from reports.sheet.cell import TEXT, Room, headed
 from reports.spec.shape import Shape
 
 _BEARING = 5.0  # half a bearing on the scheme
-_ORDERS = (1, 2)
+_SECOND = ("F_order_kN", "M_order_Nm")
 
 
 def firing_order(terms: Terms) -> str:
@@ -84,20 +86,22 @@ def _star(canvas: Canvas, centre: Point, radius: float, angles: tuple[float, ...
         canvas.words_where_free(places, text, TEXT, align=0.5)
 
 
+def _free(terms: Terms) -> Iterator[str]:
+    """Lines on the free forces and moments of the orders that matter."""
+    if not terms.has("F1_before_max"):
+        return
+    for key, unit, word in (("F1", "кН", "Сила"), ("L1", "Н·м", "Момент")):
+        before, after = (terms.num(f"{key}_{when}_max") for when in ("before", "after"))
+        yield f"{word} 1-го порядка: до {before}, после {after} {unit}"
+    if terms.has("balance_orders.F_order_kN"):
+        force, moment = (terms.num(f"balance_orders.{key}", 2.0) for key in _SECOND)
+        yield f"2-й порядок до балансирных валов: сила {force} кН, момент {moment} Н·м"
+
+
 def balance(canvas: Canvas, room: Room, terms: Terms) -> None:
     """Centrifugal forces of the throws and counterweights; what is left of forces and moments."""
     shaft = terms.model.input.crankshaft
-    lines = []
-    for letter, unit, word in (("F", "кН", "силы"), ("L", "Н·м", "момента")):
-        for order in _ORDERS:
-            keys = [f"{letter}{order}_{when}_max" for when in ("before", "after")]
-            if all(terms.has(key) for key in keys):
-                before, after = (terms.num(key) for key in keys)
-                lines.append(
-                    f"наибольшая величина {word} {order}-го порядка {before} {unit}, "
-                    f"после уравновешивания {after} {unit}"
-                )
-    room = headed(canvas, room, "Схема уравновешивания", tuple(lines))
+    room = headed(canvas, room, "Схема уравновешивания", tuple(_free(terms)))
     side = Room(room.left + 12, room.low + 6, room.width - 24, room.height - 8)
     middles = _from_side(canvas, side, shaft.throw_angles_deg, with_weights=True)
     y = side.middle[1]
@@ -114,4 +118,5 @@ def balance(canvas: Canvas, room: Room, terms: Terms) -> None:
             canvas.box(place[0] - 4, min(low, y - up * 4), place[0] + 4, max(low, y - up * 4), THIN)
     mass = ", ".join(sorted({fixed(web.counterweight_kg, 3) for web in shaft.webs}))
     said = f"Kr = {terms.num('K_r')} кН; приведённая масса противовеса щеки {mass} кг"
-    canvas.words((room.middle[0], room.low + 1), said, TEXT, align=0.5)
+    height = fitted(said, room.width, TEXT)
+    canvas.words((room.middle[0], room.low + 1), said, height, align=0.5)

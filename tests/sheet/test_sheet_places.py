@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import itertools
 
-import numpy as np
 import pytest
-from hypothesis import given, settings
 from sheet_samples import terms, terms_of
 
 from reports.drawing.primitives import Words, box_of, overlap
 from reports.inputs.sections.sheet import DIAGRAMS, USUAL
 from reports.sheet.layout import sheet_items
-from tests.conftest import sample, sample_names
+from tests.conftest import sample_names
 from tests.layouts import MAKERS, made
 
 
@@ -34,6 +32,19 @@ def faults(t) -> list[str]:
 @pytest.mark.parametrize("name", sample_names())
 def test_nothing_covers_anything(name):
     assert faults(terms(name)) == []
+
+
+@pytest.mark.parametrize("size", ["A1", "A2"])
+@pytest.mark.parametrize("way", ["landscape", "portrait"])
+@pytest.mark.parametrize("name", ["d-240", "yamz-236"])
+def test_every_sheet(name, size, way):
+    assert faults(terms(name, f'\n[sheet]\nsize = "{size}"\norientation = "{way}"\n')) == []
+
+
+def test_everything_at_once():
+    every = f"\n[sheet]\ndiagrams = {list(DIAGRAMS)}\n".replace("'", '"')
+    assert faults(terms("ecoboost-10", every)) == []
+    assert set(USUAL) < set(DIAGRAMS)
 
 
 @pytest.mark.parametrize("name", MAKERS)

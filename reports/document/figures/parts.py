@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 
 from reports.document.text.terms import Terms
 from reports.drawing.parts import Mechanism, Throw, mechanism_drawing, throw_drawing
-from reports.drawing.primitives import Item, bounds
+from reports.drawing.primitives import Canvas, Item, bounds, moved
 from reports.drawing.svg import svg_of
 from reports.spec.shape import Shape
 
-_WIDTH, _HEIGHT = 150.0, 130.0  # of the part on the figure [mm]
-_EDGE = 3.0
+_THROW, _MECHANISM = (98.0, 92.0), (52.0, 92.0)  # width and height of both on the figure [mm]
+_BETWEEN, _LETTERS = 8.0, 2.5
 
 
 def throw_of(terms: Terms, number: int = 1) -> Throw:
@@ -45,19 +46,33 @@ def mechanism_of(terms: Terms) -> Mechanism:
     )
 
 
-def throw_figure(throw: Throw) -> str:
-    """A throw as SVG for the report."""
-    return _figure(throw_drawing(throw, scale=min(_WIDTH / throw.size, 1e3)))
+def sizes_figure(throw: Throw, mechanism: Mechanism) -> str:
+    """A throw beside the mechanism, each to a scale of its own, as SVG for the report."""
+    parts = (
+        _fitted(partial(throw_drawing, throw, letters=_LETTERS), _THROW),
+        _fitted(partial(mechanism_drawing, mechanism, letters=_LETTERS), _MECHANISM),
+    )
+    canvas = Canvas()
+    place, ends = 0.0, []
+    for items in parts:
+        left, _, right, high = bounds(items)
+        canvas.items += moved(items, place - left, -high)
+        ends.append(place + (right - left) / 2)
+        place += right - left + _BETWEEN
+    low = bounds(canvas.items)[1] - 2.5 * _LETTERS
+    for middle, letter in zip(ends, "аб", strict=True):
+        canvas.words((middle, low), f"{letter})", _LETTERS, align=0.5)
+    left, low, right, high = bounds(canvas.items)
+    return svg_of(canvas.items, (left - 2, low - 2, right + 2, high + 2))
 
 
-def mechanism_figure(mechanism: Mechanism) -> str:
-    """The mechanism as SVG for the report."""
-    return _figure(mechanism_drawing(mechanism, scale=_HEIGHT / mechanism.size))
-
-
-def _figure(items: list[Item]) -> str:
-    left, low, right, high = bounds(items)
-    return svg_of(items, (left - _EDGE, low - _EDGE, right + _EDGE, high + _EDGE))
+def _fitted(draw: Callable[..., list[Item]], room: tuple[float, float]) -> list[Item]:
+    """A drawing to the scale at which it fits a room; letters keep their height."""
+    scale = 1.0
+    for _ in range(6):  # what letters take does not shrink with the drawing
+        left, low, right, high = bounds(draw(scale=scale))
+        scale *= min(room[0] / (right - left), room[1] / (high - low))
+    return draw(scale=scale)
 
 
 def throws_of(terms: Terms) -> list[Throw]:

@@ -19,6 +19,7 @@ from reports.word.markup import (
     w,
 )
 from reports.word.pictures import Pictures
+from reports.word.shapes import Place, rectangle
 
 if TYPE_CHECKING:
     from lxml.html import HtmlElement
@@ -40,6 +41,8 @@ class Blocks:
         self.lines, self.pictures, self.style = lines, pictures, style
         self.width = twips(style.width_mm)
         self._table = ""  # bookmark of the table at hand, for its further parts
+        self._covers = 0
+        self._continued: list[Element] = []  # words of the table at hand on later sheets
 
     def written(self, elements: Iterable[HtmlElement], usual: str = "BodyText") -> list[Element]:
         """Elements as blocks; formulas that follow one another share a table."""
@@ -64,7 +67,8 @@ class Blocks:
         elif tag == "figure":
             yield from self._figure(element)
         elif tag == "table":
-            yield tables.table(self.lines, element, self.width)
+            words, self._continued = self._continued, []
+            yield tables.table(self.lines, element, self.width, words)
             yield paragraph("AfterTable")
         elif tag in ("ul", "ol"):
             style = "Source" if "sources" in names else "ListBullet"
@@ -131,14 +135,28 @@ class Blocks:
 
     def _caption(self, element: HtmlElement) -> Iterator[Element]:
         """A table's caption; that of a further part names the same number."""
-        anchor = element.get("id")
+        anchor, number = element.get("id"), "".join(element.find("span").itertext())
         if anchor:
             self._table = bookmark_name(anchor)
-            yield paragraph("TableCaption", self.lines.runs(element))
-            return
-        number = "".join(element.find("span").itertext())
-        lead = run(element.text or "")
-        yield paragraph("TableCaption", [lead, *field(f"REF {self._table} \\h", number)])
+            content = self.lines.runs(element)
+        else:
+            content = [run(element.text or ""), *self._number(number)]
+        source = element.getnext().find("table")
+        if self.style.table_continuation and tables.may_break(source):
+            self._continued = [run("Продолжение таблицы "), *self._number(number)]
+            self._covers += 1
+            content.append(w("r", w("drawing", self._cover())))
+        yield paragraph("TableCaption", content)
+
+    def _number(self, shown: str) -> list[Element]:
+        return field(f"REF {self._table} \\h", shown)
+
+    def _cover(self) -> Element:
+        """White over the first row of a table on the sheet where it begins."""
+        line = self.style.font_size_pt * 1.3 * 1.15 * 25.4 / 72  # the face is 1.15 em high
+        place = Place("margin", -1.0, "line", line + 0.2, self.style.width_mm + 2.0,
+                      tables.CONTINUED_MM + 0.2)  # fmt: skip
+        return rectangle(place, 1000 + self._covers, "Начало таблицы", line=False)
 
     def _formula(self, element: HtmlElement) -> Iterator[Element]:
         """A displayed formula line by line; a numbered one in a row without rules."""

@@ -4,36 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lxml import etree
-
 from reports.document.page.style import Style
 from reports.word import tables
 from reports.word.inline import Lines
 from reports.word.markup import Element, field, paragraph, twips, w
+from reports.word.shapes import Place, rectangle
 
 if TYPE_CHECKING:
     from docx.section import Section
     from lxml.html import HtmlElement
 
 _FRAME = (20.0, 5.0, 185.0, 287.0)  # left, top, width, height of the frame [mm]
-_EMU_MM = 36000
-_NAMES = {
-    "a": "http://schemas.openxmlformats.org/drawingml/2006/main",
-    "wp": "http://schemas.openxmlformats.org/drawingml/2006/wordprocessingDrawing",
-    "wps": "http://schemas.microsoft.com/office/word/2010/wordprocessingShape",
-}
-_ANCHOR = """<wp:anchor {names} distT="0" distB="0" distL="0" distR="0" simplePos="0"
- relativeHeight="1" behindDoc="1" locked="1" layoutInCell="0" allowOverlap="1">
-<wp:simplePos x="0" y="0"/>
-<wp:positionH relativeFrom="page"><wp:posOffset>{left}</wp:posOffset></wp:positionH>
-<wp:positionV relativeFrom="page"><wp:posOffset>{top}</wp:posOffset></wp:positionV>
-<wp:extent cx="{cx}" cy="{cy}"/><wp:wrapNone/>
-<wp:docPr id="{number}" name="Рамка {number}" descr="Рамка листа"/><wp:cNvGraphicFramePr/>
-<a:graphic><a:graphicData uri="{wps}"><wps:wsp><wps:cNvSpPr/><wps:spPr>
-<a:xfrm><a:off x="0" y="0"/><a:ext cx="{cx}" cy="{cy}"/></a:xfrm>
-<a:prstGeom prst="rect"><a:avLst/></a:prstGeom><a:noFill/>
-<a:ln w="21600"><a:solidFill><a:srgbClr val="000000"/></a:solidFill></a:ln>
-</wps:spPr><wps:bodyPr/></wps:wsp></a:graphicData></a:graphic></wp:anchor>"""
 
 
 def set_sheet(section: Section, style: Style) -> None:
@@ -82,12 +63,9 @@ def framed(section: Section, style: Style, lines: Lines, blocks: list[HtmlElemen
 
 
 def _rectangle(number: int) -> Element:
-    left, top, width, height = (round(value * _EMU_MM) for value in _FRAME)
-    drawn = _ANCHOR.format(
-        names=" ".join(f'xmlns:{key}="{uri}"' for key, uri in _NAMES.items()),
-        left=left, top=top, cx=width, cy=height, number=900 + number, wps=_NAMES["wps"],
-    )  # fmt: skip
-    return etree.fromstring(drawn.replace(">\n<", "><"))
+    left, top, width, height = _FRAME
+    place = Place("page", left, "page", top, width, height)
+    return rectangle(place, 900 + number, "Рамка листа", line=True)
 
 
 def _put(part: object, content: list[Element]) -> None:

@@ -76,6 +76,7 @@ def looks(style: Style) -> dict[str, Look]:
         "FigureCaption": Look("Название рисунка", "Caption", jc="center", before=4, after=10),
         "TableCaption": Look("Название таблицы", "Caption", before=10, after=2, keep_next=True,
                              keep_lines=True),
+        "TableContinued": Look("Продолжение таблицы", "Caption", line=1.0),
         "Figure": Look("Рисунок", jc="center", line=1.0, before=10, keep_next=True),
         "Formula": Look("Формула", jc="center", line=1.0, before=3, after=3),
         "FormulaNumber": Look("Номер формулы", jc="right", line=1.0),

@@ -14,16 +14,22 @@ if TYPE_CHECKING:
     from lxml.html import HtmlElement
 
 _WIDTH = re.compile(r"width:([\d.]+)(%|mm|px)")
+CONTINUED_MM = 6.5  # height of the row «Продолжение таблицы»
+_SHORT = 6  # rows of a table that stay together anyhow
 _RULES = {"top": "single", "bottom": "single"}
 
 
-def table(lines: Lines, source: HtmlElement, width: int) -> Element:
+def table(
+    lines: Lines, source: HtmlElement, width: int, continued: Sequence[Element] = ()
+) -> Element:
     """A data table.
 
     Args:
         lines: what writes the content of cells.
         source: the ``table`` of the page.
         width: its width [twips].
+        continued: «Продолжение таблицы N», which stands above its heading on later sheets; on
+            the first one the caption covers it.
     """
     names = source.get("class", "").split()
     size = next((name for name in ("dense", "tiny") if name in names), "")
@@ -33,6 +39,8 @@ def table(lines: Lines, source: HtmlElement, width: int) -> Element:
     rows = source.findall("tbody/tr")
     keep = "keep" in names
     made = frame_of(style, widths)
+    if continued:
+        made.append(_continued(continued, widths))
     for row in heads:
         made.append(_row(lines, row, widths, size, head=True, keep=True))
     for place, row in enumerate(rows):
@@ -56,6 +64,22 @@ def cell(width: int, content: Sequence[Element], *more: Element, middle: bool = 
     if middle:
         about.append(w("vAlign", val="center"))
     return w("tc", about, *content)
+
+
+def _continued(words: Sequence[Element], widths: Sequence[int]) -> Element:
+    """A row of the heading without rules."""
+    bare = w("tcBorders", *(w(side, val="nil") for side in ("top", "left", "right")))
+    about = w("trPr", w("cantSplit"), w("trHeight", val=twips(CONTINUED_MM), hRule="exact"),
+              w("tblHeader"))  # fmt: skip
+    content = paragraph("TableContinued", words, w("keepNext"))
+    across = w("gridSpan", val=len(widths))
+    return w("tr", about, cell(sum(widths), [content], across, bare))
+
+
+def may_break(source: HtmlElement) -> bool:
+    """Whether a table is long enough to go on over the end of a sheet."""
+    kept = "keep" in source.get("class", "").split()
+    return not kept and len(source.findall("tbody/tr")) > _SHORT
 
 
 def _row(

@@ -7,9 +7,13 @@ import re
 import zipfile
 
 import pytest
+from click.testing import CliRunner
 from docx_samples import W, docx_of, page_of, part, styled, text_of
+from lxml import etree
 
+from reports.cli import main
 from reports.document.page.style import Style
+from reports.shared.resources import samples_dir
 from reports.word.markup import bookmark_name
 from reports.word.write import from_page
 from tests.workbook.test_schema import validated
@@ -97,6 +101,40 @@ def test_frames_and_title_blocks_stand_in_headers_and_footers():
     fields = [[e.text.strip() for e in s.iter(f"{W}instrText")] for s in stamps]
     assert ["PAGE"] in fields and ["PAGE", "NUMPAGES"] in fields
     assert sum('prst="rect"' in head for head in heads) == 2
+
+
+def test_a_long_table_is_told_to_go_on_where_a_department_wants_it():
+    document = part(styled(NAME, table_continuation=True))
+    tables = [t for t in document.iter(f"{W}tbl") if "Продолжение таблицы" in text_of(t)]
+    assert len(tables) > 10 and "Продолжение таблицы" not in text_of(part(docx_of(NAME)))
+    for table in tables:
+        first, *_ = table.findall(f"{W}tr")
+        assert first.find(f"{W}trPr/{W}tblHeader") is not None
+        caption = table.getprevious()
+        number = re.match(r"Таблица\s([А-Б0-9.]+)", text_of(caption))[1]
+        assert text_of(first) == f"Продолжение таблицы {number}"
+        assert "FFFFFF" in etree.tostring(caption).decode()  # what covers the row here
+
+
+def test_a_bad_style_file_is_refused_before_anything_is_written(tmp_path):
+    style, out = tmp_path / "style.toml", tmp_path / "out"
+    style.write_text("colour = 1", encoding="utf-8")
+    sample = samples_dir() / f"{NAME}.toml"
+    words = ["build", str(sample), "--only", "docx", "--style", str(style), "-o", str(out)]
+    done = CliRunner().invoke(main, words)
+    (line,) = done.output.strip().splitlines()[-1:]
+    assert done.exit_code == 2 and "colour" in line and "style.toml" in line
+    assert not out.exists()
+
+
+def test_the_formats_of_the_input_are_made(tmp_path):
+    text = (samples_dir() / f"{NAME}.toml").read_text(encoding="utf-8")
+    source = tmp_path / "own.toml"
+    formats = '[report]\nformats = ["xlsx", "docx"]\n'
+    source.write_text(text.replace("[report]\n", formats), encoding="utf-8")
+    done = CliRunner().invoke(main, ["build", str(source), "-o", str(tmp_path / "out")])
+    assert done.exit_code == 0, done.output
+    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["own.docx", "own.xlsx"]
 
 
 def test_numbers_within_chapters():

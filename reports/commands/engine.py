@@ -223,8 +223,9 @@ def _print_summary(scalars: dict[str, float]) -> None:
     help="Папка для результатов (по умолчанию текущая).",
 )
 @click.option(
-    "--only", type=click.Choice(["xlsx", "pdf", "html"]), help="Только один вид документа."
-)
+    "--only", type=click.Choice(["xlsx", "pdf", "html", "docx", "sheet"]),
+    help="Только один вид документа.",
+)  # fmt: skip
 @path_option("--style", metavar="FILE", help="Оформление отчёта: файл кафедры .toml.")
 @dask_option
 @verbose_option
@@ -236,7 +237,7 @@ def build(
     dask: str | None,
     verbose: bool,
 ) -> int:
-    """Сделать книгу Excel и отчёт PDF по файлу .toml или по изменённой книге."""
+    """Сделать книгу Excel, отчёт PDF и другое по файлу .toml или по изменённой книге."""
     from reports.exports.build import find_templates
     from reports.exports.builds import build_each
 
@@ -244,8 +245,7 @@ def build(
     for source, loaded in inputs:
         find_templates(source, loaded, style)
     code = LOOK if any(loaded.warnings for _, loaded in inputs) else DONE
-    kinds = (only,) if only else ("xlsx", "pdf")
-    for built in build_each(inputs, folder, kinds, dask, _chapters, style):  # type: ignore[arg-type]
+    for built in build_each(inputs, folder, only, dask, _chapters, style):  # type: ignore[arg-type]
         for path in built.files:
             click.echo(f"{path}")
         for line in built.accepted:

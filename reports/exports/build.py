@@ -3,20 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache, partial
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from reports.inputs.load import Loaded, load_toml
+from reports.inputs.sections.report import USUAL_FORMATS, Format
 from reports.shared.aside import aside
+from reports.shared.doctor import need_packages
 from reports.shared.errors import SystemPartMissing
-from reports.shared.files import make_dir, write_bytes, write_text
+from reports.shared.files import make_dir, write_bytes
 from reports.shared.progress import Progress
 
-Kind = Literal["xlsx", "pdf", "html"]
+if TYPE_CHECKING:
+    from reports.spec.blocks import Model
+    from reports.spec.evaluation import Values
+
+Kind = Format
 Further = Sequence[Callable[[Any], Any]]  # chapters, see `reports.document.report`
-KINDS: tuple[Kind, ...] = ("xlsx", "pdf", "html")
+# What the files of a kind are called behind the name of the input.
+ENDINGS: dict[Kind, tuple[str, ...]] = {
+    "xlsx": (".xlsx",),
+    "pdf": (".pdf",),
+    "html": (".html",),
+    "docx": (".docx",),
+    "sheet": ("-sheet.pdf", "-sheet.dxf", "-throw.dxf", "-mechanism.dxf"),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +53,13 @@ def load_input(path: Path) -> Loaded:
 
         return load_workbook_input(path)
     return load_toml(path)
+
+
+def kinds_of(loaded: Loaded, only: Kind | None = None) -> tuple[Kind, ...]:
+    """What a person asks for, or the input, or the workbook and the PDF."""
+    if only is not None:
+        return (only,)
+    return loaded.model.report.formats or USUAL_FORMATS
 
 
 def find_templates(path: Path, loaded: Loaded, style: Path | None = None) -> None:
@@ -80,55 +100,105 @@ def build(
     from reports.tables.overview.verdicts import failed_checks
     from reports.tables.registry import build_model
 
+    needs(kinds)
     make_dir(folder)
     grid = grid_remark(loaded.model)
     model = build_model(loaded.model, (*remarks_of(loaded), *((grid,) if grid else ())))
-    files: list[Path] = []
     missing: SystemPartMissing | None = None
     with Progress("Расчёт") as progress:
         values = evaluate_model(model)
         checks = failed_checks(model, values)
+        making = _Making(path, folder, model, values, style, further, progress)
         wants_html = "html" in kinds
-        if "xlsx" in kinds or "pdf" in kinds:
-            from reports.workbook.write import workbook_bytes
-
-            progress.step("Книга Excel")
-            # A report takes longer than a workbook: both are made at the same time.
-            make = partial(workbook_bytes, model, values)
-            book = cache(aside(make) if "pdf" in kinds else make)
+        book = making.workbook(beside="pdf" in kinds) if {"xlsx", "pdf"} & set(kinds) else bytes
         if "pdf" in kinds:
-            from reports.document.report import report_pdf
-
-            progress.step("Отчёт PDF")
             try:
-                pdf = report_pdf(
-                    model, values, source=path, workbook=book, style=style, further=further
-                )
-                target = folder / f"{path.stem}.pdf"
-                write_bytes(target, pdf)
-                files.append(target)
+                making.pdf(book)
             except SystemPartMissing as error:
                 missing, wants_html = error, True
+        if "docx" in kinds:
+            making.docx()
+        if "sheet" in kinds:
+            making.sheet()
         if "xlsx" in kinds:
-            target = folder / f"{path.stem}.xlsx"
-            write_bytes(target, book())
-            files.insert(0, target)
+            making.written(".xlsx", book(), first=True)
         if wants_html:
-            from reports.document.report import report_html
-
-            progress.step("Отчёт HTML")
-            target = folder / f"{path.stem}.html"
-            write_text(
-                target, report_html(model, values, source=path, style=style, further=further)
-            )
-            files.append(target)
+            making.html()
     failed = tuple(check.line() for check in checks if not check.reason)
-    if "pdf" in kinds or wants_html:
+    if wants_html or {"pdf", "docx"} & set(kinds):
         from reports.document.report import remarks_on
 
         failed += remarks_on(loaded.model, path.parent, style)
     accepted = tuple(check.line() for check in checks if check.reason)
-    return Built(tuple(files), missing, failed, accepted)
+    return Built(tuple(making.files), missing, failed, accepted)
+
+
+def needs(kinds: Sequence[Kind]) -> None:
+    """Refuse documents whose packages are not here, before anything is written.
+
+    Raises:
+        SystemPartMissing: some packages are missing.
+    """
+    if "docx" in kinds:
+        need_packages("нужен для записки Word", docx="python-docx", resvg_py="resvg-py")
+    if "sheet" in kinds:
+        need_packages("нужен для чертежей DXF", ezdxf="ezdxf")
+
+
+@dataclass
+class _Making:
+    """One input's documents in the making and the files written so far."""
+
+    path: Path
+    folder: Path
+    model: Model
+    values: Values
+    style: Path | None
+    further: Further
+    progress: Progress
+    files: list[Path] = field(default_factory=list)
+
+    def written(self, ending: str, data: bytes, *, first: bool = False) -> None:
+        """Write a file, whole or not at all."""
+        target = self.folder / f"{self.path.stem}{ending}"
+        write_bytes(target, data)
+        self.files.insert(0 if first else len(self.files), target)
+
+    def workbook(self, *, beside: bool) -> Callable[[], bytes]:
+        """What gives the workbook; a report takes longer, so both are made at the same time."""
+        from reports.workbook.write import workbook_bytes
+
+        self.progress.step("Книга Excel")
+        make = partial(workbook_bytes, self.model, self.values)
+        return cache(aside(make) if beside else make)
+
+    def pdf(self, book: Callable[[], bytes]) -> None:
+        from reports.document.report import report_pdf
+
+        self.progress.step("Отчёт PDF")
+        self.written(".pdf", report_pdf(self.model, self.values, workbook=book, **self._how()))
+
+    def docx(self) -> None:
+        from reports.word.write import report_docx
+
+        self.progress.step("Записка Word")
+        self.written(".docx", report_docx(self.model, self.values, **self._how()))
+
+    def sheet(self) -> None:
+        from reports.sheet.write import sheet_files
+
+        self.progress.step("Лист динамики")
+        for ending, data in sheet_files(self.model, self.values).items():
+            self.written(ending, data)
+
+    def html(self) -> None:
+        from reports.document.report import report_html
+
+        self.progress.step("Отчёт HTML")
+        self.written(".html", report_html(self.model, self.values, **self._how()).encode())
+
+    def _how(self) -> dict[str, Any]:
+        return {"source": self.path, "style": self.style, "further": self.further}
 
 
 def remarks_of(loaded: Loaded) -> tuple[str, ...]:

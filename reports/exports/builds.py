@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from reports.exports.build import KINDS, Built, Further, Kind, build
+from reports.exports.build import ENDINGS, Built, Further, Kind, build, kinds_of
 from reports.inputs.load import Loaded
 from reports.shared.errors import KshmError, SystemPartMissing
 from reports.shared.files import make_dir, refuse_own, write_bytes
@@ -46,27 +46,33 @@ class Delivery:
 def build_each(
     inputs: Sequence[Input],
     folder: Path,
-    kinds: tuple[Kind, ...],
+    only: Kind | None = None,
     dask: str | None = None,
     chapters: Chapters = _no_chapters,
     style: Path | None = None,
 ) -> Iterator[Built]:
     """What was built for each input, in order; the files are the same wherever it is done.
 
+    ``only`` is one kind of document in place of those that an input asks for.
     ``chapters`` gives the further chapters of an input's report.
 
     Raises:
         KshmError: results would fall on each other or on an input, or the cluster fails.
     """
     _refuse_overlap([path for path, _ in inputs])
-    results = [folder / f"{path.stem}.{kind}" for path, _ in inputs for kind in KINDS]
+    endings = [ending for kind in ENDINGS.values() for ending in kind]
+    results = [folder / f"{path.stem}{ending}" for path, _ in inputs for ending in endings]
     refuse_own(results, [file for path, loaded in inputs for file in (path, *loaded.beside)])
     if dask is None:
         for path, loaded in inputs:
+            kinds = kinds_of(loaded, only)
             yield build(path, loaded, folder, kinds, chapters(path, loaded), style)
         return
     make_dir(folder)
-    orders = (_order(path, loaded, kinds, chapters(path, loaded), style) for path, loaded in inputs)
+    orders = (
+        _order(path, loaded, kinds_of(loaded, only), chapters(path, loaded), style)
+        for path, loaded in inputs
+    )
     for delivery in in_order(delivered, orders, dask=dask):
         for name, data in delivery.files:
             write_bytes(folder / name, data)

@@ -26,6 +26,7 @@ from reports.inputs.sections.input_file import (
 from reports.inputs.sections.masses import MassesSection
 from reports.inputs.sections.reference import ReferenceSection
 from reports.inputs.sections.report import Report
+from reports.inputs.sections.sheet import SheetSection
 from reports.inputs.sections.torsion import TorsionSection
 
 
@@ -73,7 +74,10 @@ _ALL = (
         "Сведения о работе",
         Report,
         optional=True,
-        lists={"chapters": ListKey("Главы отчета", "report_chapter_{n}")},
+        lists={
+            "chapters": ListKey("Главы отчета", "report_chapter_{n}"),
+            "formats": ListKey("Документы", "report_format_{n}"),
+        },
     ),
     Section("engine", "Двигатель", EngineSection),
     Section("calculation", "Расчет", Calculation, optional=True),
@@ -172,6 +176,15 @@ _ALL = (
         absent=True,
         lists={"lambdas": ListKey("Справочные таблицы: значения λ", "reference_lambda_{n}_value")},
         words=("Таблицы 1–3, 5–8 и рисунки 3–10 учебника для любых λ; lambdas — список:",),
+    ),
+    Section(
+        "sheet",
+        "Лист динамики",
+        SheetSection,
+        optional=True,
+        absent=True,
+        lists={"diagrams": ListKey("Лист динамики", "sheet_diagram_{n}")},
+        words=("Лист A1 или A2 с диаграммами: kshm build --only sheet (PDF и DXF):",),
     ),
     Section(
         "checks",

@@ -16,7 +16,8 @@ from reports.inputs.registry import SECTIONS, Section, records
 from reports.shared.errors import InputError, Problem
 from reports.shared.resources import samples_dir
 
-_KEPT = ("title", "year", "frame", "detail", "chapters")  # how the report is set, not who wrote it
+# How the report is set, not who wrote it.
+_KEPT = ("title", "year", "frame", "detail", "chapters", "formats")
 BLANK_SAMPLE = "gots-diesel"
 _HEAD = (
     "Исходные данные двигателя для kshm. Впишите свои значения вместо примера.",

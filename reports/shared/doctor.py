@@ -64,6 +64,24 @@ def need_pango() -> None:
         raise SystemPartMissing("pango", PANGO_COMMAND, purpose="нужен для PDF")
 
 
+def need_packages(purpose: str, **packages: str) -> None:
+    """Refuse a document whose packages are not here.
+
+    Args:
+        purpose: what they are needed for.
+        packages: names of the modules with those by which they are installed.
+
+    Raises:
+        SystemPartMissing: some of them are missing.
+    """
+    missing = [
+        package for name, package in packages.items() if importlib.util.find_spec(name) is None
+    ]
+    if missing:
+        command = f'"{sys.executable}" -m pip install {" ".join(missing)}'
+        raise SystemPartMissing(", ".join(missing), command, purpose=purpose)
+
+
 def pango_loads() -> bool:
     """Tell whether the libraries WeasyPrint needs can be loaded."""
     return not _missing_libraries()

@@ -148,7 +148,7 @@ NAMES = set(
         r"\w+",
         "kshm html pdf xlsx xlsm csv json toml excel moodle zip dask parquet tcp host variants "
         "gots diesel geometry bore mm m mean p n mpa libreoffice issue build new "
-        "inline v opposed petrol",
+        "inline v opposed petrol docx sheet",
     )
 )
 

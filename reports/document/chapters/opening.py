@@ -10,9 +10,10 @@ from markupsafe import Markup
 from reports.document.chapters.chapter import Chapter
 from reports.document.chapters.layout import scheme_text
 from reports.document.chapters.profiles import chosen
+from reports.document.figures.parts import mechanism_of, sizes_figure, throw_of
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.page.spec_tables import list_block, unit_cell
-from reports.document.page.writer import TablePlan
+from reports.document.page.writer import Figure, TablePlan
 from reports.document.text.symbols import inline_html
 from reports.document.text.terms import input_text, plain_number
 from reports.formula.tex import input_symbol_tex
@@ -92,6 +93,10 @@ def input_data(chapter: Chapter) -> Markup:
         "inputs",
         plans=plans,
         scheme=partial(scheme_text, chapter),
+        sizes=Figure(
+            partial(sizes_figure, throw_of(chapter.terms), mechanism_of(chapter.terms)),
+            "Размеры, мм: а — колено вала; б — кривошипно-шатунный механизм",
+        ),
         by_points=isinstance(model.gas, TableGasSection),
         smooth=is_smooth(model),
     )

@@ -56,7 +56,7 @@ def wear_diagram(
         factor = _DEPTH * radius / (float(values.max()) or 1.0)
         curve = [
             polar(centre, radius - depth * factor, -math.radians(angle))
-            for angle, depth in _outline(values, degrees)
+            for angle, depth in outline(values, degrees)
         ]
         # The disc lies below; the polygon takes its inside out again.
         pen.circle(centre, radius, fill=_FILL, width=0, order=0.5)
@@ -75,9 +75,7 @@ def wear_diagram(
         return page.svg()
 
 
-def _outline(
-    values: NDArray[np.float64], degrees: NDArray[np.float64]
-) -> list[tuple[float, float]]:
+def outline(values: NDArray[np.float64], degrees: NDArray[np.float64]) -> list[tuple[float, float]]:
     """Smooth closed curve through the ends, which never overshoots them (monotone cubic)."""
     angles = np.append(degrees, degrees[0] + 360)
     closed = np.append(values, values[0])

@@ -97,10 +97,17 @@ def coverage() -> frozenset[int]:
 
 
 @functools.cache
-def _regular() -> FT2Font:
+def face(family: str, style: str = "normal", weight: str = "normal") -> FT2Font:
+    """The font of a family, style and weight; the regular one where the family lacks it."""
     from matplotlib.ft2font import FT2Font
 
-    return FT2Font(str(fonts_dir() / "STIXGeneral.ttf"))
+    files = {(name, *looks): file for name, *looks, file in _TEXT_FACES + _MATHS_FACES}
+    file = files.get((family, style, weight)) or files.get((family, "normal", "normal"))
+    return FT2Font(str(fonts_dir() / (file or "STIXGeneral.ttf")))
+
+
+def _regular() -> FT2Font:
+    return face(FAMILY)
 
 
 @functools.cache

@@ -21,6 +21,7 @@ from reports.inputs.sections.gas import GasSection
 from reports.inputs.sections.masses import MassesSection
 from reports.inputs.sections.reference import ReferenceSection
 from reports.inputs.sections.report import Report
+from reports.inputs.sections.sheet import SheetSection
 from reports.inputs.sections.torsion import TorsionSection
 from reports.inputs.units import KW, MM, NONE, RPM
 
@@ -164,5 +165,6 @@ class InputFile(Strictly):
     balance: BalanceSection = Field(default_factory=BalanceSection)
     torsion: TorsionSection | None = None
     reference: ReferenceSection | None = None
+    sheet: SheetSection | None = None
     checks: ChecksSection | None = None
     regimes: tuple[RegimeSection, ...] = ()

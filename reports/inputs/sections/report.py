@@ -38,6 +38,15 @@ ChapterName = Literal[
     "cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "bearings", "running",
     "torsion", "regimes", "reference", "companions", "checks", "appendices",
 ]  # fmt: skip
+FORMATS = {
+    "xlsx": "книга Excel",
+    "pdf": "отчет PDF",
+    "html": "отчет HTML",
+    "docx": "записка Word",
+    "sheet": "лист динамики: PDF и DXF",
+}
+Format = Literal["xlsx", "pdf", "html", "docx", "sheet"]
+USUAL_FORMATS: tuple[Format, ...] = ("xlsx", "pdf")
 FRAMES = {"none": "без рамки", "eskd": "рамка и основная надпись по ГОСТ 2.104"}
 
 
@@ -74,6 +83,10 @@ class Report(Strictly):
     chapters: Annotated[
         tuple[Annotated[ChapterName, choice("Глава отчета {n}", CHAPTERS, structural=False)], ...]
         | None,
+        Strict(False),
+    ] = None
+    formats: Annotated[
+        tuple[Annotated[Format, choice("Документ {n}", FORMATS, structural=False)], ...] | None,
         Strict(False),
     ] = None
     style: Annotated[str, text("Файл оформления кафедры")] = ""

@@ -1,0 +1,58 @@
+"""How wide letters are: slanted STIX, which matplotlib carries and the PDF sets."""
+
+from __future__ import annotations
+
+import functools
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from matplotlib.ft2font import FT2Font
+
+CAPITAL = 0.662  # height of a capital of the face [em]
+_WIDER = 1.04  # a drawing program may set another face
+
+
+@functools.cache
+def _font() -> FT2Font:
+    from pathlib import Path
+
+    import matplotlib
+    from matplotlib.ft2font import FT2Font
+
+    folder = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
+    return FT2Font(str(folder / "STIXGeneralItalic.ttf"))
+
+
+@functools.cache
+def _advance(char: str) -> float:
+    """Width of a letter [em]; three quarters of one for a letter that the face lacks."""
+    from matplotlib.ft2font import LoadFlags
+
+    font = _font()
+    if ord(char) not in font.get_charmap():
+        return 0.75
+    glyph = font.load_char(ord(char), flags=LoadFlags.NO_SCALE)
+    return float(glyph.horiAdvance) / float(font.units_per_EM)
+
+
+def width_of(text: str, height: float) -> float:
+    """Length of a line by the height of its capitals [mm]."""
+    return _WIDER * sum(map(_advance, text)) * height / CAPITAL
+
+
+def fitted(text: str, room: float, height: float, least: float = 1.8) -> float:
+    """Height of the letters at which a line fits its room [mm]."""
+    wide = width_of(text, height)
+    return height if wide <= room else max(least, height * room / wide)
+
+
+def wrapped(text: str, room: float, height: float) -> list[str]:
+    """A text in lines that fit a room; a word that is too long stays whole."""
+    lines: list[str] = []
+    for word in text.split(" "):
+        longer = f"{lines[-1]} {word}" if lines else word
+        if lines and width_of(longer, height) <= room:
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    return lines

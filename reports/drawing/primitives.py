@@ -1,0 +1,198 @@
+"""What a drawing is made of: lines, circles and words in millimetres, y upwards."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+
+from reports.drawing.lettering import width_of
+
+Point = tuple[float, float]
+Box = tuple[float, float, float, float]  # left, low, right, high
+Dash = tuple[float, ...]  # strokes and gaps [mm]
+DASHED: Dash = (5.0, 2.0)
+CENTRE: Dash = (12.0, 2.0, 1.0, 2.0)
+DOTTED: Dash = (1.5, 1.5)
+
+
+@dataclass(frozen=True, slots=True)
+class Layer:
+    """A layer: name in the drawing program, width of its lines [mm], dashes, grey or black."""
+
+    name: str
+    width: float
+    dash: Dash = ()
+    grey: bool = False
+
+
+# Widths by ГОСТ 2.303: main lines 0.7, thin ones from a third to a half of that.
+CONTOUR = Layer("Контур", 0.7)
+CURVES = Layer("Кривые", 0.6)
+THIN = Layer("Тонкие линии", 0.25)
+AXES = Layer("Осевые", 0.25, CENTRE)
+GRID = Layer("Сетка", 0.13, grey=True)
+LETTERS = Layer("Надписи", 0.3)
+SIZES = Layer("Размеры", 0.25)
+TABLES = Layer("Таблицы", 0.4)
+FRAME = Layer("Рамка", 0.8)
+LAYERS = (CONTOUR, CURVES, THIN, AXES, GRID, LETTERS, SIZES, TABLES, FRAME)
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A polyline; ``dash`` instead of its layer's; ``filled`` closed ones are black."""
+
+    points: tuple[Point, ...]
+    layer: Layer = THIN
+    closed: bool = False
+    filled: bool = False
+    dash: Dash = ()
+    name: str = ""  # what of the calculation it shows
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """A circle."""
+
+    centre: Point
+    radius: float
+    layer: Layer = THIN
+    filled: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Words:
+    """A line of text: height of its capitals, share of it left of the place, turn [deg]."""
+
+    place: Point
+    text: str
+    height: float = 3.5
+    align: float = 0.0
+    angle: float = 0.0
+    layer: Layer = LETTERS
+
+    @property
+    def width(self) -> float:
+        """Length of the line."""
+        return width_of(self.text, self.height)
+
+    @property
+    def box(self) -> Box:
+        """Bounds on the sheet."""
+        left = -self.align * self.width
+        corners = [(x, y) for x in (left, left + self.width)
+                   for y in (-0.3 * self.height, 1.05 * self.height)]  # fmt: skip
+        turn = math.radians(self.angle)
+        cos, sin = math.cos(turn), math.sin(turn)
+        xs = [self.place[0] + x * cos - y * sin for x, y in corners]
+        ys = [self.place[1] + x * sin + y * cos for x, y in corners]
+        return min(xs), min(ys), max(xs), max(ys)
+
+
+Item = Line | Circle | Words
+
+
+def overlap(one: Box, other: Box) -> bool:
+    """Whether two boxes cover each other."""
+    return one[0] < other[2] and one[2] > other[0] and one[1] < other[3] and one[3] > other[1]
+
+
+def box_of(item: Item) -> Box:
+    """Bounds of anything."""
+    if isinstance(item, Words):
+        return item.box
+    if isinstance(item, Circle):
+        (x, y), r = item.centre, item.radius
+        return x - r, y - r, x + r, y + r
+    xs, ys = zip(*item.points, strict=True)
+    return min(xs), min(ys), max(xs), max(ys)
+
+
+def moved(items: Iterable[Item], dx: float, dy: float, scale: float = 1.0) -> list[Item]:
+    """Items shifted; what is drawn to scale is scaled, words keep their height."""
+    made: list[Item] = []
+
+    def at(point: Point) -> Point:
+        return point[0] * scale + dx, point[1] * scale + dy
+
+    for item in items:
+        if isinstance(item, Line):
+            made.append(replace(item, points=tuple(map(at, item.points))))
+        elif isinstance(item, Circle):
+            made.append(replace(item, centre=at(item.centre), radius=item.radius * scale))
+        else:
+            made.append(replace(item, place=at(item.place)))
+    return made
+
+
+@dataclass
+class Canvas:
+    """Items in the making; knows where words stand."""
+
+    items: list[Item] = field(default_factory=list)
+
+    def line(self, *points: Point, layer: Layer = THIN, **more: object) -> None:
+        """A polyline through points."""
+        self.items.append(Line(points, layer, **more))  # type: ignore[arg-type]
+
+    def circle(self, centre: Point, radius: float, layer: Layer = THIN, **more: object) -> None:
+        """A circle."""
+        self.items.append(Circle(centre, radius, layer, **more))  # type: ignore[arg-type]
+
+    def words(self, place: Point, text: str, height: float = 3.5, **more: object) -> Words:
+        """A line of text."""
+        made = Words(place, text, height, **more)  # type: ignore[arg-type]
+        if text:
+            self.items.append(made)
+        return made
+
+    def box(self, left: float, low: float, right: float, high: float, layer: Layer) -> None:
+        """A rectangle."""
+        corners = ((left, low), (right, low), (right, high), (left, high))
+        self.items.append(Line(corners, layer, closed=True))
+
+    def free(self, words: Words, gap: float = 0.6) -> bool:
+        """Whether a text touches no other."""
+        left, low, right, high = words.box
+        wide = (left - gap, low - gap, right + gap, high + gap)
+        return not any(isinstance(i, Words) and overlap(wide, i.box) for i in self.items)
+
+    def words_where_free(
+        self, places: Iterable[Point], text: str, height: float = 3.5, within: Box | None = None,
+        **more: object,
+    ) -> bool:  # fmt: skip
+        """A text at the first place that is free; whether there was one."""
+        for place in places:
+            made = Words(place, text, height, **more)  # type: ignore[arg-type]
+            if self.free(made) and (within is None or _inside(made.box, within)):
+                self.items.append(made)
+                return True
+        return False
+
+    def arrow(self, tip: Point, along: Point, length: float = 3.5, layer: Layer = SIZES) -> None:
+        """A filled arrow head whose tip points along a unit vector."""
+        (x, y), (ux, uy) = tip, along
+        back = (x - ux * length, y - uy * length)
+        side = 0.16 * length
+        points = (tip, (back[0] - uy * side, back[1] + ux * side),
+                  (back[0] + uy * side, back[1] - ux * side))  # fmt: skip
+        self.items.append(Line(points, layer, closed=True, filled=True))
+
+
+def _inside(box: Box, outer: Box) -> bool:
+    return (
+        box[0] >= outer[0] and box[1] >= outer[1] and box[2] <= outer[2] and box[3] <= outer[3]
+    )  # fmt: skip
+
+
+def polar(centre: Point, radius: float, angle: float) -> Point:
+    """Point at an angle clockwise from the vertical [deg]."""
+    turn = math.radians(angle)
+    return centre[0] + radius * math.sin(turn), centre[1] + radius * math.cos(turn)
+
+
+def bounds(items: Sequence[Item]) -> Box:
+    """Bounds of all items."""
+    lefts, lows, rights, highs = zip(*map(box_of, items), strict=True)
+    return min(lefts), min(lows), max(rights), max(highs)

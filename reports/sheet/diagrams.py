@@ -1,0 +1,250 @@
+"""Diagrams of the sheet in round scales: curves, paths of a vector, wear."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kshm.nomenclature.quantity import roman
+from reports.document.figures.wear import outline
+from reports.document.text.mathsvg import plain
+from reports.document.text.terms import Terms
+from reports.drawing.lettering import width_of
+from reports.drawing.primitives import (
+    AXES,
+    CENTRE,
+    CONTOUR,
+    CURVES,
+    DASHED,
+    DOTTED,
+    GRID,
+    THIN,
+    Box,
+    Canvas,
+    Dash,
+    Point,
+    polar,
+)
+from reports.drawing.scales import STEP, Scale, round_scale, unit_text
+from reports.formula.numeric import evaluate
+from reports.shared.russian import fixed
+from reports.sheet.cell import TEXT, Name, Room, headed, legend
+from reports.spec.charts import ChartSpec, Series
+
+_DASHES: tuple[Dash, ...] = ((), DASHED, CENTRE, DOTTED, (8.0, 2.0, 3.0, 2.0))
+_ANGLES = (15.0, 30.0, 45.0, 60.0, 90.0, 120.0, 180.0)
+_SIDE, _FOOT = 16.0, 9.0  # room for marks left of and below a diagram
+Values = NDArray[np.float64]
+
+
+def symbol(terms: Terms, name: str) -> str:
+    """Symbol of a quantity as plain letters."""
+    return terms.quantity(name).symbol.replace(" ", "") if "." in name else _scalar(terms, name)
+
+
+def _scalar(terms: Terms, name: str) -> str:
+    return (terms.model.fields[name].symbol.replace("_", "") if name in terms.model.fields
+            else terms.quantity(name).symbol)  # fmt: skip
+
+
+def _unit(terms: Terms, name: str) -> str:
+    unit = terms.unit(name)
+    return f"{symbol(terms, name)}, {unit}" if unit else symbol(terms, name)
+
+
+def curves(canvas: Canvas, room: Room, terms: Terms, chart: ChartSpec, *, closed: bool) -> None:
+    """Columns over an abscissa, with means and other levels across."""
+    drawn = chart.drawn_by("report")
+    x, *ys = terms.curves([drawn[0].x, *(series.y for series in drawn)])
+    levels = [terms.value(level) for level in chart.levels]
+    room = headed(canvas, room, chart.words)
+    names = [Name(symbol(terms, s.y), _DASHES[n % len(_DASHES)]) for n, s in enumerate(drawn)]
+    names += [Name(f"{symbol(terms, n)} = {terms.num(n)} {terms.unit(n)}", CENTRE)
+              for n in chart.levels]  # fmt: skip
+    if len(names) > 1:
+        room = legend(canvas, room, names)
+    title = _unit(terms, drawn[0].y) if len(drawn) == 1 else chart.y_title
+    wide = width_of(_unit(terms, drawn[0].x), TEXT) + 8
+    low, high = _ends([*ys, np.asarray(levels)], zero=chart.from_zero)
+    left, right = float(x.min()), float(x.max())
+    across = round_scale(
+        min(left, 0.0), right, room.width - _SIDE - wide, angle=chart.x_is_angle
+    )  # fmt: skip
+    up = round_scale(low, high, room.height - _FOOT - 2 * TEXT - 4)
+    said = f"{title} (М {unit_text(up.unit)} в мм; по горизонтали {unit_text(across.unit)} в мм)"
+    canvas.words((room.left + 2, room.high - TEXT - 1), said, TEXT)
+    base = room.low + _FOOT
+    origin = (_whole(room.left + _SIDE), _whole(base))
+    _field(canvas, origin, across, up, chart.x_is_angle)
+    level = up.at(0 if low <= 0 <= high else up.low)
+    end = (origin[0] + across.length + 5.5, origin[1] + level - TEXT / 2)
+    canvas.words(end, _unit(terms, drawn[0].x), TEXT)
+    for number, (series, y) in enumerate(zip(drawn, ys, strict=True)):
+        points = _points(origin, across, up, x, y)
+        dash = _DASHES[number % len(_DASHES)]
+        name = f"{chart.id}:{series.y}"
+        canvas.line(*points, layer=CURVES, dash=dash, closed=closed, name=name)
+    for level in levels:
+        high = origin[1] + up.at(level)
+        canvas.line((origin[0], high), (origin[0] + across.length, high), layer=AXES)
+
+
+def _whole(value: float) -> float:
+    """A place on the grid of millimetres."""
+    return float(round(value))
+
+
+def _ends(columns: Sequence[Values], *, zero: bool) -> tuple[float, float]:
+    low = min(float(c.min()) for c in columns if c.size)
+    high = max(float(c.max()) for c in columns if c.size)
+    return (min(low, 0.0), max(high, 0.0)) if zero or low < 0 < high else (low, high)
+
+
+def _points(origin: Point, across: Scale, up: Scale, x: Values, y: Values) -> list[Point]:
+    xs, ys = origin[0] + across.at(x), origin[1] + up.at(y)  # type: ignore[arg-type]
+    return list(zip(xs.tolist(), ys.tolist(), strict=True))  # type: ignore[attr-defined]
+
+
+def _field(canvas: Canvas, origin: Point, across: Scale, up: Scale, angle: bool) -> None:
+    """Grid, axes and marks of a rectangular diagram."""
+    (left, base), right, top = origin, origin[0] + across.length, origin[1] + up.length
+    for value in up.marks():
+        y = base + up.at(value)
+        canvas.line((left, y), (right, y), layer=GRID)
+        canvas.words((left - 1.5, y - TEXT / 2), up.text(value), TEXT, align=1.0)
+    marks = across.marks()
+    if angle:
+        step = next(s for s in _ANGLES if s / across.unit >= 1.5 * STEP)
+        marks = list(np.arange(across.low, across.high + 1e-9, step))
+    for number, value in enumerate(marks):
+        x = left + across.at(value)
+        canvas.line((x, base), (x, top), layer=GRID)
+        text = fixed(value, 0) if angle else across.text(value)
+        if angle or number % 2 == 0:
+            canvas.words((x, base - TEXT - 3.8), text, TEXT, align=0.5)
+    zero = base + up.at(0.0) if up.low <= 0 <= up.high else base
+    canvas.line((left, zero), (right + 4, zero), layer=THIN)
+    canvas.arrow((right + 4, zero), (1.0, 0.0), layer=THIN)
+    canvas.line((left, base), (left, top + 4), layer=THIN)
+    canvas.arrow((left, top + 4), (0.0, 1.0), layer=THIN)
+
+
+def path(canvas: Canvas, room: Room, terms: Terms, chart: ChartSpec) -> None:
+    """Path of a force's end in one scale with the pole and the crank angles."""
+    (drawn,) = chart.drawn_by("report")
+    x, y = terms.curves([drawn.x, drawn.y])
+    poles = [(0.0, 0.0, "O")] + [
+        (0.0, float(evaluate(expr, terms.value)), plain(tex).replace("_", ""))
+        for tex, expr in chart.poles
+    ]
+    room = headed(canvas, room, chart.words)
+    signs = (-1.0 if chart.x_reversed else 1.0, -1.0 if chart.y_reversed else 1.0)
+    xs, ys = signs[0] * x, signs[1] * y
+    across, up = _equal(xs, [*(signs[1] * p for _, p, _ in poles), *ys], room)
+    titles = _unit(terms, drawn.x), _unit(terms, drawn.y)
+    said = f"М {unit_text(up.unit)} {terms.unit(drawn.y)} в мм; вправо {'−' if signs[0] < 0 else ''}{titles[0]}, вверх {'−' if signs[1] < 0 else ''}{titles[1]}"  # noqa: E501
+    canvas.words((room.middle[0], room.high - TEXT - 1), said,
+                 min(TEXT, TEXT * room.width / width_of(said, TEXT)), align=0.5)  # fmt: skip
+    origin = (_whole(room.middle[0] - across.length / 2 + 5), _whole(room.low + _FOOT))
+    _square(canvas, origin, across, up, signs)
+    points = _points(origin, across, up, xs, ys)
+    canvas.line(*points, layer=CURVES, closed=True, name=f"{chart.id}:{drawn.y}")
+    frame = (origin[0], origin[1], origin[0] + across.length, origin[1] + up.length)
+    for px, py, name in poles:
+        place = (origin[0] + across.at(signs[0] * px), origin[1] + up.at(signs[1] * py))
+        canvas.circle(place, 1.2, layer=CONTOUR)
+        near = [
+            (place[0] + dx, place[1] + dy) for dx, dy in ((2, 1.5), (2, -5), (-8, 1.5), (-8, -5))
+        ]
+        canvas.words_where_free(near, name, 5.0, frame)
+    _angles(canvas, terms, drawn, (origin, across, up, signs), frame)
+
+
+def _equal(xs: Values, ys: Sequence[float], room: Room) -> tuple[Scale, Scale]:
+    """Scales of one unit by which both extents fit."""
+    spans = (min(0.0, float(xs.min())), max(0.0, float(xs.max()))), (min(0.0, *ys), max(0.0, *ys))
+    free = room.width - 24, room.height - _FOOT - 2 * TEXT - 4
+    unit = max(round_scale(*span, size).unit for span, size in zip(spans, free, strict=True))
+    while True:
+        step = STEP * unit
+        made = []
+        for low, high in spans:
+            first, last = np.floor(low / step + 1e-9), np.ceil(high / step - 1e-9)
+            made.append(Scale(unit, first * step, max(last, first + 2) * step))
+        if all(s.length <= size + 1e-9 for s, size in zip(made, free, strict=True)):
+            return made[0], made[1]
+        unit = round_scale(0.0, unit * 1.001, 1.0).unit
+
+
+def _square(canvas: Canvas, origin: Point, across: Scale, up: Scale, signs: Point) -> None:
+    left, base = origin
+    widest = max(width_of(across.text(signs[0] * value), TEXT) for value in across.marks())
+    for number, value in enumerate(across.marks()):
+        x = left + across.at(value)
+        canvas.line((x, base), (x, base + up.length), layer=GRID)
+        if widest < 0.9 * STEP or number % 2 == 0:
+            text = across.text(signs[0] * value)
+            canvas.words((x, base - TEXT - 3.8), text, TEXT, align=0.5)
+    for value in up.marks():
+        y = base + up.at(value)
+        canvas.line((left, y), (left + across.length, y), layer=GRID)
+        canvas.words((left - 1.5, y - TEXT / 2), up.text(signs[1] * value), TEXT, align=1.0)
+    x, y = left + across.at(0.0), base + up.at(0.0)
+    canvas.line((x, base), (x, base + up.length), layer=AXES)
+    canvas.line((left, y), (left + across.length, y), layer=AXES)
+
+
+def _angles(
+    canvas: Canvas, terms: Terms, drawn: Series,
+    placed: tuple[Point, Scale, Scale, Point], frame: Box,
+) -> None:  # fmt: skip
+    """Crank angles beside the points of the table, the rounder ones first."""
+    origin, across, up, signs = placed
+    rows = np.asarray(terms.model.tables[drawn.x.partition(".")[0]].rows, dtype=float)[:-1]
+    xs, ys = signs[0] * terms.column(drawn.x)[:-1], signs[1] * terms.column(drawn.y)[:-1]
+    points = _points(origin, across, up, xs, ys)
+    centre = np.mean(points, axis=0)
+    said: set[int] = set()
+    for step in (90.0, 30.0):
+        for row in np.flatnonzero(np.abs(np.remainder(rows + 1e-6, step)) < 1e-3).tolist():
+            if row in said:
+                continue
+            (x, y), text = points[row], f"{fixed(rows[row], 0)}°"
+            out = np.subtract(points[row], centre)
+            dx, dy = (out / (np.hypot(*out) or 1.0)).tolist()
+            half = width_of(text, 2.5) / 2
+            places = [(x + dx * (r + half) - half, y + dy * r - 1.2) for r in (2.5, 5, 8)]
+            if canvas.words_where_free(places, text, 2.5, frame):
+                canvas.circle((x, y), 0.5, layer=THIN, filled=True)
+                said.add(row)
+
+
+def wear(canvas: Canvas, room: Room, terms: Terms, chart: ChartSpec) -> None:
+    """Sums of the forces laid off from the journal's circle inwards in a round scale."""
+    grid = chart.series[0].x.partition(".")[0]
+    sums, rays = (
+        np.array([terms.value(key) for key in terms.model.grid_runs[f"{grid}.{of}"][:-1]])
+        for of in ("ray_sum", "ray_deg")
+    )
+    room = headed(canvas, room, chart.words)
+    radius = _whole(min(room.width, room.height - 3 * TEXT - 4) / 2 - 10)
+    scale = round_scale(0.0, float(sums.max()) or 1.0, 0.62 * radius)
+    unit = scale.unit
+    hole = terms.value(chart.hole)
+    said = f"М {unit_text(unit)} МПа в мм; отверстие {fixed((hole + 180) % 360 - 180, 0)}°"
+    canvas.words((room.middle[0], room.high - TEXT - 1), said, TEXT, align=0.5)
+    centre = (_whole(room.middle[0]), _whole(room.low + radius + 10))
+    canvas.circle(centre, radius, layer=CONTOUR)
+    angles = rays + 180.0
+    points = [
+        polar(centre, radius - depth / unit, -angle) for angle, depth in outline(sums, angles)
+    ]
+    canvas.line(*points, layer=CURVES, closed=True, name=f"{chart.id}:{grid}.ray_sum")
+    for number, (angle, depth) in enumerate(zip(angles.tolist(), sums.tolist(), strict=True), 1):
+        canvas.line(centre, polar(centre, radius + 3, -angle), layer=AXES)
+        canvas.circle(polar(centre, radius - depth / unit, -angle), 0.6, layer=THIN, filled=True)
+        place = polar(centre, radius + 6.5, -angle)
+        canvas.words((place[0], place[1] - TEXT / 2), roman(number), TEXT, align=0.5)
+    canvas.line(polar(centre, radius * 0.55, -hole), polar(centre, radius, -hole), layer=CONTOUR)

@@ -1,0 +1,79 @@
+"""Tables of the sheet: running-on torques over the angle, key results."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from reports.document.chapters import facts
+from reports.document.text.terms import Terms
+from reports.drawing.lettering import fitted
+from reports.drawing.primitives import TABLES, THIN, Canvas
+from reports.shared.russian import capital, fixed
+from reports.sheet.cell import TEXT, Room, headed
+from reports.spec.shape import Shape, pin_name
+
+ROW = 6.0  # mm
+_STEPS = (30.0, 60.0, 90.0, 120.0, 180.0)
+_RESULTS = ("M_mean", "M_max", "M_min", "M_e", "p_i_calc", "N_i_calc")
+
+
+def grid(
+    canvas: Canvas, room: Room, rows: Sequence[Sequence[str]], shares: Sequence[float],
+    *, head: int = 1,
+) -> None:  # fmt: skip
+    """Rows of cells from the top of a room; the first ``head`` of them above a thick line."""
+    unit = room.width / sum(shares)
+    tall = min(ROW, room.height / len(rows))
+    xs = [room.left + unit * sum(shares[:n]) for n in range(len(shares) + 1)]
+    low = room.high - tall * len(rows)
+    canvas.box(xs[0], low, xs[-1], room.high, TABLES)
+    for x in xs[1:-1]:
+        canvas.line((x, low), (x, room.high), layer=TABLES)
+    for number, row in enumerate(rows):
+        y = room.high - tall * (number + 1)
+        if number + 1 < len(rows):
+            ends = (xs[0], y), (xs[-1], y)
+            canvas.line(*ends, layer=TABLES if number + 1 == head else THIN)
+        for place, text in enumerate(row):
+            wide = xs[place + 1] - xs[place]
+            height = fitted(text, wide - 2, min(TEXT, 0.6 * tall), least=1.5)
+            middle = y + (tall - height) / 2
+            if place or number < head:
+                canvas.words((xs[place] + wide / 2, middle), text, height, align=0.5)
+            else:
+                canvas.words((xs[place] + 1, middle), text, height)
+
+
+def running(canvas: Canvas, room: Room, terms: Terms) -> None:
+    """Running-on torques on main journals at a step of the angle that fits the room."""
+    throws = Shape.of(terms.model.input).throws
+    room = headed(canvas, room, "Набегающие моменты на коренные шейки, Н·м")
+    angles = np.asarray(terms.model.tables["P4_4"].rows, dtype=float)
+    most = int(room.height / 4.2) - 2
+    step = next(s for s in _STEPS if (angles[-1] - angles[0]) / s + 1 <= most or s == _STEPS[-1])
+    kept = [n for n, a in enumerate(angles) if abs(np.remainder(a + 1e-6, step)) < 1e-3]
+    columns = [terms.column(f"P4_4.Mmain{k}_Nm") for k in range(2, throws + 2)]
+    rows = [["φ, °", *(f"шейка {k}" for k in range(2, throws + 2))]]
+    rows += [[fixed(angles[n], 0), *(fixed(float(c[n]), 0) for c in columns)] for n in kept]
+    swings = [terms.num(f"dM_main{k}") for k in range(2, throws + 2)]
+    rows.append(["размах", *swings])
+    grid(canvas, room, rows, [1.2, *[1.0] * throws])
+
+
+def results(canvas: Canvas, room: Room, terms: Terms) -> None:
+    """What the calculation found."""
+    shape = Shape.of(terms.model.input)
+    room = headed(canvas, room, "Результаты расчёта")
+    pins = [f"pin{pin_name(n)}" for n in range(1, len(shape.pins) + 1)]
+    worst = pins[facts.leaders(terms, [f"R{name}_max" for name in pins])[0] - 1]
+    main = f"main{round(terms.value('worst_main_load'))}"
+    keys = [*_RESULTS, f"R{worst}_max_kN", f"q_{worst}_mean", f"R{main}_max_kN", f"q_{main}_mean"]
+    rows = [["Величина", "Значение", "Единица"]]
+    rows += [
+        [capital(terms.title(key)), terms.num(key), terms.unit(key) or "—"]
+        for key in keys
+        if terms.has(key)
+    ]
+    grid(canvas, room, rows, [5.0, 1.4, 1.0])

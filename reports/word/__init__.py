@@ -1,0 +1,1 @@
+"""The report as a Word document, written from the same page that the PDF is set from."""

@@ -1,0 +1,119 @@
+"""What stands in a line: letters, indices, references, numbers that renew themselves."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from reports.shared.russian import NBSP
+from reports.word import omml
+from reports.word.markup import Bookmarks, Element, W, bookmark_name, run
+from reports.word.markup import field as word_field
+
+if TYPE_CHECKING:
+    from lxml.html import HtmlElement
+
+Looks = frozenset[str]
+_TEXTS = (f"{{{W}}}t", f"{{{omml.NAMESPACE}}}t")
+_BLANKS = re.compile("[ \t\r\n\f]+")
+_FACES = {"i": "i", "em": "i", "b": "b", "strong": "b", "sub": "sub", "sup": "sup", "u": "u"}
+# Anchors of the page begin with a word for the kind; a kind's numbers are one sequence.
+SEQUENCES = {"ris": "Рисунок", "tab": "Таблица", "eq": "Формула", "src": "Источник"}
+_INK = {"ink": 30, "ink day": 6, "ink month": 18}  # no-break spaces on a line to write on
+_NUMBER = re.compile(r"(?:([А-Я]|\d+)\.)?(\d+)")
+
+
+@dataclass
+class Lines:
+    """Turns the content of a page's element into runs of one document."""
+
+    bookmarks: Bookmarks = field(default_factory=Bookmarks)
+    letters: set[str] = field(default_factory=set)  # of appendices, each a bookmark
+
+    def runs(self, element: HtmlElement, looks: Looks = frozenset()) -> list[Element]:
+        """The content of an element as runs, without blanks at its ends."""
+        made = self._inside(element, looks)
+        texts = [part for piece in made for part in piece.iter(*_TEXTS)]
+        if texts:
+            texts[0].text = (texts[0].text or "").lstrip(" ")
+            texts[-1].text = (texts[-1].text or "").rstrip(" ")
+        return made
+
+    def _inside(self, element: HtmlElement, looks: Looks) -> list[Element]:
+        made = self._text(element.text, looks)
+        for child in element:
+            made += self._child(child, looks)
+            made += self._text(child.tail, looks)
+        return made
+
+    @staticmethod
+    def _text(text: str | None, looks: Looks) -> list[Element]:
+        shown = _BLANKS.sub(" ", text or "")
+        return [run(shown, looks)] if shown else []
+
+    def _child(self, child: HtmlElement, looks: Looks) -> list[Element]:
+        if not isinstance(child.tag, str):  # a comment
+            return []
+        name = child.get("class", "")
+        target = child.get("href", "")
+        if child.tag == "br":
+            return [run("\n")]
+        if child.tag == "a" and target == "#report-end":
+            return word_field(f"PAGEREF {bookmark_name(target[1:])} \\h", "", looks)
+        if child.tag == "a" and target.startswith("#"):
+            words = "".join(child.itertext())
+            shown = words.lstrip(f" {NBSP}")  # the page moves a blank before a link into it
+            lead = self._text(words[: len(words) - len(shown)], looks)
+            return [*lead, *word_field(f"REF {bookmark_name(target[1:])} \\h", shown, looks)]
+        if child.tag == "img":
+            return []
+        if child.get("data-tex"):
+            return [omml.omath(child.get("data-tex", ""))]
+        if child.tag in _FACES:
+            face = _FACES[child.tag]
+            lower = looks - {"sub", "sup"} if face in ("sub", "sup") else looks
+            return self._inside(child, lower | {face})
+        return self._span(child, name, looks)
+
+    def _span(self, child: HtmlElement, name: str, looks: Looks) -> list[Element]:
+        if name in _INK:
+            return [run(NBSP * _INK[name], looks | {"u"})]
+        if name == "num":
+            return self.number(child, looks)
+        if name in ("sheet-no", "sheets"):
+            return word_field("PAGE" if name == "sheet-no" else "NUMPAGES", "1", looks)
+        if name == "bar":
+            return [omml.barred("".join(child.itertext()))]
+        if name == "g":
+            return [*self._inside(child, looks), run("\t")]
+        return self._inside(child, looks | {"u"} if name == "said" else looks)
+
+    def number(self, element: HtmlElement, looks: Looks) -> list[Element]:
+        """The number of a thing as a field, within the bookmark that references show."""
+        anchor = next((a.get("id") for a in element.iterancestors() if a.get("id")), "")
+        shown = (element.text or "").strip()
+        kind = SEQUENCES.get(anchor.partition("-")[0])
+        found = _NUMBER.fullmatch(shown)
+        if kind is None or found is None:
+            return [run(shown, looks)]
+        return self.bookmarks.around(bookmark_name(anchor), self._counted(kind, found, looks))
+
+    def _counted(self, kind: str, found: re.Match[str], looks: Looks) -> Sequence[Element]:
+        """A number within the report, a chapter or an appendix."""
+        first, last = found[1], found[2]
+        if first is None:
+            return word_field(f"SEQ {kind} \\* ARABIC", last, looks)
+        if first in self.letters:
+            lead = word_field(f"REF {letter_name(first)} \\h", first, looks)
+            sequence = f"SEQ {kind}_{first} \\* ARABIC"
+        else:
+            lead = word_field("STYLEREF 1 \\s", first, looks)
+            sequence = f"SEQ {kind} \\* ARABIC \\s 1"
+        return [*lead, run(".", looks), *word_field(sequence, last, looks)]
+
+
+def letter_name(letter: str) -> str:
+    """Name of the bookmark around an appendix's letter."""
+    return f"app_{ord(letter):x}"

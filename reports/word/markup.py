@@ -1,0 +1,99 @@
+"""Elements of WordprocessingML: short words for making them, fields and bookmarks."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Iterable
+from typing import TypeAlias
+
+from lxml import etree
+
+W = "http://schemas.openxmlformats.org/wordprocessingml/2006/main"
+_SPACE = "{http://www.w3.org/XML/1998/namespace}space"
+_LONGEST = 40  # letters of a bookmark's name
+TWIPS_MM = 1440 / 25.4
+Element: TypeAlias = etree._Element
+
+
+def w(name: str, /, *children: Element, **attributes: object) -> Element:
+    """An element ``w:name`` with attributes of the same namespace."""
+    made = etree.Element(f"{{{W}}}{name}", nsmap={"w": W})
+    for key, value in attributes.items():
+        made.set(f"{{{W}}}{key}", str(value))
+    made.extend(children)
+    return made
+
+
+def twips(millimetres: float) -> int:
+    """A length in twentieths of a point."""
+    return round(millimetres * TWIPS_MM)
+
+
+def paragraph(style: str, content: Iterable[Element] = (), *more: Element) -> Element:
+    """A paragraph in a named style; ``more`` are further properties in the schema's order."""
+    return w("p", w("pPr", w("pStyle", val=style), *more), *content)
+
+
+def run(text: str, looks: frozenset[str] = frozenset()) -> Element:
+    """A run of text; tabs and line ends become elements."""
+    made = w("r", *([_looks(looks)] if looks else []))
+    for part in re.split("([\t\n])", text):
+        if part == "\t":
+            made.append(w("tab"))
+        elif part == "\n":
+            made.append(w("br"))
+        elif part:
+            words = w("t")
+            words.text = part
+            words.set(_SPACE, "preserve")
+            made.append(words)
+    return made
+
+
+def _looks(looks: frozenset[str]) -> Element:
+    """Properties of a run, in the order of the schema."""
+    properties = w("rPr")
+    for name, element in (
+        ("b", w("b")), ("i", w("i")), ("caps", w("caps")), ("u", w("u", val="single")),
+        ("sub", w("vertAlign", val="subscript")), ("sup", w("vertAlign", val="superscript")),
+    ):  # fmt: skip
+        if name in looks:
+            properties.append(element)
+    return properties
+
+
+def field(instruction: str, shown: str, looks: frozenset[str] = frozenset()) -> list[Element]:
+    """A field that Word renews, with what it shows until then."""
+    words = w("instrText")
+    words.text = f" {instruction} "
+    words.set(_SPACE, "preserve")
+    return [
+        w("r", w("fldChar", fldCharType="begin")),
+        w("r", words),
+        w("r", w("fldChar", fldCharType="separate")),
+        run(shown, looks),
+        w("r", w("fldChar", fldCharType="end")),
+    ]
+
+
+class Bookmarks:
+    """Bookmarks of one document, each with a number of its own."""
+
+    def __init__(self) -> None:
+        self._count = 0
+
+    def around(self, name: str, content: Iterable[Element]) -> list[Element]:
+        """The content as a bookmark."""
+        self._count += 1
+        start = w("bookmarkStart", id=self._count, name=name)
+        return [start, *content, w("bookmarkEnd", id=self._count)]
+
+
+def bookmark_name(anchor: str) -> str:
+    """A name that Word allows for an anchor of the page."""
+    name = anchor.replace("-", "_", 1)
+    if len(name) <= _LONGEST and re.fullmatch(r"\w+", name):
+        return name
+    digest = hashlib.sha256(anchor.encode()).hexdigest()[:12]
+    return f"{re.sub(r'[^A-Za-z0-9]+', '_', anchor)[:27]}_{digest}"

@@ -1,0 +1,256 @@
+"""Named styles of the Word file: a department changes them here by its style file, or in Word."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from reports.document.page.style import Style
+from reports.word.markup import Element, twips, w
+
+if TYPE_CHECKING:
+    from docx.document import Document
+
+FONT = "Times New Roman"
+SIZES = ("", "dense", "tiny")
+DASH, HEADINGS = 1, 2  # numbers of the lists
+_LINE = 240  # of an interval of one line
+_TIGHT = 1.3  # interval of headings and captions
+_CELL = 1.1
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """A paragraph style; lengths in points, the indents in twips."""
+
+    name: str
+    base: str = "Normal"
+    jc: str = ""
+    line: float = 0.0
+    before: float | None = None
+    after: float | None = None
+    left: int | None = None
+    first: int | None = None
+    size: float = 0.0
+    level: int = 0
+    bold: bool | None = None
+    italic: bool | None = None
+    caps: bool | None = None
+    keep_next: bool = False
+    keep_lines: bool = False
+    new_page: bool | None = None
+    list_number: int | None = None
+    right_tab: int = 0
+    following: str = ""
+
+
+def cell_style(size: str, *, text: bool) -> str:
+    """Id of the style of a cell by the name of its type."""
+    return f"Cell{size.capitalize()}{'Text' if text else ''}"
+
+
+def looks(style: Style) -> dict[str, Look]:
+    """All paragraph styles by id."""
+    indent, size = twips(10 * style.indent_cm), style.font_size_pt
+    width = twips(style.width_mm)
+    hang = round(2.2 * size * 20)
+    made = {
+        "BodyText": Look("Body Text", jc="both", first=indent),
+        "Flush": Look("Текст без отступа", jc="both"),
+        "Where": Look("Где", line=style.line_spacing, left=hang, first=-hang),
+        "Heading1": Look("heading 1", line=_TIGHT, before=0, after=8, left=indent, first=0,
+                         size=size + 2, level=1, bold=True, keep_next=True, keep_lines=True,
+                         new_page=True, list_number=HEADINGS, following="BodyText"),
+        "Heading2": Look("heading 2", line=_TIGHT, before=14, after=8, left=indent, first=0,
+                         level=2, bold=True, keep_next=True, keep_lines=True,
+                         list_number=HEADINGS, following="BodyText"),
+        "Heading3": Look("heading 3", line=_TIGHT, before=14, after=8, left=indent, first=0,
+                         level=3, bold=True, italic=True, keep_next=True, keep_lines=True,
+                         list_number=HEADINGS, following="BodyText"),
+        "HeadingPlain": Look("Заголовок без номера", "Heading1", jc="center", left=0, caps=True,
+                             list_number=0, following="BodyText"),
+        "Appendix": Look("Приложение", "HeadingPlain", caps=False, following="BodyText"),
+        "FrontHeading": Look("Заголовок листа", jc="center", line=_TIGHT, after=8, size=size + 2,
+                             bold=True, caps=True, keep_next=True, new_page=True),
+        "Caption": Look("caption", line=_TIGHT),
+        "FigureCaption": Look("Название рисунка", "Caption", jc="center", before=4, after=10),
+        "TableCaption": Look("Название таблицы", "Caption", before=10, after=2, keep_next=True,
+                             keep_lines=True),
+        "TableContinued": Look("Продолжение таблицы", "Caption", line=1.0),
+        "Figure": Look("Рисунок", jc="center", line=1.0, before=10, keep_next=True),
+        "Formula": Look("Формула", jc="center", line=1.0, before=3, after=3),
+        "FormulaNumber": Look("Номер формулы", jc="right", line=1.0),
+        "AfterTable": Look("После таблицы", line=1.0, size=6),
+        "ListBullet": Look("List Bullet", jc="both", left=indent, first=0, list_number=DASH),
+        "Source": Look("Источник", jc="both", first=indent),
+        "Keywords": Look("Ключевые слова", before=8, after=8),
+        "Notation": Look("Обозначение", line=1.15, size=0.86 * size),
+        "TOCHeading": Look("TOC Heading", "FrontHeading"),
+        "Title": Look("Title", jc="center", line=_TIGHT, before=17, size=18, bold=True),
+        "Cover": Look("Титульный лист", jc="center", line=_TIGHT),
+        "CoverKind": Look("Вид работы", "Cover", before=128),
+        "CoverPeople": Look("Исполнители", "Cover", jc="left", left=round(0.45 * width),
+                            before=10),
+        "Task": Look("Задание", line=1.25, after=6, size=13),
+        "TaskCentre": Look("Задание по центру", "Task", jc="center"),
+        "TaskHead": Look("Задание: заголовок", "Task", jc="center", bold=True, before=23, after=17),
+        "TaskApprove": Look("Задание: утверждаю", "Task", left=round(0.55 * width), before=14),
+        "Header": Look("header", line=1.0),
+        "Footer": Look("footer", line=1.0, size=12),
+        "Stamp": Look("Основная надпись", jc="center", line=1.0, size=8.5, italic=True),
+    }  # fmt: skip
+    for number in (1, 2, 3):
+        made[f"TOC{number}"] = Look(f"toc {number}", line=_TIGHT, left=twips(12.5) * (number - 1),
+                                    right_tab=width)  # fmt: skip
+    for name, word in zip(SIZES, ("", " мелкая", " мельчайшая"), strict=True):
+        points = round(style.table_em_px(name) * 0.75, 2)
+        made[cell_style(name, text=False)] = Look(f"Ячейка{word}", jc="center", line=_CELL,
+                                                  size=points)  # fmt: skip
+        usual = cell_style(name, text=False)
+        made[cell_style(name, text=True)] = Look(f"Ячейка{word}: текст", usual, jc="left")
+    return made
+
+
+def dress(document: Document, style: Style) -> None:
+    """Put our styles, lists and settings in place of the template's."""
+    sheet = document.styles.element
+    for child in list(sheet):
+        sheet.remove(child)
+    sheet.append(_defaults(style))
+    sheet.append(_normal(style))
+    for key, look in looks(style).items():
+        sheet.append(_paragraph_style(key, look))
+    sheet.extend(_table_styles())
+    lists = document.part.numbering_part.element
+    for child in list(lists):
+        lists.remove(child)
+    lists.extend(_lists(style))
+    _settings(document)
+
+
+def _settings(document: Document) -> None:
+    """Russian hyphenation; fields are renewed when Word opens the file: contents need pages."""
+    settings = document.settings.element
+    for child in list(settings):
+        settings.remove(child)
+    compatible = w("compatSetting", name="compatibilityMode", val=15,
+                   uri="http://schemas.microsoft.com/office/word")  # fmt: skip
+    settings.extend([
+        w("zoom", percent=100), w("defaultTabStop", val=709), w("autoHyphenation", val="true"),
+        w("characterSpacingControl", val="doNotCompress"), w("updateFields", val="true"),
+        w("compat", compatible), w("themeFontLang", val="ru-RU"), w("decimalSymbol", val=","),
+        w("listSeparator", val=";"),
+    ])  # fmt: skip
+
+
+def _defaults(style: Style) -> Element:
+    fonts = w("rFonts", ascii=FONT, hAnsi=FONT, eastAsia=FONT, cs=FONT)
+    language = w("lang", val="ru-RU", eastAsia="ru-RU", bidi="ar-SA")
+    size = round(2 * style.font_size_pt)
+    faces = w("rPr", fonts, w("sz", val=size), w("szCs", val=size), language)
+    return w("docDefaults", w("rPrDefault", faces), w("pPrDefault", w("pPr")))
+
+
+def _normal(style: Style) -> Element:
+    spacing = w("spacing", before=0, after=0, line=round(_LINE * style.line_spacing),
+                lineRule="auto")  # fmt: skip
+    made = w("style", w("name", val="Normal"), w("qFormat"), w("pPr", spacing), type="paragraph")
+    made.set(spacing.tag.replace("spacing", "default"), "1")
+    made.set(spacing.tag.replace("spacing", "styleId"), "Normal")
+    return made
+
+
+def _paragraph_style(key: str, look: Look) -> Element:
+    about = [w("name", val=look.name), w("basedOn", val=look.base)]
+    if look.following:
+        about.append(w("next", val=look.following))
+    about.append(w("qFormat"))
+    return w("style", *about, _paragraph_looks(look), _letters(look), type="paragraph", styleId=key)
+
+
+def _paragraph_looks(look: Look) -> Element:
+    """Properties of the paragraph in the order of the schema."""
+    made = w("pPr")
+    if look.keep_next:
+        made.append(w("keepNext"))
+    if look.keep_lines:
+        made.append(w("keepLines"))
+    if look.new_page is not None:
+        made.append(w("pageBreakBefore", val=int(look.new_page)))
+    if look.list_number is not None:
+        level = [w("ilvl", val=look.level - 1)] if look.level > 1 else []
+        made.append(w("numPr", *level, w("numId", val=look.list_number)))
+    if look.right_tab:
+        made.append(w("tabs", w("tab", val="right", leader="dot", pos=look.right_tab)))
+    spacing = {
+        "before": None if look.before is None else round(20 * look.before),
+        "after": None if look.after is None else round(20 * look.after),
+        "line": round(_LINE * look.line) or None,
+    }
+    given: dict[str, object] = {key: value for key, value in spacing.items() if value is not None}
+    if given:
+        made.append(w("spacing", **given, **({"lineRule": "auto"} if look.line else {})))
+    ends = {"left": look.left, "firstLine": look.first}
+    if look.first is not None and look.first < 0:
+        ends = {"left": look.left, "hanging": -look.first}
+    sides: dict[str, object] = {key: value for key, value in ends.items() if value is not None}
+    if sides:
+        made.append(w("ind", **sides))
+    if look.jc:
+        made.append(w("jc", val=look.jc))
+    if look.level:
+        made.append(w("outlineLvl", val=look.level - 1))
+    return made
+
+
+def _letters(look: Look) -> Element:
+    made = w("rPr")
+    for name, value in (("b", look.bold), ("i", look.italic), ("caps", look.caps)):
+        if value is not None:
+            made.append(w(name, val=int(value)))
+    if look.size:
+        made.extend([w("sz", val=round(2 * look.size)), w("szCs", val=round(2 * look.size))])
+    return made
+
+
+def _table_styles() -> list[Element]:
+    def borders(*sides: str) -> Element:
+        rules = (w(side, val="single", sz=4, space=0, color="auto") for side in sides)
+        return w("tblBorders", *rules)
+
+    margins = w("tblCellMar", w("left", w=28, type="dxa"), w("right", w=28, type="dxa"))
+    outer = ("top", "left", "bottom", "right")
+    usual = w("style", w("name", val="Normal Table"), w("tblPr", w("tblInd", w=0, type="dxa"),
+              margins), type="table", styleId="TableNormal")  # fmt: skip
+    usual.set(f"{{{usual.nsmap['w']}}}default", "1")
+    made = [usual]
+    for key, name, sides in (
+        ("ReportTable", "Таблица отчёта", (*outer, "insideV")),
+        ("ReportTableLined", "Таблица отчёта с линиями", (*outer, "insideH", "insideV")),
+        ("FormulaTable", "Формула с номером", ()),
+    ):
+        made.append(w("style", w("name", val=name), w("basedOn", val="TableNormal"),
+                      w("tblPr", *([borders(*sides)] if sides else [])),
+                      type="table", styleId=key))  # fmt: skip
+    return made
+
+
+def _lists(style: Style) -> list[Element]:
+    """The dash of lists and the numbers of headings."""
+    indent = twips(10 * style.indent_cm)
+    dash = w("lvl", w("start", val=1), w("numFmt", val="bullet"), w("suff", val="space"),
+             w("lvlText", val="—"), w("lvlJc", val="left"),
+             w("pPr", w("ind", left=indent, firstLine=0)), ilvl=0)  # fmt: skip
+    levels = [
+        w("lvl", w("start", val=1), w("numFmt", val="decimal"), w("pStyle", val=f"Heading{n}"),
+          w("suff", val="space"), w("lvlText", val=".".join(f"%{i}" for i in range(1, n + 1))),
+          w("lvlJc", val="left"), w("pPr", w("ind", left=indent, firstLine=0)), ilvl=n - 1)
+        for n in (1, 2, 3)
+    ]  # fmt: skip
+    kinds = ((DASH, "hybridMultilevel", [dash]), (HEADINGS, "multilevel", levels))
+    abstract = [
+        w("abstractNum", w("multiLevelType", val=kind), *parts, abstractNumId=number)
+        for number, kind, parts in kinds
+    ]
+    numbers = [w("num", w("abstractNumId", val=n), numId=n) for n, _, _ in kinds]
+    return [*abstract, *numbers]

@@ -1,0 +1,184 @@
+"""The DXF read back: layers, closed polylines, real text, curves where the tables say."""
+
+from __future__ import annotations
+
+import io
+import re
+
+import ezdxf
+import numpy as np
+import pytest
+from ezdxf import recover
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from sheet_samples import terms, terms_of
+
+from reports.drawing.dxf import dxf_bytes
+from reports.drawing.primitives import LAYERS, Line, Words
+from reports.inputs.load import load_text
+from reports.inputs.own_engine import own_engine
+from reports.inputs.own_file import file_text
+from reports.sheet.layout import sheet_items
+from reports.sheet.write import sheet_files
+from tests.conftest import sample_names
+from tests.sheet.test_sheet_places import faults
+
+NEAR = 0.1  # mm
+
+
+def read(data: bytes) -> ezdxf.document.Drawing:
+    document, auditor = recover.read(io.BytesIO(data))
+    assert not auditor.errors and not auditor.fixes
+    return document
+
+
+def distance(points: np.ndarray, path: np.ndarray) -> np.ndarray:
+    """From each point to the nearest place of a polyline."""
+    start, step = path[:-1], np.diff(path, axis=0)
+    long = np.maximum((step**2).sum(axis=1), 1e-12)
+    apart = points[:, None, :] - start[None]
+    share = np.clip((apart * step[None]).sum(axis=2) / long, 0, 1)
+    return np.sqrt(((apart - share[..., None] * step[None]) ** 2).sum(axis=2).min(axis=1))
+
+
+def number(text: str) -> float:
+    return float(text.replace("−", "-").replace(",", ".").replace("\u00a0", ""))
+
+
+def marks(texts: list[Words], path: np.ndarray) -> list[np.ndarray]:
+    """Places of the marks along both axes and what is written there, as a person reads them."""
+    (left, low), (right, high) = path.min(axis=0), path.max(axis=0)
+    numbers = [t for t in texts if re.fullmatch(r"−?[\d\u00a0]+(,\d+)?", t.text)]
+    up = [t for t in numbers if t.align == 1.0 and t.place[0] < left + 0.1
+          and low - 12 < t.place[1] < high + 12]  # fmt: skip
+    column = max(t.place[0] for t in up)
+    across = [t for t in numbers if t.align == 0.5 and t.place[1] < low
+              and left - 12 < t.place[0] < right + 12]  # fmt: skip
+    row = max(t.place[1] for t in across)
+    return [
+        np.array([(t.place[0], number(t.text)) for t in across if abs(t.place[1] - row) < 0.1]),
+        np.array([(t.place[1] + t.height / 2, number(t.text)) for t in up
+                  if abs(t.place[0] - column) < 0.1]),
+    ]  # fmt: skip
+
+
+def check_curves(t) -> int:
+    """Points of the tables on the curves of the file; how many were looked at."""
+    canvas, _, _ = sheet_items(t)
+    document = read(dxf_bytes(canvas.items))
+    lines = [np.array([p[:2] for p in e.get_points("xy")])
+             for e in document.modelspace().query('LWPOLYLINE[layer=="Кривые"]')]  # fmt: skip
+    named = [item for item in canvas.items if isinstance(item, Line) and item.name]
+    texts = [item for item in canvas.items if isinstance(item, Words)]
+    assert len(lines) == len(named)
+    fields = {}  # the first curve of a diagram finds its marks, the others share them
+    for item, path in zip(named, lines, strict=True):
+        chart = item.name.partition(":")[0]
+        fields[chart] = np.vstack([fields.get(chart, path), path])
+    count = 0
+    for item, path in zip(named, lines, strict=True):
+        key, _, column = item.name.partition(":")
+        chart = t.model.charts_by_id[key]
+        if chart.kind == "wear":
+            continue
+        series = next(s for s in chart.drawn_by("report") if s.y == column)
+        table = np.column_stack([t.column(series.x), t.column(column)])
+        where = np.empty_like(table)
+        for axis, found in enumerate(marks(texts, fields[key])):
+            slope, at_zero = np.polyfit(found[:, 1], found[:, 0], 1)
+            assert np.abs(slope * found[:, 1] + at_zero - found[:, 0]).max() < 0.01, item.name
+            where[:, axis] = slope * table[:, axis] + at_zero
+            unit = abs(1 / slope)
+            assert any(_says(text.text, unit) for text in texts), (item.name, unit)
+        ends = np.vstack([path, path[:1]]) if item.closed else path
+        assert distance(where, ends).max() < NEAR, item.name
+        count += len(table)
+    return count
+
+
+def _says(text: str, unit: float) -> bool:
+    """Whether a line of the sheet names this scale."""
+    if " в мм" not in text:
+        return False
+    named = re.findall(r"(?:М|горизонтали) ([\d,]+)", text)
+    return any(abs(number(n) - unit) < 1e-6 * unit for n in named)
+
+
+@pytest.mark.parametrize("name", sample_names())
+def test_every_curve_lies_where_the_table_says(name):
+    assert check_curves(terms(name)) > 400
+
+
+@settings(max_examples=20)
+@given(
+    cylinders=st.integers(1, 12), layout=st.sampled_from(["inline", "v", "opposed"]),
+    strokes=st.sampled_from([4, 2]), kind=st.sampled_from(["petrol", "diesel"]),
+    speed=st.integers(900, 6000),
+)  # fmt: skip
+def test_random_engines(cylinders, layout, strokes, kind, speed):
+    if layout != "inline":
+        cylinders += cylinders % 2
+    engine = own_engine(cylinders, layout=layout, strokes=strokes, kind=kind, speed_rpm=speed)
+    text = re.sub(r"step_deg = \d+", "step_deg = 30", file_text(engine))
+    t = terms_of(load_text(text, source="own.toml").model)
+    assert faults(t) == []
+    assert check_curves(t) > 100
+
+
+def test_wear_is_laid_off_from_the_circle():
+    t = terms("gots-diesel")
+    canvas, _, _ = sheet_items(t)
+    curve = next(i for i in canvas.items if getattr(i, "name", "") == "fig52:table_14_sums.ray_sum")
+    sums = [t.value(key) for key in t.model.grid_runs["table_14_sums.ray_sum"][:-1]]
+    path = np.array(curve.points)
+    document = read(dxf_bytes(canvas.items))
+    circles = document.modelspace().query('CIRCLE[layer=="Контур"]')
+    circle = min(circles, key=lambda c: np.hypot(*(np.array(c.dxf.center)[:2] - path.mean(axis=0)))
+                 + (0 if c.dxf.radius > 20 else 1e3))  # fmt: skip
+    depth = circle.dxf.radius - np.hypot(*(path - np.array(circle.dxf.center)[:2]).T)
+    rays = depth[:: len(path) // len(sums)]
+    unit = max(sums) / depth.max()
+    assert np.abs(rays - np.array(sums) / unit).max() < NEAR
+    assert abs(unit - round(unit, 4)) < 1e-6
+
+
+def test_layers_texts_and_closed_lines():
+    files = sheet_files(terms("d-240").model, terms("d-240").values)
+    assert set(files) == {"-sheet.pdf", "-sheet.dxf", "-throw.dxf", "-mechanism.dxf"}
+    document = read(files["-sheet.dxf"])
+    assert document.dxfversion == "AC1024" and document.units == ezdxf.units.MM
+    names = {layer.dxf.name for layer in document.layers}
+    assert {layer.name for layer in LAYERS} <= names
+    space = document.modelspace()
+    texts = {text.dxf.text for text in space.query("TEXT")}
+    assert {"Разраб.", "Схема уравновешивания", "Порядок работы 1–3–4–2"} <= texts
+    closed = [line for line in space.query("LWPOLYLINE") if line.closed]
+    assert len(closed) > 10
+    assert {e.dxf.layer for e in space} <= {layer.name for layer in LAYERS}
+
+
+def test_parts_are_true_to_size():
+    t = terms("d-240")
+    files = sheet_files(t.model, t.values)
+    circles = read(files["-mechanism.dxf"]).modelspace().query("CIRCLE")
+    radius = max(circle.dxf.radius for circle in circles)
+    assert radius == pytest.approx(1000 * t.value("r_crank"))
+    texts = [e.dxf.text for e in read(files["-throw.dxf"]).modelspace().query("TEXT")]
+    for size in ("l1 = 18", "hЛ = 26", "l2 = 25", "l5 = 25", "l6 = 18", "r = 62,5", "Øш.ш 68,25"):
+        assert texts.count(size) == 4
+    assert [f"Колено {n}" for n in range(1, 5)] == [x for x in texts if x.startswith("Колено")]
+
+
+def test_the_same_bytes():
+    t = terms("d-240")
+    assert sheet_files(t.model, t.values) == sheet_files(t.model, t.values)
+
+
+def test_words_stand_in_the_file_where_the_list_has_them():
+    canvas, _, _ = sheet_items(terms("d-240"))
+    words = [item for item in canvas.items if isinstance(item, Words)]
+    texts = list(read(dxf_bytes(canvas.items)).modelspace().query("TEXT"))
+    assert len(words) == len(texts)
+    for item, text in zip(words, texts, strict=True):
+        assert text.dxf.text == item.text and text.dxf.height == pytest.approx(item.height)
+        assert tuple(text.get_placement()[1])[:2] == pytest.approx(item.place)

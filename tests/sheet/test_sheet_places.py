@@ -1,0 +1,52 @@
+"""What stands where: no text over text, nothing outside, every curve at its scale."""
+
+from __future__ import annotations
+
+import itertools
+
+import pytest
+from sheet_samples import terms, terms_of
+
+from reports.drawing.primitives import Words, box_of, overlap
+from reports.inputs.sections.sheet import DIAGRAMS, USUAL
+from reports.sheet.layout import sheet_items
+from tests.conftest import sample_names
+from tests.layouts import MAKERS, made
+
+
+def faults(t) -> list[str]:
+    canvas, width, height = sheet_items(t)
+    found = []
+    texts = [item for item in canvas.items if isinstance(item, Words)]
+    for one, other in itertools.combinations(texts, 2):
+        if overlap(one.box, other.box):
+            found.append(f"{one.text!r} over {other.text!r} at {one.place}")
+    for item in canvas.items:
+        left, low, right, high = box_of(item)
+        edge = 0.0 if not isinstance(item, Words) else 4.9
+        if left < edge or low < edge or right > width - edge or high > height - edge:
+            found.append(f"outside: {item}")
+    return found
+
+
+@pytest.mark.parametrize("name", sample_names())
+def test_nothing_covers_anything(name):
+    assert faults(terms(name)) == []
+
+
+@pytest.mark.parametrize("size", ["A1", "A2"])
+@pytest.mark.parametrize("way", ["landscape", "portrait"])
+@pytest.mark.parametrize("name", ["d-240", "yamz-236"])
+def test_every_sheet(name, size, way):
+    assert faults(terms(name, f'\n[sheet]\nsize = "{size}"\norientation = "{way}"\n')) == []
+
+
+def test_everything_at_once():
+    every = f"\n[sheet]\ndiagrams = {list(DIAGRAMS)}\n".replace("'", '"')
+    assert faults(terms("ecoboost-10", every)) == []
+    assert set(USUAL) < set(DIAGRAMS)
+
+
+@pytest.mark.parametrize("name", MAKERS)
+def test_every_layout_has_a_sheet(name):
+    assert faults(terms_of(made(name, step_deg=30))) == []

@@ -1,0 +1,62 @@
+"""Word files of samples with the pages that they are made from, made once for all tests."""
+
+from __future__ import annotations
+
+import io
+import re
+import zipfile
+from functools import lru_cache
+from pathlib import Path
+
+import lxml.html
+from lxml import etree
+
+from reports.document.page.style import Style
+from reports.document.report import report_page
+from reports.inputs.load import load_text
+from reports.shared.resources import samples_dir
+from reports.spec.evaluation import evaluate_model
+from reports.tables.registry import build_model
+from reports.word.write import from_page, report_docx
+
+W = "{http://schemas.openxmlformats.org/wordprocessingml/2006/main}"
+M = "{http://schemas.openxmlformats.org/officeDocument/2006/math}"
+NUMBER = re.compile(r"\d+(?:,\d+)?")
+
+
+@lru_cache(maxsize=4)
+def model_of(name: str):
+    text = (samples_dir() / f"{name}.toml").read_text(encoding="utf-8")
+    model = build_model(load_text(text, source=f"{name}.toml").model)
+    return model, evaluate_model(model)
+
+
+@lru_cache(maxsize=4)
+def page_of(name: str, **style: object) -> str:
+    """The page as the PDF has it, with tables cell by cell."""
+    look = Style(tagged_tables=True, **style)
+    return report_page(*model_of(name), media="print", style=look)
+
+
+@lru_cache(maxsize=4)
+def docx_of(name: str) -> bytes:
+    return report_docx(*model_of(name), source=Path(f"{name}.toml"))
+
+
+def styled(name: str, **style: object) -> bytes:
+    look = Style(tagged_tables=True, **style)
+    return from_page(page_of(name, **style), look)
+
+
+def part(data: bytes, name: str = "word/document.xml") -> etree._Element:
+    with zipfile.ZipFile(io.BytesIO(data)) as parts:
+        return etree.fromstring(parts.read(name))
+
+
+def root_of(page: str):
+    return lxml.html.document_fromstring(page)
+
+
+def text_of(element: etree._Element) -> str:
+    """Text with equations in order, without the instructions of fields."""
+    return "".join(e.text or "" for e in element.iter(f"{W}t", f"{M}t"))

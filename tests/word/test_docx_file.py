@@ -1,0 +1,156 @@
+"""The Word file as a file: fields, pictures, styles, bytes, Microsoft's schema."""
+
+from __future__ import annotations
+
+import io
+import re
+import zipfile
+
+import pytest
+from click.testing import CliRunner
+from docx_samples import W, docx_of, page_of, part, styled, text_of
+from lxml import etree
+
+from reports.cli import main
+from reports.document.page.style import Style
+from reports.shared.resources import samples_dir
+from reports.word.markup import bookmark_name
+from reports.word.write import from_page
+from tests.workbook.test_schema import validated
+
+NAME = "gots-diesel"
+
+
+def instructions(data: bytes) -> list[str]:
+    return [(e.text or "").strip() for e in part(data).iter(f"{W}instrText")]
+
+
+def test_numbers_references_and_contents_are_fields():
+    data = docx_of(NAME)
+    fields, document = instructions(data), part(data)
+    marks = [e.get(f"{W}name") for e in document.iter(f"{W}bookmarkStart")]
+    assert len(marks) == len(set(marks)) and max(map(len, marks)) <= 40
+    numbers = [e.get(f"{W}id") for e in document.iter(f"{W}bookmarkStart")]
+    assert len(numbers) == len(set(numbers))
+    referred = {f.split()[1] for f in fields if f.startswith(("REF", "PAGEREF"))}
+    assert referred <= set(marks) and len(referred) > 60
+    assert sum(f.startswith("TOC") for f in fields) == 1
+    sequences = {f.split()[1] for f in fields if f.startswith("SEQ")}
+    assert sequences == {"Рисунок", "Таблица", "Формула", "Источник", "Таблица_А", "Таблица_Б"}
+    kinds = [e.get(f"{W}fldCharType") for e in document.iter(f"{W}fldChar")]
+    assert kinds.count("begin") == kinds.count("separate") == kinds.count("end") == len(fields)
+
+
+def test_what_fields_show_is_what_they_will_count():
+    counted: dict[str, int] = {}
+    shown: list[tuple[str, str]] = []
+    for paragraph in part(docx_of(NAME)).iter(f"{W}p"):
+        kind = None
+        for element in paragraph.iter(f"{W}instrText", f"{W}t"):
+            if element.tag == f"{W}instrText":
+                words = element.text.split()
+                kind = words[1] if words[0] == "SEQ" else None
+            elif kind:
+                counted[kind] = counted.get(kind, 0) + 1
+                shown.append((element.text, str(counted[kind])))
+                kind = None
+    assert len(shown) > 100 and all(text == number for text, number in shown)
+
+
+def test_figures_are_svg_with_a_png_and_words():
+    data = docx_of(NAME)
+    document = part(data)
+    with zipfile.ZipFile(io.BytesIO(data)) as parts:
+        names = parts.namelist()
+        svg = [parts.read(n).decode() for n in names if n.endswith(".svg")]
+        png = [n for n in names if n.endswith(".png")]
+    figures = document.xpath("//*[local-name()='docPr']")
+    assert len(figures) == len(svg) == len(png) > 15
+    assert all(len(f.get("descr")) > 10 for f in figures)
+    assert len({f.get("id") for f in figures}) == len(figures)
+    assert not any("<text" in picture or "font" in picture.split(">", 1)[1] for picture in svg)
+
+
+def test_the_same_bytes():
+    assert from_page(page_of(NAME), Style(tagged_tables=True)) == docx_of(NAME)
+
+
+def test_a_style_file_changes_named_styles_and_not_the_text():
+    usual, other = docx_of(NAME), styled(NAME, font_size_pt=12, line_spacing=1.2, indent_cm=1.0)
+    sheet = part(other, "word/styles.xml")
+    size = sheet.find(f"{W}docDefaults/{W}rPrDefault/{W}rPr/{W}sz")
+    assert size.get(f"{W}val") == "24"
+    body = next(s for s in sheet.iter(f"{W}style") if s.get(f"{W}styleId") == "BodyText")
+    assert body.find(f"{W}pPr/{W}ind").get(f"{W}firstLine") == "567"
+    names = {e.get(f"{W}val") for e in part(usual).iter(f"{W}pStyle")}
+    defined = {s.get(f"{W}styleId") for s in sheet.iter(f"{W}style")}
+    assert names <= defined
+    # No letters and no intervals set by hand in the text: the styles decide.
+    by_hand = {e.tag.removeprefix(W) for r in part(usual).iter(f"{W}rPr") for e in r}
+    assert by_hand <= {"b", "i", "u", "caps", "vertAlign"}
+
+
+def test_frames_and_title_blocks_stand_in_headers_and_footers():
+    data = styled(NAME, frame="eskd")
+    with zipfile.ZipFile(io.BytesIO(data)) as parts:
+        feet = [part(data, n) for n in parts.namelist() if re.match(r"word/footer\d", n)]
+        heads = [parts.read(n).decode() for n in parts.namelist() if "word/header" in n]
+    stamps = [foot for foot in feet if foot.find(f"{W}tbl") is not None]
+    assert sorted(len(s.find(f"{W}tbl").findall(f"{W}tr")) for s in stamps) == [3, 8]
+    assert all("Подп." in text_of(stamp) for stamp in stamps)
+    fields = [[e.text.strip() for e in s.iter(f"{W}instrText")] for s in stamps]
+    assert ["PAGE"] in fields and ["PAGE", "NUMPAGES"] in fields
+    assert sum('prst="rect"' in head for head in heads) == 2
+
+
+def test_a_long_table_is_told_to_go_on_where_a_department_wants_it():
+    document = part(styled(NAME, table_continuation=True))
+    tables = [t for t in document.iter(f"{W}tbl") if "Продолжение таблицы" in text_of(t)]
+    assert len(tables) > 10 and "Продолжение таблицы" not in text_of(part(docx_of(NAME)))
+    for table in tables:
+        first, *_ = table.findall(f"{W}tr")
+        assert first.find(f"{W}trPr/{W}tblHeader") is not None
+        caption = table.getprevious()
+        number = re.match(r"Таблица\s([А-Б0-9.]+)", text_of(caption))[1]
+        assert text_of(first) == f"Продолжение таблицы {number}"
+        assert "FFFFFF" in etree.tostring(caption).decode()  # what covers the row here
+
+
+def test_a_bad_style_file_is_refused_before_anything_is_written(tmp_path):
+    style, out = tmp_path / "style.toml", tmp_path / "out"
+    style.write_text("colour = 1", encoding="utf-8")
+    sample = samples_dir() / f"{NAME}.toml"
+    words = ["build", str(sample), "--only", "docx", "--style", str(style), "-o", str(out)]
+    done = CliRunner().invoke(main, words)
+    (line,) = done.output.strip().splitlines()[-1:]
+    assert done.exit_code == 2 and "colour" in line and "style.toml" in line
+    assert not out.exists()
+
+
+def test_the_formats_of_the_input_are_made(tmp_path):
+    text = (samples_dir() / f"{NAME}.toml").read_text(encoding="utf-8")
+    source = tmp_path / "own.toml"
+    formats = '[report]\nformats = ["xlsx", "docx"]\n'
+    source.write_text(text.replace("[report]\n", formats), encoding="utf-8")
+    done = CliRunner().invoke(main, ["build", str(source), "-o", str(tmp_path / "out")])
+    assert done.exit_code == 0, done.output
+    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["own.docx", "own.xlsx"]
+
+
+def test_numbers_within_chapters():
+    fields = instructions(styled(NAME, numbering="chapter"))
+    assert "STYLEREF 1 \\s" in fields and "SEQ Рисунок \\* ARABIC \\s 1" in fields
+
+
+def test_names_of_bookmarks_differ():
+    anchors = ["eq-a.b", "eq-a_b", "ris-" + "x" * 50, "ris-" + "x" * 51, "tab-P3_1"]
+    names = [bookmark_name(anchor) for anchor in anchors]
+    assert len(set(names)) == len(names) and all(re.fullmatch(r"\w{1,40}", n) for n in names)
+    assert bookmark_name("tab-P3_1") == "tab_P3_1"
+
+
+@pytest.mark.parametrize("style", [{}, {"frame": "eskd", "numbering": "chapter"}])
+def test_the_schema_validator_finds_nothing(tmp_path, style):
+    path = tmp_path / "note.docx"
+    path.write_bytes(styled("cycle-turbo-diesel", **style))
+    assert "Found 0 errors" in validated(path)

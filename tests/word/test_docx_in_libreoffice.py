@@ -1,0 +1,107 @@
+"""LibreOffice opens the Word file whole and renews its numbers after a chapter is put in."""
+
+from __future__ import annotations
+
+import copy
+import io
+import json
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import docx
+import pytest
+from docx.oxml.ns import qn
+from docx_samples import M, W, docx_of, model_of, page_of, part, root_of
+
+from reports.document.report import report_pdf
+
+PYTHON = "/usr/bin/python3"
+WRITER = Path("/usr/lib/libreoffice/program/libswlo.so")
+NAME = "gots-diesel"
+
+pytestmark = pytest.mark.skipif(
+    not (WRITER.exists() and shutil.which("soffice") and shutil.which("pdftotext")),
+    reason="нет LibreOffice Writer: sudo apt-get install libreoffice-writer-nogui "
+    "libreoffice-math-nogui python3-uno",
+)
+
+
+def renewed(data: bytes, folder: Path) -> tuple[dict[str, int], Path]:
+    """Counts in LibreOffice and the PDF that it makes."""
+    source, target = folder / "note.docx", folder / "note.pdf"
+    source.write_bytes(data)
+    script = Path(__file__).with_name("renewed.py")
+    done = subprocess.run(
+        [PYTHON, str(script), str(source), str(target), str(folder / "profile")],
+        capture_output=True, text=True, timeout=300, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr[-2000:]
+    return json.loads(done.stdout.splitlines()[-1]), target
+
+
+def pages(pdf: Path) -> int:
+    told = subprocess.run(["pdfinfo", str(pdf)], capture_output=True, text=True, check=True)
+    return int(re.search(r"Pages:\s+(\d+)", told.stdout)[1])
+
+
+def text_of(pdf: Path) -> str:
+    told = subprocess.run(
+        ["pdftotext", "-layout", str(pdf), "-"], capture_output=True, check=True
+    )  # fmt: skip
+    return re.sub(r"[ \u00a0]+", " ", told.stdout.decode())
+
+
+def test_nothing_is_lost(tmp_path):
+    data = docx_of(NAME)
+    counts, made = renewed(data, tmp_path)
+    document = part(data)
+    assert counts["formulas"] == len(document.findall(f".//{M}oMath"))
+    assert counts["tables"] == len(document.findall(f".//{W}tbl"))
+    assert counts["pictures"] == len(root_of(page_of(NAME)).findall(".//figure"))
+    usual = tmp_path / "usual.pdf"
+    source = tmp_path / f"{NAME}.toml"
+    source.write_text("")
+    usual.write_bytes(report_pdf(*model_of(NAME), source=source, workbook=b"PK"))
+    assert abs(pages(made) - pages(usual)) <= 0.1 * pages(usual)
+
+
+def with_chapter(data: bytes) -> bytes:
+    """The file with a chapter before the fourth, which has a figure, a table and a formula."""
+    document = docx.Document(io.BytesIO(data))
+    chapters = [p for p in document.paragraphs if p.style.name == "Heading 1"]
+    chapters[3].add_run(" (исправлено)")
+    styles = ("Название рисунка", "Название таблицы")
+    samples = [next(p for p in document.paragraphs if p.style.name == name) for name in styles]
+    chapters[3].insert_paragraph_before("Глава студента", style="Heading 1")
+    for sample, words in zip(samples, (" — Свой рисунок", " — Своя таблица"), strict=True):
+        clone = copy.deepcopy(sample._p)
+        for mark in (*clone.iter(qn("w:bookmarkStart")), *clone.iter(qn("w:bookmarkEnd"))):
+            mark.getparent().remove(mark)
+        list(clone.iter(qn("w:t")))[-1].text = words
+        chapters[3]._p.addprevious(clone)
+    stream = io.BytesIO()
+    document.save(stream)
+    return stream.getvalue()
+
+
+def numbers_of(text: str, words: str) -> list[int]:
+    return [int(n) for n in re.findall(rf"{words} (\d+) —", text)]
+
+
+def test_a_chapter_put_in_renumbers_what_follows(tmp_path):
+    before = renewed(docx_of(NAME), tmp_path)[1]
+    old = text_of(before)
+    new = text_of(renewed(with_chapter(docx_of(NAME)), tmp_path)[1])
+    figures, tables = (numbers_of(new, words) for words in ("Рисунок", "Таблица"))
+    assert figures == list(range(1, len(numbers_of(old, "Рисунок")) + 2))
+    assert tables == list(range(1, len(numbers_of(old, "Таблица")) + 2))
+    assert "4 Глава студента" in new and "5 Крутящий момент двигателя (исправлено)" in new
+    contents = new[new.index("СОДЕРЖАНИЕ") : new.index("ВВЕДЕНИЕ")]
+    assert re.search(r"4 Глава студента\.+ ?\d+", contents)
+    for title in re.findall(r"Рисунок \d+ — (Индикаторный крутящий[^\n]*)", old):
+        was = int(re.search(rf"Рисунок (\d+) — {re.escape(title)}", old)[1])
+        assert f"Рисунок {was + 1} — {title}" in new
+        asked = r"рисунк\w+\s+{}\b"
+        assert re.search(asked.format(was), old) and re.search(asked.format(was + 1), new)

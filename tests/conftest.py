@@ -32,9 +32,23 @@ def pytest_configure(config: pytest.Config) -> None:
 # a quick one stays, of those over all samples these samples.
 QUICK_SAMPLES = {"gots-diesel", "ecoboost-10"}
 SLOW = (
+    "tests/comparison/test_compare.py::test_a_file_of_each_kind[pdf]",
+    "tests/comparison/test_compare.py::test_an_edited_workbook",
+    "tests/comparison/test_compare.py::test_six_engines",
+    "tests/comparison/test_compare.py::test_the_workbook_recalculated",
+    "tests/cycle/test_cycle_properties.py",
+    "tests/cycle/test_cycle_sheets.py::test_a_changed_cell_recalculates",
     "tests/document/test_document_tables.py::test_layout",
+    "tests/document/test_page_blocks.py::test_layout",
     "tests/document/test_report_",
+    "tests/e2e/test_cli.py::test_a_name_that_looks",
+    "tests/e2e/test_cli.py::test_build_does_not_write",
+    "tests/e2e/test_cli.py::test_names_with_slashes",
+    "tests/e2e/test_cli.py::test_remarks_stand",
     "tests/e2e/test_dask.py",
+    "tests/e2e/test_doors.py::test_issue_spares",
+    "tests/e2e/test_doors.py::test_sweep_spares",
+    "tests/fuzz/test_corpus.py::test_the_corpus_is_answered[workbook]",
     "tests/fuzz/test_corpus.py::test_the_command",
     "tests/fuzz/test_properties.py",
     "tests/grading/test_class_of_sixty.py",
@@ -44,6 +58,7 @@ SLOW = (
     "tests/grading/test_grade.py::test_the_last_of_several",
     "tests/grading/test_hostile_files.py",
     "tests/grading/test_issue.py::test_an_issue_can_be_repeated",
+    "tests/house/test_house_run.py::test_the_noise_of_apt",
     "tests/kshm/test_invariants.py",
     "tests/manual/test_commands.py::test_commands",
     "tests/manual/test_manual_pages.py::test_html_fits",
@@ -67,15 +82,35 @@ SLOW = (
     "tests/workbook/test_print.py::test_the_textbooks",
     "tests/workbook/test_schema.py",
 )
+# Files of which the first test alone is quick: the others need the same costly things again.
+FIRST_ALONE = (
+    "tests/comparison/test_chapter.py",
+    "tests/grading/test_causes.py",
+    "tests/grading/test_decisions.py",
+    "tests/grading/test_leaks.py",
+    "tests/grading/test_moodle.py",
+    "tests/grading/test_selfcheck.py",
+    "tests/grading/test_verdicts.py",
+    "tests/inputs/test_own_engine.py::test_twelve",
+    "tests/manual/test_new_table.py",
+    "tests/sheet/",
+    "tests/torsion/",
+    "tests/word/",
+)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark what the quick tests leave out."""
     others = set(sample_names()) - QUICK_SAMPLES
+    seen: set[Path] = set()
     for item in items:
         params = getattr(getattr(item, "callspec", None), "params", {}).values()
-        if item.nodeid.startswith(SLOW) or others & {p for p in params if isinstance(p, str)}:
+        again = item.nodeid.startswith(FIRST_ALONE) and item.path in seen
+        slow = item.nodeid.startswith(SLOW) or others & {p for p in params if isinstance(p, str)}
+        if again or slow:
             item.add_marker(pytest.mark.slow)
+        elif item.nodeid.startswith(FIRST_ALONE):
+            seen.add(item.path)
 
 
 @lru_cache(maxsize=32)

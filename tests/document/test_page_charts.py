@@ -68,6 +68,15 @@ def test_alternative_text_tells_the_extremes():
     assert chart_figure(T, CHARTS["pv"]).alt == CHARTS["pv"].words
 
 
+@pytest.mark.parametrize("name", ["gots-diesel", "ecoboost-10"])
+def test_what_sums_leave_of_zero_is_told_as_zero(name):
+    made = terms(name)
+    told = [chart_figure(made, c).alt for c in made.model.charts_by_id.values()
+            if c.x_is_angle and c.drawn_by("report")]  # fmt: skip
+    assert len(told) > 10
+    assert [words for words in told if "0,0000000" in words] == []
+
+
 def test_a_group_shares_a_figure():
     both = panels_figure(T, [CHARTS["fig56_2"], CHARTS["fig56_3"]], 50, same_scale=True)
     assert both.caption.replace("\u00a0", " ") == (

@@ -93,6 +93,7 @@ def _curves(
 
 
 Column = NDArray[np.float64]
+_NOISE = 1e-9  # of a curve's largest ordinate: what sums leave where they are zero
 
 
 def _together(terms: Terms, charts: Sequence[ChartSpec]) -> tuple[str, Column, list[list[Column]]]:
@@ -189,6 +190,7 @@ def _spoken(terms: Terms, caption: str, charts: Sequence[ChartSpec]) -> str:
     for chart in charts:
         for series in chart.drawn_by("report") if chart.x_is_angle else ():
             x, y = terms.column(series.x), terms.column(series.y)
+            y = np.where(np.abs(y) < _NOISE * np.abs(y).max(), 0.0, y)
             unit, angle = terms.unit(series.y), plain(terms.tex(series.x))
             parts = (
                 f"{word} {numbers.significant(float(y[row]), 4)}{' ' if unit else ''}{unit}"

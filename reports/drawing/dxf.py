@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Iterable
 
-from reports.drawing.primitives import LAYERS, Circle, Dash, Item, Line, Words
+from reports.drawing.primitives import LAYERS, Circle, Dash, Item, Line, Words, bounds
 
 STYLE = "ЕСКД"
 _FONT = "isocpeur.ttf"  # of AutoCAD and its kin, with Cyrillic
@@ -34,7 +34,8 @@ def dxf_bytes(items: Iterable[Item]) -> bytes:
         space = document.modelspace()
         aligns = {0.0: TextEntityAlignment.LEFT, 0.5: TextEntityAlignment.CENTER,
                   1.0: TextEntityAlignment.RIGHT}  # fmt: skip
-        for item in items:
+        shown = list(items)
+        for item in shown:
             looks: dict[str, object] = {"layer": item.layer.name}
             if isinstance(item, Line):
                 if item.dash:
@@ -51,6 +52,11 @@ def dxf_bytes(items: Iterable[Item]) -> bytes:
                     edges.add_arc(item.centre, item.radius, 0, 360)
             else:
                 _text(space, item, aligns[item.align], looks)
+        left, low, right, high = bounds(shown)
+        document.header["$EXTMIN"], document.header["$EXTMAX"] = (left, low, 0), (right, high, 0)
+        document.header["$LIMMIN"], document.header["$LIMMAX"] = (left, low), (right, high)
+        centre = ((left + right) / 2, (low + high) / 2)
+        document.set_modelspace_vport(1.05 * (high - low), centre)  # the whole of it is seen
         stream = io.StringIO()
         document.write(stream)
         return stream.getvalue().encode(document.output_encoding, "dxfreplace")

@@ -40,7 +40,8 @@ def _size(common: float | None, own: tuple[float, ...] | None, number: int) -> f
 def mechanism_of(terms: Terms) -> Mechanism:
     """Sizes of the mechanism."""
     offset = terms.value("k_offset") * terms.value("r_crank") if terms.has("k_offset") else 0.0
-    bore = terms.value("geometry_bore_mm")
+    # Of an engine that is designed for a power the cycle tells the bore.
+    bore = terms.value("geometry_bore_mm" if terms.has("geometry_bore_mm") else "cyc_D")
     return Mechanism(
         bore, 1000 * terms.value("r_crank"), 1000 * terms.value("L_rod"), 1000 * offset
     )

@@ -34,6 +34,7 @@ _FULL = 0.97  # of a line that words fill on the average
 _LEAST = 0.7  # to which a figure may be reduced to fit the foot of a page
 _SLACK = 4.0  # px kept free on every page: estimates are no measures
 _FOOT = 6.0  # px of the margin below a formula or a figure, which may miss a page
+_HOLE = 0.12  # of a page that may stay blank, so that figures stand in their own section
 _ROWS = 60.0  # px of a table's margin and first rows, which stand with its head
 _NEARLY = 0.07  # of a page: too little for a heading and what must follow it
 _DOUBT = 10.0  # px kept free below what would miss the page by a hair
@@ -97,6 +98,9 @@ def _filled(blocks: Sequence[Block], used: float, room: float) -> tuple[list[str
         if waiting and block.kind not in ("tied", "other"):
             used, placed, waiting = _placed(waiting, used, room)
             out += placed
+        if waiting and block.kind == "heading" and room - used < _HOLE * room:
+            used, placed, waiting = *_all_placed(waiting, used, room), []
+            out += placed
         if block.kind == "float" or (waiting and block.kind == "table"):
             waiting.append(block)
             if not (index + 1 < len(blocks) and blocks[index + 1].kind == "tied"):
@@ -105,12 +109,19 @@ def _filled(blocks: Sequence[Block], used: float, room: float) -> tuple[list[str
             continue
         out.append(block.html)
         used = _after(block, used, room)
-    while waiting:  # the first on the page that comes next, others beside it where they fit
+    used, placed = _all_placed(waiting, used, room)
+    return [*out, *placed], used
+
+
+def _all_placed(waiting: list[Block], used: float, room: float) -> tuple[float, list[str]]:
+    """Each of the waiting blocks on the page that comes next, others beside it where they fit."""
+    out: list[str] = []
+    while waiting:
         out.append(waiting[0].html)
         used = _after(waiting[0], used, room)
         used, placed, waiting = _placed(waiting[1:], used, room)
         out += placed
-    return out, used
+    return used, out
 
 
 def _placed(waiting: list[Block], used: float, room: float) -> tuple[float, list[str], list[Block]]:

@@ -163,6 +163,8 @@ def test_parts_are_true_to_size():
     circles = read(files["-mechanism.dxf"]).modelspace().query("CIRCLE")
     radius = max(circle.dxf.radius for circle in circles)
     assert radius == pytest.approx(1000 * t.value("r_crank"))
+    said = {e.dxf.text for e in read(files["-mechanism.dxf"]).modelspace().query("TEXT")}
+    assert said == {"ØD = 110", "S = 125", "L = 230", "r = 62,5"}
     texts = [e.dxf.text for e in read(files["-throw.dxf"]).modelspace().query("TEXT")]
     for size in ("l1 = 18", "hЛ = 26", "l2 = 25", "l5 = 25", "l6 = 18", "r = 62,5", "Øш.ш 68,25"):
         assert texts.count(size) == 4

@@ -8,8 +8,9 @@ import pytest
 from sheet_samples import terms, terms_of
 
 from reports.drawing.primitives import Words, box_of, overlap
-from reports.inputs.sections.sheet import DIAGRAMS, USUAL
-from reports.sheet.layout import sheet_items
+from reports.inputs.sections.sheet import DIAGRAMS, USUAL, SheetSection
+from reports.sheet.layout import SIZES, cells, sheet_items
+from reports.sheet.stamp import HEIGHT, MARGINS, WIDTH
 from tests.conftest import sample_names
 from tests.layouts import MAKERS, made
 
@@ -39,6 +40,18 @@ def test_nothing_covers_anything(name):
 @pytest.mark.parametrize("name", ["d-240", "yamz-236"])
 def test_every_sheet(name, size, way):
     assert faults(terms(name, f'\n[sheet]\nsize = "{size}"\norientation = "{way}"\n')) == []
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_no_place_lies_under_the_title_block(size):
+    section = SheetSection(size=size, diagrams=("pv",))
+    for width, height in (SIZES[size], SIZES[size][::-1]):
+        block = (width - MARGINS[1] - WIDTH, 0.0, width, MARGINS[3] + HEIGHT)
+        for count in range(1, 14):
+            rooms = cells(width, height, count, section)
+            assert len(rooms) >= count
+            for room in rooms:
+                assert not overlap((room.left, room.low, room.right, room.high), block)
 
 
 def test_everything_at_once():

@@ -133,8 +133,8 @@ def random_bearings(count: int):
     orders = np.arange(0, 7) / 2
     parts = rng.normal(size=(count, len(orders))) + 1j * rng.normal(size=(count, len(orders)))
     waves = np.exp(1j * orders[:, None] * PHI) + np.exp(-1j * orders[:, None] * PHI)
-    size = 10 ** rng.uniform(-2, 2, count)
-    return (parts @ waves) * size[:, None], rng.uniform(0.1, 1.0, count)
+    size = 10 ** rng.uniform(-2, 0.5, count)
+    return (parts @ waves) * size[:, None], rng.uniform(0.2, 1.0, count)
 
 
 def test_two_hundred_random_bearings_close_within_their_clearance() -> None:

@@ -17,6 +17,7 @@ from kshm.mechanics.fatigue import (
     together,
 )
 from kshm.results.case import Case
+from kshm.results.extremes import first_number
 from kshm.results.pin_bearing import oil_hole
 
 _FILLET = 0.06  # of the crankpin's diameter, where the file gives no radius
@@ -62,7 +63,7 @@ def safety_scalars(case: Case, asked: Bearings) -> Scalars:
                 name + key.format(k): float(value) for k, value in enumerate(values, first)
             }
         least[name + "fillet"], least[name + "hole"] = float(fillet.min()), float(hole.min())
-    worst = int(np.argmax(np.ptp(main, axis=1))) + 2
+    worst = int(first_number(np.ptp(raw.running_main[index], axis=-1)))
     found["safe_n_main"] = min(found[f"safe_fillet{worst}"], found[f"safe_hole{worst}"])
     found |= {
         "safe_n_turn_fillet": least["safe_pin_fillet"],

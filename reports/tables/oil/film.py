@@ -10,7 +10,7 @@ from reports.spec.listing import column_list, grid_row, scalar_list
 from reports.spec.parts import Part, Scope, stepped
 
 SHEET, FILM = "Подшипники", "Плёнка {}"
-STEPS = 52
+STEPS = 42  # beyond that the halves differ by less than the rounding of the temperatures
 GIVEN, BUT = "задано", "Бутеншён, 1976 (формулы по таблицам)"
 ISO = "ISO 7902, по памяти"
 _GAPS = {"min": "0.007", "max": "0.014"}

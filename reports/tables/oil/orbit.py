@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import partial
+from functools import lru_cache, partial
 
 from kshm.arrays import Columns, Tables
 from kshm.results.solution import solve
@@ -54,17 +54,10 @@ def values_of(table: str, model: InputFile) -> Columns:
     return solve_tables(model)[table]
 
 
+@lru_cache(maxsize=1)  # the sheets of one workbook ask one after another
 def solve_tables(model: InputFile) -> Tables:
-    """Tables of the solver; kept while the sheets of one workbook ask for them."""
-    key = id(model)
-    kept = _KEPT.get(key)
-    if kept is None or kept[0] is not model:
-        _KEPT.clear()
-        kept = _KEPT[key] = (model, solve(*engine_and_cycle(model)).columns)
-    return kept[1]
-
-
-_KEPT: dict[int, tuple[InputFile, Tables]] = {}
+    """Tables of the solver in units of the tables, a table each bearing among them."""
+    return solve(*engine_and_cycle(model)).columns
 
 
 def _summary(scope: Scope) -> TableSpec:
@@ -158,11 +151,13 @@ def _charts(bearing: int) -> tuple[ChartSpec, ...]:
     return (
         polar(t, sheet, f"Орбита {of} и нагрузка",
               ("x (по вращению)", "y"), f"{t}_box.oil_box",
-              Series(f"{t}.oil_circle_x", f"{t}.oil_circle_y", "круг зазора"),
-              Series(f"{t}.oil_x1", f"{t}.oil_y1", "Δmin"),
+              Series(f"{t}.oil_circle_x", f"{t}.oil_circle_y", "круг зазора",
+                     only="workbook"),
+              Series(f"{t}.oil_x1", f"{t}.oil_y1", "Δmin", only="workbook"),
               Series(f"{t}.oil_x2", f"{t}.oil_y2", "Δmax"),
-              Series(f"{t}.oil_load_x", f"{t}.oil_load_y", "нагрузка"),
-              caption=f"Орбита центра шейки в круге зазора {of} и нагрузка в долях наибольшей"),
+              Series(f"{t}.oil_load_x", f"{t}.oil_load_y", "нагрузка",
+                     only="workbook"),
+              caption=f"Орбита центра шейки в круге зазора {of}, наибольший зазор"),
         over_phi(f"{t}_gap", sheet, f"Плёнка {of} за цикл", "h, мкм",
                  Series("", f"{t}.oil_h1_um", "Δmin"), Series("", f"{t}.oil_h2_um", "Δmax"),
                  levels=("oil_hcr_um",),

@@ -34,7 +34,7 @@ def concentration(shape: float, sensitivity: float) -> float:
 
 
 def safety(swing: Swing, limit: float, factor: float, of_mean: float) -> Array:
-    """n = σ_−1/(kσ_a/(ε ε_п) + ψ|σ_m|) [-], shape of the stresses, Serensen, Kinasoshvili.
+    """N = σ_−1/(kσ_a/(ε ε_п) + ψ|σ_m|) [-], shape of the stresses, Serensen, Kinasoshvili.
 
     Args:
         swing: the stress.
@@ -49,7 +49,7 @@ def safety(swing: Swing, limit: float, factor: float, of_mean: float) -> Array:
 
 
 def together(bending: Array, torsion: Array) -> Array:
-    """n = n_σ n_τ/√(n_σ² + n_τ²) [-], elementwise, Serensen, Kinasoshvili."""
+    """N = n_σ n_τ/√(n_σ² + n_τ²) [-], elementwise, Serensen, Kinasoshvili."""
     joined: Array = 1 / np.sqrt(1 / bending**2 + 1 / torsion**2)
     return joined
 

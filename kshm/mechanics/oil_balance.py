@@ -34,7 +34,7 @@ class BearingArrays:
 
     @property
     def width(self) -> Array:
-        """b of a land [-]."""
+        """B of a land [-]."""
         return self.land / self.diameter
 
     @property

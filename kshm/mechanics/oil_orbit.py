@@ -56,9 +56,9 @@ def velocity(centre: Complex, load: Complex, half_speed: Array, film: Film) -> C
         film: the closed forms at the bearings' widths.
     """
     e = np.abs(centre)
-    unit = np.where(e > _MIDDLE, centre, 1.0)
+    given = np.where(e > _MIDDLE, centre, 1.0 + 0j)
+    unit = given / np.abs(given)
     e = np.maximum(e, _MIDDLE)
-    unit = unit / np.abs(unit)
     seen = load * np.conj(unit)
     along, across = seen.real, seen.imag
     beta = film.attitude(e)
@@ -136,7 +136,11 @@ class _Run:
                 new, slope, error = self._try(*here, step)
                 good = error <= 1
                 then = (np.where(step >= left, end, here[0] + step), new, slope)
-                here = tuple(np.where(good, b, a) for a, b in zip(here, then, strict=True))
+                here = (
+                    np.where(good, then[0], here[0]),
+                    np.where(good, then[1], here[1]),
+                    np.where(good, then[2], here[2]),
+                )
                 points.append(here)
                 factor = np.clip(0.9 / np.cbrt(np.maximum(error, 1e-6)), 0.2, 3.0)
                 # A step that only the end of the cycle cut short says nothing of the next.
@@ -164,7 +168,8 @@ class _Run:
 
         def solved(right: Complex) -> Complex:
             x = (d * right.real - b * right.imag) / whole
-            return x + 1j * ((a * right.imag - c * right.real) / whole)
+            both: Complex = x + 1j * ((a * right.imag - c * right.real) / whole)
+            return both
 
         first = solved(slope + drift)
         middle = self.slope(at + step / 2, centre + step / 2 * first)

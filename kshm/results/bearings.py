@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kshm.arrays import Array, Columns, Results, Scalars, Tables
 from kshm.engine.arrangement import hung, throws
@@ -20,6 +22,7 @@ from kshm.results.case import Case
 from kshm.results.extremes import first_extreme
 from kshm.results.safety import safety_scalars
 
+Number = TypeVar("Number", np.float64, np.complex128)
 CLEARANCES = 2  # the least and the largest
 _RULES = (0.007, 0.014)  # mm per root of the diameter in mm
 _PLACES = 72  # angles of the oil hole that are tried
@@ -122,9 +125,16 @@ class Study:
                 found.append(-area * turned)
         return np.array(found)
 
-    def each(self, values: Array | Complex) -> Array | Complex:
+    def each(self, values: NDArray[Number]) -> NDArray[Number]:
         """Values of the bearings for both clearances."""
-        return np.repeat(values, CLEARANCES, axis=0)
+        twice: NDArray[Number] = np.repeat(values, CLEARANCES, axis=0)
+        return twice
+
+    @property
+    def ahead(self) -> Array:
+        """Shaft's speed over the bearing's in its axes, over ω [-], (cases, angles)."""
+        rates = [np.ones_like(self.swing) if k else 1 + self.swing for k in self.numbers]
+        return self.each(np.array(rates))
 
     @cached_property
     def mean(self) -> Array:
@@ -144,10 +154,9 @@ class Study:
     @cached_property
     def orbits(self) -> Orbits:
         """Orbits of every case over the cycle."""
-        load = self.arrays.load_number(self.each(self.loads).T, self.steady.viscosity).T
-        ahead = self.each(np.array([np.ones_like(self.swing) if k else 1 + self.swing
-                                    for k in self.numbers]))  # fmt: skip
-        return orbits(self.case.raw.phi, load, ahead / 2, self.arrays.width)
+        unit = self.arrays.load_number(np.ones(len(self.mean)), self.steady.viscosity)
+        load = self.each(self.loads) * unit[:, None]
+        return orbits(self.case.raw.phi, load, self.ahead / 2, self.arrays.width)
 
     def steady_scalars(self) -> Scalars:
         """What course works ask for, SI, by the names of the cases."""
@@ -217,9 +226,7 @@ class Study:
         journal = np.mod(self.each(self.turn) - shell, 2 * np.pi)
         load = self.each(self.loads)
         across = np.abs((load * np.conj(centre)).imag) / np.maximum(e, 1e-9)
-        ahead = self.each(np.array([np.ones_like(self.swing) if k else 1 + self.swing
-                                    for k in self.numbers]))  # fmt: skip
-        slip, oil = self.case.engine.omega * np.abs(ahead), self.steady.viscosity
+        slip, oil = self.case.engine.omega * np.abs(self.ahead), self.steady.viscosity
         power = arrays.friction(e.T, across.T, oil, slip.T).T[:, :-1]
         flow = arrays.flow(e.T, oil, self.asked.oil.pressure).T[:, :-1]
         places = 2 * np.pi / _PLACES * np.arange(_PLACES)

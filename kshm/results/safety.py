@@ -59,9 +59,7 @@ def safety_scalars(case: Case, asked: Bearings) -> Scalars:
         else:
             lists |= {"a{}_MPa": swing.amplitude, "m{}_MPa": swing.mean}
         for key, values in lists.items():
-            found |= {
-                name + key.format(k): float(value) for k, value in enumerate(values, first)
-            }
+            found |= {name + key.format(k): float(value) for k, value in enumerate(values, first)}
         least[name + "fillet"], least[name + "hole"] = float(fillet.min()), float(hole.min())
     worst = int(first_number(np.ptp(raw.running_main[index], axis=-1)))
     found["safe_n_main"] = min(found[f"safe_fillet{worst}"], found[f"safe_hole{worst}"])

@@ -39,7 +39,7 @@ def test_the_printed_numbers_are_met_as_the_note_says() -> None:
     rotation = errors(oil_film.rotation_number, ROTATION) / np.array(list(ROTATION.values()))
     assert np.median(rotation) < 0.030
     assert rotation.max() < 0.068
-    turn = np.degrees(errors(lambda e, b: oil_film.attitude(e, b), {e: np.radians(v) for e, v in ATTITUDE.items()}))  # noqa: E501
+    turn = np.degrees(errors(oil_film.attitude, {e: np.radians(v) for e, v in ATTITUDE.items()}))
     assert np.median(turn) < 1.0
     assert turn.max() < 2.4
     squeeze = errors(oil_film.squeeze_number, SQUEEZE) / np.array(list(SQUEEZE.values()))
@@ -81,7 +81,9 @@ def test_a_load_at_half_speed_has_no_wedge() -> None:
 def test_at_rest_the_journal_sinks_in_the_integral_of_so_v() -> None:
     found = run(0.2, half_speed=np.zeros(PHI.shape), cycles=1)
     start, end = np.abs(found.centre[0, [0, -1]])
-    wanted, _ = quad(lambda e: float(oil_film.squeeze_number(np.array(e), np.array(0.5))), start, end)
+    wanted, _ = quad(
+        lambda e: float(oil_film.squeeze_number(np.array(e), np.array(0.5))), start, end
+    )
     assert 0.2 * (PHI[-1] - PHI[0]) == pytest.approx(wanted, rel=2e-3)
     assert np.angle(found.centre[0]) == pytest.approx(0, abs=1e-9)
 
@@ -167,6 +169,8 @@ def test_the_steady_eccentricity_is_the_inverse() -> None:
 def test_a_centred_journal_rubs_as_petroff_says() -> None:
     """2πηωRL·R/c on the journal: torque over R."""
     d, width, eta, omega, psi = 0.06, 0.03, 0.01, 200.0, 0.001
-    force = oil_film.friction_force(np.array(0.0), np.array(width * d * eta * omega), np.array(0.0), np.array(psi))  # noqa: E501
+    force = oil_film.friction_force(
+        np.array(0.0), np.array(width * d * eta * omega), np.array(0.0), np.array(psi)
+    )
     petroff = 2 * np.pi * eta * omega * (d / 2) * width * (d / 2) / (psi * d / 2)
     assert float(force) == pytest.approx(petroff)

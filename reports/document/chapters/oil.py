@@ -22,8 +22,8 @@ _FILM = (
 )
 _NUMBERS = (
     r"So_D = \dfrac{F_D\,\psi^2}{B\,D\,\eta\,|\bar\omega|}, \qquad "
-    r"So_V = \dfrac{F_V\,\psi^2}{B\,D\,\eta\,\dot\varepsilon}, \qquad "
-    r"\bar\omega = \omega_{\mathrm{ш}} + \omega_{\mathrm{в}} - 2\dot\delta"
+    r"So_V = \dfrac{F_V\,\psi^2}{B\,D\,\eta\,\varepsilon'}, \qquad "
+    r"\bar\omega = \omega_{\mathrm{ш}} + \omega_{\mathrm{в}} - 2\delta'"
 )
 _SAFETY = (
     r"n_{\sigma} = \dfrac{\sigma_{-1}}{k_{\sigma}\sigma_a/\varepsilon + \psi_{\sigma}\sigma_m}, "
@@ -109,9 +109,7 @@ def _steady(terms: Terms, cases: list[Case]) -> TableBlock:
         "oil_k{}_MPa", "oil_chi{}", "oil_temp{}_C", "oil_visc{}_mPas", "oil_hmin{}_um", "oil_K{}",
         "oil_friction{}_W", "oil_through{}_l_min",
     )  # fmt: skip
-    rows = [
-        [case.label, *(terms.num(key.format(case.number)) for key in keys)] for case in cases
-    ]
+    rows = [[case.label, *(terms.num(key.format(case.number)) for key in keys)] for case in cases]
     return table_block(heads, rows)
 
 

@@ -65,7 +65,7 @@ def _widths(
         land = (given or length / rods) - groove
         share = land / (2 if groove else 1) / d
         hole = values.get("bearings", "hole_mm") or 0
-        if land <= hole and not groove or not LEAST_WIDTH <= share <= MOST_WIDTH:
+        if (land <= hole and not groove) or not LEAST_WIDTH <= share <= MOST_WIDTH:
             what = (
                 f"ширина {_WORDS[part]} подшипника к диаметру B/d = {number_text(round(share, 3))}:"
                 " формулы масляной плёнки для неё не проверены"

@@ -113,18 +113,14 @@ class BearingsSection(Strictly):
     heat_j_kg_k: Annotated[
         float, number("Удельная теплоёмкость масла", "c_м", J_KG_K, 1000, 3000)
     ] = 2100.0
-    journal_roughness_um: Annotated[
-        float, number("Высота неровностей шейки", "h_1", UM, 0, 50)
-    ] = 0.8
+    journal_roughness_um: Annotated[float, number("Высота неровностей шейки", "h_1", UM, 0, 50)] = (
+        0.8
+    )
     shell_roughness_um: Annotated[
         float, number("Высота неровностей вкладыша", "h_2", UM, 0, 50)
     ] = 1.2
-    form_um: Annotated[
-        float, number("Изгиб вала и отклонение формы", "h_3", UM, 0, 100)
-    ] = 1.0
-    reserve_allowed: Annotated[
-        float, number("Допускаемый запас плёнки", "[K]", NONE, 1, 20)
-    ] = 1.5
+    form_um: Annotated[float, number("Изгиб вала и отклонение формы", "h_3", UM, 0, 100)] = 1.0
+    reserve_allowed: Annotated[float, number("Допускаемый запас плёнки", "[K]", NONE, 1, 20)] = 1.5
     material: Annotated[
         Literal["40h2n2ma", "40h", "45", "vch60", "sch35"],
         choice("Материал вала", MATERIAL_NAMES, structural=False),
@@ -143,9 +139,9 @@ class BearingsSection(Strictly):
         float, number("Чувствительность к асимметрии при кручении", "ψ_τ", NONE, 0, 1)
     ] = 0.08
     fillet_mm: Annotated[float | None, number("Радиус галтели", "ρ_г", MM, 0.2, 200)] = None
-    pin_bore_mm: Annotated[
-        float, number("Диаметр отверстия шатунных шеек", "δ_ш", MM, 0, 2000)
-    ] = 0.0
+    pin_bore_mm: Annotated[float, number("Диаметр отверстия шатунных шеек", "δ_ш", MM, 0, 2000)] = (
+        0.0
+    )
     main_bore_mm: Annotated[
         float, number("Диаметр отверстия коренных шеек", "δ_к", MM, 0, 2000)
     ] = 0.0
@@ -161,13 +157,9 @@ class BearingsSection(Strictly):
     hole_torsion: Annotated[
         float, number("Концентрация у отверстия при кручении", "α_τо", NONE, 1, 10)
     ] = 1.8
-    sensitivity: Annotated[
-        float, number("Чувствительность к концентрации", "q", NONE, 0, 1)
-    ] = 0.7
+    sensitivity: Annotated[float, number("Чувствительность к концентрации", "q", NONE, 0, 1)] = 0.7
     size_factor: Annotated[float, number("Масштабный коэффициент", "ε_м", NONE, 0.3, 1.2)] = 0.75
-    surface_factor: Annotated[
-        float, number("Коэффициент поверхности", "ε_п", NONE, 0.3, 2.5)
-    ] = 1.0
-    safety_allowed: Annotated[
-        float, number("Допускаемый запас прочности", "[n]", NONE, 1, 20)
-    ] = 2.0
+    surface_factor: Annotated[float, number("Коэффициент поверхности", "ε_п", NONE, 0.3, 2.5)] = 1.0
+    safety_allowed: Annotated[float, number("Допускаемый запас прочности", "[n]", NONE, 1, 20)] = (
+        2.0
+    )

@@ -104,9 +104,7 @@ def _cases(scope: Scope, section: BearingsSection, cases: list[Case]) -> Grid:
         lands.append(f"2 if bearings_{part}_groove_mm > 0 else 1")
         key = f"{part}_clearance_{end}_mm"
         given = getattr(section, key) is not None
-        gaps.append(
-            f"bearings_{key}" if given else f"{_GAPS[end]}*sqrt(oil_d{case.number}_mm)"
-        )
+        gaps.append(f"bearings_{key}" if given else f"{_GAPS[end]}*sqrt(oil_d{case.number}_mm)")
         sources.append(GIVEN if given else _RULES[end])
         name = f"Rmain{k}" if k else "B"
         forces.append(f"of_MPa({name}_mean)*F_piston")
@@ -245,7 +243,7 @@ def _halving(case: Case, section: BearingsSection) -> TableSpec:
         f"oil_flow_l_min = 60000*(oil_side{n}*{x} + oil_feed{n}*1000/oil_eta_mPas"
         f"*((1 + 1.5*{x}**2) if oil_lands{n} == 2 else (1 + {x})**3)) | {ISO}",
         "oil_balance_C = bearings_supply_c + 30000*oil_power_W"
-        "/(bearings_density_kg_m3*bearings_heat_j_kg_k*oil_flow_l_min) | тепловой баланс: t0 + ΔT/2",
+        "/(bearings_density_kg_m3*bearings_heat_j_kg_k*oil_flow_l_min) | баланс: t0 + ΔT/2",
         f"oil_more = {more}",
     ]
     name = f"коренной подшипник {case.bearing}" if case.bearing else "шатунный подшипник"

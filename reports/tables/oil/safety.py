@@ -19,7 +19,11 @@ def safety(scope: Scope) -> Part:
         return Part()
     throws = scope.shape.throws
     blocks: list[Block] = [
-        _list(scope, section), _journals(throws), _pins(throws), _material(section), _materials(),
+        _list(scope, section),
+        _journals(throws),
+        _pins(throws),
+        _material(section),
+        _materials(),
     ]
     return Part(tuple(blocks))
 

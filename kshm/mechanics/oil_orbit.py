@@ -56,8 +56,8 @@ def velocity(centre: Complex, load: Complex, half_speed: Array, film: Film) -> C
         film: the closed forms at the bearings' widths.
     """
     e = np.abs(centre)
-    given = np.where(e > _MIDDLE, centre, 1.0 + 0j)
-    unit = given / np.abs(given)
+    given: Complex = np.asarray(np.where(e > _MIDDLE, centre, 1.0), dtype=complex)
+    unit: Complex = given / np.abs(given)
     e = np.maximum(e, _MIDDLE)
     seen = load * np.conj(unit)
     along, across = seen.real, seen.imag
@@ -66,8 +66,8 @@ def velocity(centre: Complex, load: Complex, half_speed: Array, film: Film) -> C
     net = along - np.abs(across) * np.cos(beta) / sine
     out = net / film.squeeze(np.copysign(e, net))
     around = half_speed * e + across * e / (2 * film.rotation(e) * sine)
-    found: Complex = unit * (out + 1j * around)
-    return found
+    step: Complex = out + 1j * around
+    return unit * step
 
 
 def orbits(

@@ -14,9 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from kshm.arrays import Array
-
-# Beyond them the closed forms have no table behind them.
-LEAST_WIDTH, MOST_WIDTH = 0.1, 1.0
+from kshm.engine.bearings import LEAST_WIDTH, MOST_WIDTH
 
 
 def check_widths(width: Array) -> None:

@@ -88,7 +88,7 @@ def test_what_contradicts_itself_is_refused(changes: dict[str, Any], said: str) 
         tractor(30, **changes)
 
 
-def page(**bearings: Any) -> str:  # noqa: ANN401
+def page(**bearings: Any) -> str:
     data = tractor(30, **bearings)
     report = data.report.model_copy(update={"chapters": ("oil",)})
     model = build_model(data.model_copy(update={"report": report}))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from kshm.mechanics.oil_film import LEAST_WIDTH, MOST_WIDTH
+from kshm.engine.bearings import LEAST_WIDTH, MOST_WIDTH
 from reports.inputs.findings import Finding, Values
 from reports.inputs.sections.bearings import OILS
 from reports.inputs.units import number_text

@@ -32,6 +32,8 @@ def pytest_configure(config: pytest.Config) -> None:
 # a quick one stays, of those over all samples these samples.
 QUICK_SAMPLES = {"gots-diesel", "ecoboost-10"}
 SLOW = (
+    "tests/bearings/test_bearing_class.py",
+    "tests/bearings/test_oil_film.py::test_two_hundred",
     "tests/document/test_document_tables.py::test_layout",
     "tests/document/test_report_",
     "tests/e2e/test_dask.py",

@@ -33,13 +33,13 @@ supply_c = 85.0
 """
 RUBRIC = """
 [work]
-fill = ["oil_cases", "safe_main", "safe_pins", "safety", "oil_orbits"]
+fill = [FILMS "oil_results", "safe_main", "safe_pins", "safety", "oil_orbits"]
 
 [points]
-"oil_cases" = 2
+"oil_results" = 2
 "safe_main" = 2
 "safety" = 2
-"""
+""".replace("FILMS", "".join(f'"oil_film_{n}", ' for n in range(1, 11)))
 
 
 @lru_cache(maxsize=1)
@@ -71,8 +71,8 @@ def wrong(result: dict) -> dict[str, str]:
 
 def test_values_of_the_program_are_never_graded() -> None:
     assignment: Assignment = issued()[1]
-    assert not [item for item in assignment.items if item.block == "oil_orbits"]
-    assert [item for item in assignment.items if item.block == "oil_cases"]
+    assert not [item for item in assignment.items if item.block == "oil_orbits" and not item.helper]
+    assert [item for item in assignment.items if item.block == "oil_results"]
 
 
 def test_a_right_book_is_right_throughout() -> None:

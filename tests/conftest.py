@@ -38,6 +38,8 @@ SLOW = (
     "tests/comparison/test_compare.py::test_the_workbook_recalculated",
     "tests/cycle/test_cycle_properties.py",
     "tests/cycle/test_cycle_sheets.py::test_a_changed_cell_recalculates",
+    "tests/bearings/test_bearing_class.py",
+    "tests/bearings/test_oil_film.py::test_two_hundred",
     "tests/document/test_document_tables.py::test_layout",
     "tests/document/test_page_blocks.py::test_layout",
     "tests/document/test_report_",

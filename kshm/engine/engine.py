@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from kshm.engine.arrangement import Arrangement, ArticulatedRod, hung, in_row
+from kshm.engine.bearings import Bearings
 from kshm.engine.checks import POSITIVE, check_numbers, refuse
 from kshm.engine.crankshaft import Crankshaft
 from kshm.engine.gas import Gas, TabulatedGas
@@ -143,6 +144,7 @@ class Engine:
     arrangement: Arrangement = ()
     articulated: tuple[ArticulatedRod, ...] = ()
     torsion: Torsion | None = None  # torsional vibration, if it is asked for
+    bearings: Bearings | None = None  # oil film and strength, if they are asked for
 
     def __post_init__(self) -> None:
         """Give an engine without arrangement its cylinders in line; refuse what cannot be."""

@@ -13,6 +13,7 @@ from functools import lru_cache
 
 from kshm.nomenclature import (
     balance,
+    bearings,
     chapters,
     cycle,
     inertia,
@@ -24,7 +25,8 @@ from kshm.nomenclature import (
 )
 from kshm.nomenclature.digits import Digits
 
-_SUBJECTS = (textbook, series, balance, inertia, torque_orders, cycle, chapters, layouts, torsion)
+_SUBJECTS = (textbook, series, balance, inertia, torque_orders, cycle, chapters, layouts, torsion,
+            bearings)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)

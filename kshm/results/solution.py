@@ -19,6 +19,7 @@ from kshm.mechanics.balance import is_balanced_by_orders
 from kshm.nomenclature.quantity import quantity
 from kshm.results import forces, gas, motion, regimes
 from kshm.results.balance import balance_results
+from kshm.results.bearings import bearing_results
 from kshm.results.case import Case
 from kshm.results.continuous_beam import continuous_results
 from kshm.results.cycle import cycle_scalars, cycle_tables
@@ -42,7 +43,7 @@ Subject = Callable[[Case], Results]
 # and those whose cylinders move alike: no articulated rods.
 ALWAYS: tuple[Subject, ...] = (
     reference_results, rod_bearing, pin_bending, continuous_results, two_term_errors,
-    torsion_results,
+    torsion_results, bearing_results,
 )  # fmt: skip
 BY_ORDERS: tuple[Subject, ...] = (segal_results, neiman_results, balance_results)
 SAME_RODS: tuple[Subject, ...] = (inertia_results, torque_order_results)

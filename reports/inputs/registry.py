@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from reports.inputs.meta import Strictly, hints, submodel
 from reports.inputs.sections.articulated import ArticulatedSection
 from reports.inputs.sections.balance import BalanceSection
+from reports.inputs.sections.bearings import BearingsSection
 from reports.inputs.sections.checks import ChecksSection
 from reports.inputs.sections.crankshaft import CrankshaftSection
 from reports.inputs.sections.cycle import CycleSection
@@ -166,6 +167,17 @@ _ALL = (
             "Раздел [torsion] добавляет крутильные колебания вала. Все ключи необязательны: чего",
             "нет, то оценено по остальным данным и названо оценкой. Готовую схему из 2–20 масс",
             "задают записи [[torsion.masses]], пример — образец mwm-6.",
+        ),
+    ),
+    Section(
+        "bearings",
+        "Подшипники и прочность шеек",
+        BearingsSection,
+        optional=True,
+        absent=True,
+        words=(
+            "Раздел [bearings] добавляет масляную плёнку подшипников и запасы прочности шеек. Все",
+            "ключи необязательны: чего нет, то принято по правилу, названному в книге.",
         ),
     ),
     Section(

@@ -60,6 +60,11 @@ KG_M2 = Unit("kg_m2", "кг·м²")
 NM_RAD = Unit("nm_rad", "Н·м/рад")
 NMS_RAD = Unit("nms_rad", "Н·м·с/рад")
 KG_PER_M2 = Unit("kg_per_m2", "кг/м²")
+UM = Unit("um", "мкм", over=1e6)
+CELSIUS = Unit("c", "°C")
+MPA_S = Unit("mpa_s", "мПа·с", over=1000.0)
+KG_M3 = Unit("kg_m3", "кг/м³")
+J_KG_K = Unit("j_kg_k", "Дж/(кг·К)")
 MPA_S_M = Unit("mpa_s_m", "МПа·с/м", times=1e6)
 
 

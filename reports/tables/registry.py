@@ -33,6 +33,9 @@ from reports.tables.motion.reference import reference
 from reports.tables.motion.rod_masses import mass_stand_ins, masses
 from reports.tables.motion.segal import segal
 from reports.tables.motion.two_term import two_term
+from reports.tables.oil.film import film
+from reports.tables.oil.orbit import orbit
+from reports.tables.oil.safety import safety
 from reports.tables.overview.left_out import left_out_note
 from reports.tables.overview.scheme import scheme
 from reports.tables.overview.summary import summary
@@ -52,6 +55,7 @@ CHAIN: tuple[PartOf, ...] = (
 AFTER: tuple[PartOf, ...] = (
     balance, inertia, torque_orders, segal, neiman, reference, bearings, continuous,
     two_term, train, free, resonance,
+    film, orbit, safety,
 )  # fmt: skip
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
-from reports.validation import companions, companions_text, gots, gots_text, torsion
+from reports.validation import bearings, companions, companions_text, gots, gots_text, torsion
 from reports.validation.checks import Lookup, Table, Tolerance
 from reports.validation.gots_text import Number, by_key
 from reports.validation.printed import force_cells, outputs_of, text_of, window_cells
@@ -21,6 +21,10 @@ SOURCES: dict[str, str] = {
     "четырёхцилиндровых дизелей",
     "opentorsion": "Aalto ARotor. openTorsion 0.3.2: тесты и пример ICE_example.py по статье "
     "Mendes A. S., Meirelles P. S., Zampieri D. E., 2008, doi 10.1243/14644193JMBD126",
+    "butenschon": "Butenschön H. J. Das hydrodynamische, zylindrische Gleitlager endlicher Breite "
+    "unter instationärer Belastung. Karlsruhe, 1976: таблицы (по пересказу в записке)",
+    "course": "Курсовая работа по тракторному дизелю: шатунный подшипник 68 × 38 мм "
+    "(по пересказу в записке)",
 }
 SHORT: dict[str, str] = {
     "gots": "Гоц",
@@ -29,6 +33,8 @@ SHORT: dict[str, str] = {
     "ilchenko": "Ильченко и др.",
     "chudakov": "Чудаков, Жарнов",
     "opentorsion": "openTorsion",
+    "butenschon": "Бутеншён",
+    "course": "Курсовая работа",
 }
 
 _DINN = Tolerance(1.5, why="1,5 единицы последнего знака: программа считала с π = 3,14 или "
@@ -152,6 +158,12 @@ TABLES: tuple[Table, ...] = (
           title="частоты крутильных колебаний дизеля MWM",
           notes=("Пример частот не печатает: это числа, которые даёт сама программа для его "
                  "данных, с четырьмя знаками.",)),
+    _text("oil_film", "butenschon", "таблицы", bearings.FILM,
+          title="силы масляной плёнки при B/D = 1/2",
+          notes=("Формулы приближают таблицы: допуск — наибольшее отличие формул от всех таблиц, "
+                 "6,8 % (SoD), 2,4° (β), 5,5 % (SoV).",)),
+    _text("oil_pressure", "course", "текст", bearings.PRESSURE,
+          title="среднее давление на подшипник"),
 )  # fmt: skip
 
 

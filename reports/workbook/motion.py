@@ -31,6 +31,7 @@ SHEET = "Механизм"
 ANGLE, CYLINDER = "view_phi_deg", "view_cylinder"
 _FORCES = {"P": "Ps_MPa", "N": "N_MPa", "S": "S_MPa", "T": "T_MPa", "K": "K_MPa"}
 _TABLES = ("P4_1", "P4_2", "gas", "crankpin")
+_BOX = "crankpin_box.box"  # limits of the pin's diagram
 _POINTS = 54  # row of the first point: below the charts
 _LEFT = 282  # px of the columns beside the charts
 _START = 30.0  # deg
@@ -70,7 +71,8 @@ def can_move(model: Model, writer: Writer) -> bool:
             name in columns and all(np.isfinite(c).all() for c in columns[name].values())
             for name in _TABLES
         )
-        and {"r_crank", "L_rod", "lam", "F_piston"} <= writer.values.scalars.keys()
+        and {"r_crank", "L_rod", "lam", "F_piston", *writer.layout.keys_of_run(_BOX)}
+        <= writer.values.scalars.keys()
     )
 
 
@@ -302,9 +304,8 @@ def _charts(
             writer.caches.ranges[layout.range_of(at)] = values.columns[table][key].tolist()
         return Drawn(name, layout.range_of(x), layout.range_of(y))
 
-    box = "crankpin_box.box"
-    limits = layout.range_of(box)
-    writer.caches.ranges[limits] = [float(values.scalars[k]) for k in layout.keys_of_run(box)]
+    limits = layout.range_of(_BOX)
+    writer.caches.ranges[limits] = [float(values.scalars[k]) for k in layout.keys_of_run(_BOX)]
     of = {name: line for name, (line, _, _) in drawn.items()}
     frame = Drawn("рамка", of["рамка"].x, of["рамка"].y, hidden=True)
     charts = (

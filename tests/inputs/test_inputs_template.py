@@ -20,6 +20,7 @@ def test_samples():
         "cycle-turbo-diesel",
         "cycle-turbo-petrol",
         "d-240",
+        "d-240-bearings",
         "d-260",
         "ecoboost-10",
         "gots-appendix1",

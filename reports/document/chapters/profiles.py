@@ -6,7 +6,7 @@ from reports.inputs.sections.report import Report
 
 _ALWAYS = {"notation", "introduction", "inputs", "conclusion", "sources"}
 _SHORT = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals"}
-_COURSE = _SHORT | {"running", "torsion", "regimes", "checks", "appendices"}
+_COURSE = _SHORT | {"running", "torsion", "oil", "regimes", "checks", "appendices"}
 _FULL = _COURSE | {"bearings", "reference", "companions"}
 _PROFILES = {"short": _SHORT, "course": _COURSE, "full": _FULL}
 

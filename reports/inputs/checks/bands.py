@@ -158,6 +158,9 @@ BANDS: tuple[Band, ...] = (
     Band("torsion.speed_max_rpm", "n", "n_max/n", 0.5, 2.5),
     Band("torsion.web_width_mm", "D", "b/D", 0.4, 3),
     Band("torsion.web_thickness_mm", "D", "h/D", 0.06, 0.59),
+    Band("bearings.supply_mpa", "", "давление масла", 0.12, 0.95, unit="МПа"),
+    Band("bearings.hole_mm", "D", "d_м/D", 0.015, 0.14),
+    Band("bearings.supply_c", "", "температура масла", 40, 120, unit="°C"),
     Band("torsion.peaks.pressure_mpa", "", "наибольшее давление", 2.6, 25, unit="МПа"),
 )
 

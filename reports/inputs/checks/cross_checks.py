@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from reports.inputs.checks.accepted import check_accepted
+from reports.inputs.checks.bearings import check_bearings
 from reports.inputs.checks.cycle import check_cycle
 from reports.inputs.checks.gas import check_gas
 from reports.inputs.checks.layout import check_layout
@@ -32,6 +33,7 @@ def check(values: Values) -> Iterator[Finding]:
     yield from check_gas(values)
     yield from check_cycle(values)
     yield from check_torsion(values)
+    yield from check_bearings(values)
     yield from check_reference(values)
     yield from check_accepted(values)
 

@@ -14,6 +14,7 @@ from pydantic import Field
 from reports.inputs.meta import Strictly, choice, number, text
 from reports.inputs.sections.articulated import ArticulatedSection
 from reports.inputs.sections.balance import BalanceSection
+from reports.inputs.sections.bearings import BearingsSection
 from reports.inputs.sections.checks import ChecksSection
 from reports.inputs.sections.crankshaft import CrankshaftSection
 from reports.inputs.sections.cycle import CycleSection
@@ -164,6 +165,7 @@ class InputFile(Strictly):
     crankshaft: CrankshaftSection
     balance: BalanceSection = Field(default_factory=BalanceSection)
     torsion: TorsionSection | None = None
+    bearings: BearingsSection | None = None
     reference: ReferenceSection | None = None
     sheet: SheetSection | None = None
     checks: ChecksSection | None = None

@@ -27,6 +27,7 @@ CHAPTERS = {
     "bearings": "подшипники и изгиб вала",
     "running": "набегающие моменты",
     "torsion": "крутильные колебания",
+    "oil": "масляная плёнка и прочность шеек",
     "regimes": "сравнение режимов",
     "reference": "точность формул и справочные зависимости",
     "companions": "уравновешенность, ход, гармоники",
@@ -36,7 +37,7 @@ CHAPTERS = {
 Detail = Literal["course", "full", "short"]
 ChapterName = Literal[
     "cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "bearings", "running",
-    "torsion", "regimes", "reference", "companions", "checks", "appendices",
+    "torsion", "oil", "regimes", "reference", "companions", "checks", "appendices",
 ]  # fmt: skip
 FORMATS = {
     "xlsx": "книга Excel",

@@ -20,6 +20,7 @@ from reports.inputs.sections.gas import (
     TableGasSection,
 )
 from reports.inputs.sections.input_file import GeometrySection, InputFile, RegimeSection
+from reports.inputs.to_si.bearings import to_bearings
 from reports.inputs.to_si.cycle import cycle_run
 from reports.inputs.to_si.gas import rounded_gas
 from reports.inputs.to_si.geometry import crank_radius_mm, rod_length_mm
@@ -59,6 +60,7 @@ def _engine(model: InputFile, run: CycleRun | None) -> Engine:
         arrangement=places,
         articulated=_articulated(model.articulated, len(hung(places))),
         torsion=to_torsion(model.torsion),
+        bearings=to_bearings(model.bearings),
         firing_offsets=tuple(DEG.to_si(value) for value in shaft.firing_offsets_deg),
         strokes=model.engine.strokes,
         method=model.calculation.method,

@@ -1,0 +1,188 @@
+"""Film of a journal bearing of finite width: carrying numbers, friction, flow.
+
+So_D = F ψ²/(B D η |ω̄|) of the rotation and So_V = F ψ²/(B D η ε̇) of the squeeze, with the
+closed forms fitted to Butenschön's tables (H. J. Butenschön, Karlsruhe 1976) as an open
+multibody program states them.  ψ is the diametral clearance over the diameter, b the width
+over the diameter, ω̄ = ω_J + ω_B − 2δ̇.  The pressure is cut off where it would be negative;
+a film that conserves its mass there is thinner.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from kshm.arrays import Array
+from kshm.engine.bearings import LEAST_WIDTH, MOST_WIDTH
+
+
+def check_widths(width: Array) -> None:
+    """Refuse widths over the diameter b [-] for which the closed forms do not hold, any shape.
+
+    Raises:
+        ValueError: b is outside 0.1…1.
+    """
+    if not np.all((width >= LEAST_WIDTH) & (width <= MOST_WIDTH)):
+        msg = f"the width over the diameter must be {LEAST_WIDTH:g} to {MOST_WIDTH:g}"
+        raise ValueError(msg)
+
+
+def _polynomial(b: Array, *coefficients: float) -> Array:
+    value = np.zeros_like(b)
+    for coefficient in reversed(coefficients):
+        value = value * b + coefficient
+    return value
+
+
+@dataclass(frozen=True, slots=True)
+class Film:
+    """The closed forms for widths b = B/D: what depends on b alone, found once, a_1 … a_9."""
+
+    scale: Array  # −½b²a1
+    a2: Array
+    turn: tuple[Array, ...]  # a3 … a7
+    squeeze_scale: Array  # 4 b² a8
+    a9: Array
+
+    @classmethod
+    def of(cls, width: Array) -> Film:
+        """Film of bearings of the widths b [-], any shape."""
+        b = np.asarray(width, dtype=float)
+        return cls(
+            -(b**2) / 2 * _polynomial(b, 1.1642, -1.9456, 7.1161, -10.1073, 5.0141),
+            _polynomial(b, -1.000026, -0.023634, -0.4215, -0.038817, -0.090551),
+            (
+                1.152624 - 0.104565 * b, -2.5905 + 0.798745 * b, 8.73393 - 2.3291 * b,
+                -13.3414 + 3.424337 * b, 6.6294 - 1.591732 * b,
+            ),
+            4 * b**2 * _polynomial(b, 0.70038, 3.2415, -12.2486, 18.895, -9.3561),
+            _polynomial(b, -0.999935, 0.0157434, -0.74224, 0.42278, -0.368928),
+        )  # fmt: skip
+
+    def rotation(self, eccentricity: Array) -> Array:
+        """So_D [-] at the relative eccentricity ε [-], elementwise, Butenschön's tables fitted.
+
+        Median error 2.4 % of the printed tables, largest 6.8 %.
+        """
+        e = eccentricity
+        square = e * e
+        rest = 1 - square
+        root = np.sqrt(np.pi**2 * rest + 16 * square)
+        number: Array = self.scale * e * root * (1 - e) / (rest * rest * (self.a2 + e))
+        return number
+
+    def attitude(self, eccentricity: Array) -> Array:
+        """Angle β from the line of centres to the force [rad], elementwise, Butenschön fitted."""
+        e = eccentricity
+        a3, a4, a5, a6, a7 = self.turn
+        factor = a3 + e * (a4 + e * (a5 + e * (a6 + e * a7)))
+        angle: Array = np.arctan2(np.pi * np.sqrt(1 - e * e), 2 * e) * factor
+        return angle
+
+    def squeeze(self, eccentricity: Array) -> Array:
+        """So_V [-] at ε [-] signed as ε̇ is, elementwise, Butenschön's tables fitted.
+
+        Median error 1.7 % of the printed tables, largest 5.5 %.
+        """
+        e = eccentricity
+        square = e * e
+        rest = 1 - square
+        root = np.sqrt(rest)
+        arc = (np.pi - np.arccos(e)) * (0.5 + square) + 1.5 * e * root
+        number: Array = self.squeeze_scale * arc * (1 - e) / (rest * rest * root * (-self.a9 - e))
+        return number
+
+
+def rotation_number(eccentricity: Array, width: Array) -> Array:
+    """So_D [-] at ε and b [-], elementwise; see ``Film.rotation``, Butenschön."""
+    return Film.of(width).rotation(eccentricity)
+
+
+def attitude(eccentricity: Array, width: Array) -> Array:
+    """β [rad] at ε and b [-], elementwise; see ``Film.attitude``, Butenschön."""
+    return Film.of(width).attitude(eccentricity)
+
+
+def squeeze_number(eccentricity: Array, width: Array) -> Array:
+    """So_V [-] at signed ε and b [-], elementwise; see ``Film.squeeze``, Butenschön."""
+    return Film.of(width).squeeze(eccentricity)
+
+
+def steady_eccentricity(load_number: Array, width: Array) -> Array:
+    """ε [-] at which So_D carries a steady load of that number, elementwise, by bisection."""
+    film = Film.of(width)
+    low = np.zeros(np.broadcast(load_number, width).shape)
+    high = np.ones_like(low)
+    for _ in range(52):
+        middle = (low + high) / 2
+        below = film.rotation(middle) < load_number
+        low, high = np.where(below, middle, low), np.where(below, high, middle)
+    return low
+
+
+def friction_force(
+    eccentricity: Array, shear: Array, across: Array, clearance: Array
+) -> Array:  # fmt: skip
+    """Friction force on the journal [N], elementwise, of μ = ψ(…) by Butenschön.
+
+    Args:
+        eccentricity: ε [-].
+        shear: B D η |ω_J − ω_B| [N].
+        across: part of the load across the line of centres |F sin(γ − δ)| = F_D sin β [N].
+        clearance: ψ [-].
+    """
+    drag: Array = np.pi * shear / (clearance * np.sqrt(1 - eccentricity**2))
+    return drag + clearance * eccentricity / 2 * across
+
+
+def side_flow(
+    eccentricity: Array, diameter: Array, width: Array, clearance: Array, omega: Array
+) -> Array:
+    """Oil that the rotation presses out at both ends [m³/s], elementwise, ISO 7902, from memory.
+
+    D³ψω̄ ¼(b − 0.223b³)ε with the diameter [m], b and ψ [-], |ω̄| [rad/s].
+    """
+    flow: Array = diameter**3 * clearance * omega * (width - 0.223 * width**3) * eccentricity / 4
+    return flow
+
+
+def groove_flow(
+    eccentricity: Array, diameter: Array, land: Array, clearance: Array, push: Array
+) -> Array:
+    """Oil that the supply presses through both lands of a groove [m³/s], elementwise, Poiseuille.
+
+    π D⁴ψ³(1 + 1.5ε²)/(48 l) · p/η with the land's width l [m] and ``push`` p/η [1/s].
+    """
+    flow: Array = (
+        np.pi * diameter**4 * clearance**3 * (1 + 1.5 * eccentricity**2) / (48 * land) * push
+    )
+    return flow
+
+
+def hole_flow(
+    eccentricity: Array, diameter: Array, hole: Array, clearance: Array, push: Array
+) -> Array:
+    """Oil that the supply presses through a hole opposite the load [m³/s], ISO 7902, from memory.
+
+    D³ψ³ p/η · π/48 (1 + ε)³/(ln(B/d) q); ``hole`` is d/B [-], ``push`` p/η [1/s]; elementwise.
+    """
+    shape = _polynomial(hole, 1.204, 0.368, -1.046, 1.942)
+    flow: Array = (
+        diameter**3 * clearance**3 * push * np.pi / 48
+        * (1 + eccentricity) ** 3 / (-np.log(hole) * shape)
+    )  # fmt: skip
+    return flow
+
+
+def viscosity(temperature: Array, at_40: Array, at_100: Array) -> Array:
+    """η [Pa·s] at a temperature [°C], elementwise, Vogel's law with 95 °C through two points."""
+    slope = np.log(at_40 / at_100) / (1 / 135 - 1 / 195)
+    value: Array = at_100 * np.exp(slope * (1 / (temperature + 95) - 1 / 195))
+    return value
+
+
+def gap(eccentricity: Array, clearance: Array) -> Array:
+    """Least thickness of the film Δ/2·(1 − ε) [m] under a diametral clearance [m], elementwise."""
+    least: Array = clearance / 2 * (1 - eccentricity)
+    return least

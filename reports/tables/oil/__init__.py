@@ -1,0 +1,1 @@
+"""Oil film of the bearings and safety of the journals."""

@@ -1,0 +1,67 @@
+"""The sheets of the oil film and of the safety against the solver: two independent statements."""
+
+from __future__ import annotations
+
+import pytest
+
+from kshm import solve
+from reports.inputs.to_si.engine import engine_and_cycle
+from reports.spec.blocks import TableSpec
+from reports.spec.evaluation import Evaluation
+from reports.tables.registry import build_model
+from tests.bearings.files import laid_out, tractor
+from tests.layouts import MAKERS
+from tests.tables.test_two_statements import assert_agree, results_of
+
+GIVEN = {
+    "pin_clearance_min_mm": 0.05, "pin_clearance_max_mm": 0.12, "main_clearance_min_mm": 0.06,
+    "main_clearance_max_mm": 0.15, "pin_width_mm": 30.0, "main_width_mm": 36.0,
+    "pin_groove_mm": 3.0, "main_groove_mm": 4.0, "hole_mm": 4.0, "viscosity_40_mpa_s": 140.0,
+    "viscosity_100_mpa_s": 13.0, "oil_temperature_c": 105.0, "supply_c": 85.0, "supply_mpa": 0.4,
+    "material": "40h", "tensile_mpa": 900.0, "bending_limit_mpa": 400.0,
+    "torsion_limit_mpa": 220.0, "fillet_mm": 4.0, "pin_bore_mm": 20.0, "main_bore_mm": 25.0,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("maker", MAKERS)
+def test_rules_of_every_layout(maker: str) -> None:
+    assert_agree(laid_out(maker, {}, step_deg=30))
+
+
+@pytest.mark.parametrize("maker", ["four", "v_six", "articulated", "two_stroke"])
+def test_everything_given(maker: str) -> None:
+    assert_agree(laid_out(maker, GIVEN, step_deg=30))
+
+
+def test_the_tractor_diesel() -> None:
+    assert_agree(tractor())
+
+
+def test_a_groove_with_the_heat_balance() -> None:
+    assert_agree(tractor(pin_groove_mm=4.0, oil="m10", material="vch60"))
+
+
+def test_every_result_of_the_solver_stands_in_a_table() -> None:
+    data = tractor(30)
+    model, solution = build_model(data), solve(*engine_and_cycle(data))
+    assert set(solution.columns) - {"P4_3"} == results_of(model)
+    for table, columns in solution.columns.items():
+        if table.startswith("oil_"):
+            spec: TableSpec = model.tables[table]
+            assert [c.key for c in spec.columns if not c.helper] == list(columns)
+    assert set(solution.scalars) <= set(model.scalars)
+
+
+def test_no_section_no_sheet() -> None:
+    data = tractor(30).model_copy(update={"bearings": None})
+    assert not [key for key in build_model(data).nodes if key.startswith(("oil_", "safe_"))]
+    assert not [key for key in solve(*engine_and_cycle(data)).scalars if key.startswith("oil_")]
+
+
+def test_values_of_a_changed_workbook_are_told_to_be_old() -> None:
+    run = Evaluation(build_model(tractor(30)))
+    assert run.value("oil_fresh") == "отвечают исходным данным"
+    mark = {"oil_orbits.oil_mark": run.value("oil_orbits.oil_mark")}
+    for change in ("bearings_supply_c", "masses_rod_kg", "bearings_pin_clearance_max_mm"):
+        known = mark | {change: 1.01 * run.value(change)}
+        assert "ИЗМЕНЕНЫ" in run.fork(known).value("oil_fresh")

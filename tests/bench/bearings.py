@@ -1,0 +1,33 @@
+"""Orbits of four bearings with two clearances over three cycles: at most a second is promised."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from kshm.mechanics.oil_orbit import orbits
+from tests.bench._figure import Figure, interleaved, median
+
+BEARINGS, CYCLES = 8, 3
+
+
+def figures() -> Iterator[Figure]:
+    """Figures."""
+    phi = np.linspace(0, 4 * np.pi, 73)
+    rng = np.random.default_rng(1)
+    firing = 8 * np.exp(-((phi - 6.8) ** 2) / 0.05)
+    loads = rng.uniform(0.7, 1.5, BEARINGS)[:, None] * (
+        firing + 2 * np.exp(1j * phi) + np.exp(2j * phi)
+    )
+    half, width = np.full(loads.shape, 0.5), np.full(BEARINGS, 0.5)
+
+    def ours() -> None:
+        state = loads
+        for _ in range(CYCLES - 2):
+            orbits(phi, state, half, width, 1)
+        orbits(phi, state, half, width, 2)
+
+    times = interleaved({"ours": ours}, rounds=3)
+    what = "орбиты: 4 подшипника × 2 зазора × 3 цикла"
+    yield Figure(what, median(times["ours"]), "с", "не больше 1 с")

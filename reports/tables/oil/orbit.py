@@ -92,7 +92,7 @@ def _summary(scope: Scope) -> TableSpec:
 def _fresh(scope: Scope) -> ScalarTable:
     del scope
     yes, no = "отвечают исходным данным", "ДАННЫЕ ИЗМЕНЕНЫ: соберите книгу заново"
-    text = f'"{yes}" if col_max(oil_orbits.oil_changed) <= 0.000000001 else "{no}"'
+    text = f'"{yes}" if round(col_max(oil_orbits.oil_changed), 8) == 0 else "{no}"'
     return ScalarTable(
         "oil_fresh", "Значения орбит", SUMMARY,
         scalar_list(f"oil_fresh = {text} | метка данных при сборке"),

@@ -1,0 +1,167 @@
+"""The pages and what they ask for."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+from collections.abc import AsyncIterator, Awaitable, Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from starlette.applications import Starlette
+from starlette.middleware import Middleware
+from starlette.middleware.gzip import GZipMiddleware
+from starlette.requests import Request
+from starlette.responses import FileResponse, JSONResponse, Response
+from starlette.routing import Route
+
+from reports.inputs.sections.cycle import KINDS
+from reports.inputs.sections.input_file import LAYOUTS, STROKES
+from reports.inputs.template import list_samples
+from reports.shared.errors import InputError, KshmError, Problem
+from reports.web import engine
+from reports.web.guard import Guard, Rate, refusal
+from reports.web.pool import Busy, Pool
+
+STATIC = Path(__file__).parent / "static"
+MOST_FILE = 100_000_000
+_TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css"}
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """How the page is served.
+
+    Attributes:
+        data: folder of all that is kept.
+        hosts: names under which it is known, besides this machine's own.
+        prefix: path under which a proxy shows it.
+        dask: address of a cluster that builds the files.
+        per_s: requests a second of one address: a class may stand behind one.
+        workers: processes that solve; None takes the processors.
+    """
+
+    data: Path
+    hosts: tuple[str, ...] = ()
+    prefix: str = ""
+    dask: str | None = None
+    per_s: float = 200.0
+    workers: int | None = None
+
+
+Asked = Callable[[dict[str, Any]], Awaitable[Any]]
+
+
+async def body(request: Request) -> dict[str, Any]:
+    """The JSON object of a request.
+
+    Raises:
+        InputError: it is none.
+    """
+    try:
+        found = json.loads(await request.body(), parse_constant=_no_number)
+    except (ValueError, RecursionError):
+        raise InputError(Problem("", "запрос не читается", "обновите страницу")) from None
+    if not isinstance(found, dict):
+        raise InputError(Problem("", "запрос не читается", "обновите страницу"))
+    return found
+
+
+def _no_number(_: str) -> Any:  # noqa: ANN401
+    raise ValueError
+
+
+def mapping(data: dict[str, Any], key: str) -> dict[str, Any]:
+    """A mapping within a request.
+
+    Raises:
+        InputError: there is none.
+    """
+    found = data.get(key)
+    if not isinstance(found, dict):
+        raise InputError(Problem(key, "нет исходных данных", "обновите страницу"))
+    return found
+
+
+def page(name: str) -> Callable[[Request], Awaitable[Response]]:
+    """A page or a part of it as it lies beside this module."""
+
+    async def shown(_: Request) -> Response:
+        path = STATIC / name
+        return FileResponse(path, media_type=_TYPES[path.suffix])
+
+    return shown
+
+
+def create_app(settings: Settings) -> Guard:
+    """The whole application, the guard before it."""
+    pool = Pool(settings.workers)
+
+    @contextlib.asynccontextmanager
+    async def lifespan(_: Starlette) -> AsyncIterator[None]:
+        pool.start()
+        try:
+            yield
+        finally:
+            pool.stop()
+
+    def asked(function: Callable[..., engine.Data], *keys: str) -> Any:  # noqa: ANN401
+        """A question to the solving processes: values of these keys of a request."""
+
+        async def answer(request: Request) -> Response:
+            data = await body(request)
+            values: list[Any] = [
+                mapping(data, key) if key == "raw" else data.get(key, "") for key in keys
+            ]
+            return JSONResponse(await pool.ask(function, *values))
+
+        return answer
+
+    async def choices(_: Request) -> Response:
+        return JSONResponse({
+            "samples": list_samples(), "layouts": LAYOUTS, "strokes": STROKES, "kinds": KINDS,
+        })  # fmt: skip
+
+    async def new(request: Request) -> Response:
+        return JSONResponse(await pool.ask(engine.fresh, await body(request)))
+
+    routes = [
+        Route("/", page("engine.html")),
+        *(Route(f"/static/{path.name}", page(path.name)) for path in sorted(STATIC.iterdir())
+          if path.suffix in (".js", ".css")),
+        Route("/api/choices", choices),
+        Route("/api/new", new, methods=["POST"]),
+        Route("/api/read", asked(engine.read_toml, "text"), methods=["POST"]),
+        Route("/api/start", asked(engine.start, "raw"), methods=["POST"]),
+        Route("/api/solve", asked(engine.answer, "raw", "sheet"), methods=["POST"]),
+        Route("/api/checks", asked(engine.checks, "raw"), methods=["POST"]),
+        Route("/api/toml", asked(engine.as_toml, "raw"), methods=["POST"]),
+    ]  # fmt: skip
+    app = Starlette(
+        routes=routes, lifespan=lifespan, exception_handlers=handlers(),
+        middleware=[Middleware(GZipMiddleware, minimum_size=1000)],
+    )  # fmt: skip
+    app.state.pool, app.state.settings = pool, settings
+    hosts = frozenset({"127.0.0.1", "localhost", "[::1]", *map(str.lower, settings.hosts)})
+    rate = Rate(settings.per_s, 2 * settings.per_s)
+    return Guard(app, hosts, settings.prefix, MOST_FILE, rate)
+
+
+def handlers() -> dict[Any, Any]:
+    """What becomes of errors: a line for the person, never a traceback."""
+
+    async def expected(_: Request, error: Exception) -> Response:
+        assert isinstance(error, KshmError)
+        return JSONResponse({"errors": [engine.as_dict(p) for p in error.problems]}, 422)
+
+    async def busy(_: Request, __: Exception) -> Response:
+        return refusal(503, "сервер занят или данные не считаются за отведённое время; повторите")
+
+    async def absent(_: Request, __: Exception) -> Response:
+        return refusal(404, "нет такой страницы")
+
+    async def unexpected(_: Request, error: Exception) -> Response:
+        return refusal(500, f"внутренняя ошибка {type(error).__name__}")
+
+    return {KshmError: expected, Busy: busy, 404: absent, 405: absent, 500: unexpected}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-import json
+import secrets
 from collections.abc import AsyncIterator, Awaitable, Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,13 +16,17 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route
 
+from reports.grading.issuing.ticket import make_secret, read_secret
 from reports.inputs.sections.cycle import KINDS
 from reports.inputs.sections.input_file import LAYOUTS, STROKES
 from reports.inputs.template import list_samples
-from reports.shared.errors import InputError, KshmError, Problem
-from reports.web import engine
+from reports.shared.errors import KshmError
+from reports.shared.files import make_dir
+from reports.web import engine, files
+from reports.web.asked import body, mapping
 from reports.web.guard import Guard, Rate, refusal
-from reports.web.pool import Busy, Pool
+from reports.web.jobs import Jobs
+from reports.web.pool import Busy, Pool, processors
 
 STATIC = Path(__file__).parent / "static"
 MOST_FILE = 100_000_000
@@ -53,57 +57,41 @@ class Settings:
 Asked = Callable[[dict[str, Any]], Awaitable[Any]]
 
 
-async def body(request: Request) -> dict[str, Any]:
-    """The JSON object of a request.
-
-    Raises:
-        InputError: it is none.
-    """
-    try:
-        found = json.loads(await request.body(), parse_constant=_no_number)
-    except (ValueError, RecursionError):
-        raise InputError(Problem("", "запрос не читается", "обновите страницу")) from None
-    if not isinstance(found, dict):
-        raise InputError(Problem("", "запрос не читается", "обновите страницу"))
-    return found
-
-
-def _no_number(_: str) -> Any:  # noqa: ANN401
-    raise ValueError
-
-
-def mapping(data: dict[str, Any], key: str) -> dict[str, Any]:
-    """A mapping within a request.
-
-    Raises:
-        InputError: there is none.
-    """
-    found = data.get(key)
-    if not isinstance(found, dict):
-        raise InputError(Problem(key, "нет исходных данных", "обновите страницу"))
-    return found
-
-
 def page(name: str) -> Callable[[Request], Awaitable[Response]]:
     """A page or a part of it as it lies beside this module."""
 
-    async def shown(_: Request) -> Response:
+    async def shown(request: Request) -> Response:
         path = STATIC / name
-        return FileResponse(path, media_type=_TYPES[path.suffix])
+        answer = FileResponse(path, media_type=_TYPES[path.suffix])
+        if path.suffix == ".html" and "kshm" not in request.cookies:
+            # Only the place in the queue hangs on it.
+            answer.set_cookie("kshm", secrets.token_urlsafe(16), httponly=True, samesite="strict")
+        return answer
 
     return shown
+
+
+def server_secret(folder: Path) -> bytes:
+    """What makes links unguessable: made once, then kept beside the files."""
+    path = folder / "secret.key"
+    return read_secret(path) if path.exists() else make_secret(path)
 
 
 def create_app(settings: Settings) -> Guard:
     """The whole application, the guard before it."""
     pool = Pool(settings.workers)
+    make_dir(settings.data)
+    secret = server_secret(settings.data)
+    jobs = Jobs(settings.data / "jobs", secret, settings.workers or processors())
 
     @contextlib.asynccontextmanager
     async def lifespan(_: Starlette) -> AsyncIterator[None]:
         pool.start()
+        jobs.start()
         try:
             yield
         finally:
+            await jobs.stop()
             pool.stop()
 
     def asked(function: Callable[..., engine.Data], *keys: str) -> Any:  # noqa: ANN401
@@ -121,6 +109,7 @@ def create_app(settings: Settings) -> Guard:
     async def choices(_: Request) -> Response:
         return JSONResponse({
             "samples": list_samples(), "layouts": LAYOUTS, "strokes": STROKES, "kinds": KINDS,
+            "files": files.kinds(),
         })  # fmt: skip
 
     async def new(request: Request) -> Response:
@@ -137,12 +126,16 @@ def create_app(settings: Settings) -> Guard:
         Route("/api/solve", asked(engine.answer, "raw", "sheet"), methods=["POST"]),
         Route("/api/checks", asked(engine.checks, "raw"), methods=["POST"]),
         Route("/api/toml", asked(engine.as_toml, "raw"), methods=["POST"]),
+        Route("/api/book", files.book, methods=["POST"]),
+        Route("/api/files", files.order(jobs, settings.dask), methods=["POST"]),
+        Route("/api/files/{job}", files.about(jobs)),
+        Route("/api/files/{job}/{name}", files.taken(jobs)),
     ]  # fmt: skip
     app = Starlette(
         routes=routes, lifespan=lifespan, exception_handlers=handlers(),
         middleware=[Middleware(GZipMiddleware, minimum_size=1000)],
     )  # fmt: skip
-    app.state.pool, app.state.settings = pool, settings
+    app.state.pool, app.state.settings, app.state.jobs = pool, settings, jobs
     hosts = frozenset({"127.0.0.1", "localhost", "[::1]", *map(str.lower, settings.hosts)})
     rate = Rate(settings.per_s, 2 * settings.per_s)
     return Guard(app, hosts, settings.prefix, MOST_FILE, rate)

@@ -63,7 +63,7 @@ def read_toml(text: str) -> Data:
     Raises:
         InputError: it is none, or names files that a page has not.
     """
-    if len(text.encode()) > MAX_BYTES:
+    if not isinstance(text, str) or len(text.encode("utf-8", "replace")) > MAX_BYTES:
         raise refused("файл", "слишком большой", "это не файл исходных данных")
     refuse_bomb("файл", text)
     try:

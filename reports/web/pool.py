@@ -47,9 +47,12 @@ def _serve(connection: Connection) -> None:
             return
         try:
             connection.send(engine.answered(function, *arguments))
-        except Exception as error:  # a bug, or no memory: told, and a new process takes over
-            connection.send(error.__class__.__name__)
+        except MemoryError:  # the heap may be in pieces: a new process takes over
+            connection.send(None)
             return
+        except Exception as error:  # a bug costs one answer
+            what = f"внутренняя ошибка {type(error).__name__}"
+            connection.send({"errors": [{"where": "", "what": what, "hint": "сообщите о ней"}]})
 
 
 class _Worker:

@@ -22,8 +22,9 @@ from reports.inputs.sections.input_file import LAYOUTS, STROKES
 from reports.inputs.template import list_samples
 from reports.shared.errors import KshmError
 from reports.shared.files import make_dir
-from reports.web import engine, files
+from reports.web import engine, files, teacher
 from reports.web.asked import body, mapping
+from reports.web.classes import Classes
 from reports.web.guard import Guard, Rate, refusal
 from reports.web.jobs import Jobs
 from reports.web.pool import Busy, Pool, processors
@@ -41,6 +42,7 @@ class Settings:
         data: folder of all that is kept.
         hosts: names under which it is known, besides this machine's own.
         prefix: path under which a proxy shows it.
+        secure: it is known by https: cookies go no other way.
         dask: address of a cluster that builds the files.
         per_s: requests a second of one address: a class may stand behind one.
         workers: processes that solve; None takes the processors.
@@ -49,6 +51,7 @@ class Settings:
     data: Path
     hosts: tuple[str, ...] = ()
     prefix: str = ""
+    secure: bool = False
     dask: str | None = None
     per_s: float = 200.0
     workers: int | None = None
@@ -84,13 +87,17 @@ def create_app(settings: Settings) -> Guard:
     secret = server_secret(settings.data)
     jobs = Jobs(settings.data / "jobs", secret, settings.workers or processors())
 
+    classes = Classes(settings.data / "classes", secret, settings.dask)
+
     @contextlib.asynccontextmanager
     async def lifespan(_: Starlette) -> AsyncIterator[None]:
         pool.start()
         jobs.start()
+        classes.start()
         try:
             yield
         finally:
+            await classes.stop()
             await jobs.stop()
             pool.stop()
 
@@ -117,6 +124,10 @@ def create_app(settings: Settings) -> Guard:
 
     routes = [
         Route("/", page("engine.html")),
+        Route("/teacher", page("teacher.html")),
+        Route("/s/{link}/", page("student.html")),
+        *teacher.routes(classes, secret, settings.secure),
+        *teacher.student_routes(classes),
         *(Route(f"/static/{path.name}", page(path.name)) for path in sorted(STATIC.iterdir())
           if path.suffix in (".js", ".css")),
         Route("/api/choices", choices),
@@ -135,7 +146,8 @@ def create_app(settings: Settings) -> Guard:
         routes=routes, lifespan=lifespan, exception_handlers=handlers(),
         middleware=[Middleware(GZipMiddleware, minimum_size=1000)],
     )  # fmt: skip
-    app.state.pool, app.state.settings, app.state.jobs = pool, settings, jobs
+    app.state.pool, app.state.settings = pool, settings
+    app.state.jobs, app.state.classes = jobs, classes
     hosts = frozenset({"127.0.0.1", "localhost", "[::1]", *map(str.lower, settings.hosts)})
     rate = Rate(settings.per_s, 2 * settings.per_s)
     return Guard(app, hosts, settings.prefix, MOST_FILE, rate)

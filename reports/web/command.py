@@ -40,14 +40,16 @@ def serve(port: int, host: str, folder: Path, public: str, dask: str | None, ver
         raise KshmError(msg)
     _free(host, port)
     from reports.shared.files import make_dir
-    from reports.web.app import Settings, create_app
+    from reports.web.app import Settings, create_app, server_secret
+    from reports.web.teacher import token_of
 
     make_dir(folder)
     hosts = tuple(name for name in (host, address.hostname) if name)
     prefix = address.path.rstrip("/")
-    app = create_app(Settings(folder.resolve(), hosts, prefix, dask))
+    app = create_app(Settings(folder.resolve(), hosts, prefix, address.scheme == "https", dask))
     shown = public.rstrip("/") or f"http://{'127.0.0.1' if host == '0.0.0.0' else host}:{port}"
     click.echo(f"Страница: {shown}/")
+    click.echo(f"Преподавателю: {shown}/teacher#{token_of(server_secret(folder))}")
     click.echo("Остановить: Ctrl-C", err=True)
     uvicorn.Server(uvicorn.Config(
         app, host=host, port=port, log_level="warning", access_log=False, server_header=False,

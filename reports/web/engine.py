@@ -18,7 +18,7 @@ from kshm.results.solution import Solution
 from reports.inputs.checks.grid import grid_remark
 from reports.inputs.fields import Field, iter_fields, key_text, tables_shape, to_mapping
 from reports.inputs.load import Loaded, load_mapping
-from reports.inputs.meta import Meta, find_meta, hints, submodel
+from reports.inputs.meta import Meta, Strictly, find_meta, hints, submodel
 from reports.inputs.own_engine import Made
 from reports.inputs.own_file import file_text
 from reports.inputs.ranges import split_ranges
@@ -75,6 +75,16 @@ def read_toml(text: str) -> Data:
         load_text(text, source="файл")
         raise
     return {"raw": split_ranges(raw)[0]}
+
+
+def checked_text(text: str) -> Data:
+    """A base of variants, checked as an input of its own; its ranges are checked when issued.
+
+    Raises:
+        InputError: everything that is wrong.
+    """
+    loaded_of(understood(read_toml(text)["raw"]))
+    return {}
 
 
 def loaded_of(raw: Mapping[str, Any]) -> Loaded:
@@ -140,7 +150,7 @@ def _groups(model: InputFile) -> Iterator[Data]:
         groups.setdefault(field.section, []).append(_as_data(field))
     shown = {field.path for field in iter_fields(model)}
     for name, section in SECTIONS.items():
-        part = getattr(model, name)
+        part: Strictly | None = getattr(model, name)
         if part is None:
             continue
         for key, annotation in hints(type(part)).items():

@@ -129,7 +129,7 @@ class Jobs:
         folder = self.folder / name
         if name in self.waiting or name in self.running:
             return name
-        if (folder / "done.json").exists() and self.about(name)["state"] == "done":
+        if (self.about(name) or {}).get("state") == "done":
             os.utime(folder / "done.json")
             return name
         own = sum(who == visitor for who in (*self.waiting.values(), *self._owner.values()))
@@ -195,8 +195,8 @@ class Jobs:
 
     async def _make(self, name: str) -> None:
         folder = self.folder / name
-        out, lines = folder / "out", []
-        code = 0
+        out, code = folder / "out", 0
+        lines: list[str] = []
         try:
             out.mkdir(exist_ok=True)
             for command in self._order(name)["commands"]:

@@ -25,7 +25,7 @@ from reports.shared.files import make_dir
 from reports.web import engine, files, teacher
 from reports.web.asked import body, mapping
 from reports.web.classes import Classes
-from reports.web.guard import Guard, Rate, refusal
+from reports.web.guard import BODY_S, Guard, Rate, TooLarge, TooSlow, refusal
 from reports.web.jobs import Jobs
 from reports.web.pool import Busy, Pool, processors
 
@@ -46,6 +46,7 @@ class Settings:
         dask: address of a cluster that builds the files.
         per_s: requests a second of one address: a class may stand behind one.
         workers: processes that solve; None takes the processors.
+        body_s: seconds that the body of a form may take.
     """
 
     data: Path
@@ -55,6 +56,7 @@ class Settings:
     dask: str | None = None
     per_s: float = 200.0
     workers: int | None = None
+    body_s: float = BODY_S
 
 
 Asked = Callable[[dict[str, Any]], Awaitable[Any]]
@@ -150,7 +152,7 @@ def create_app(settings: Settings) -> Guard:
     app.state.jobs, app.state.classes = jobs, classes
     hosts = frozenset({"127.0.0.1", "localhost", "[::1]", *map(str.lower, settings.hosts)})
     rate = Rate(settings.per_s, 2 * settings.per_s)
-    return Guard(app, hosts, settings.prefix, MOST_FILE, rate)
+    return Guard(app, hosts, settings.prefix, MOST_FILE, rate, settings.body_s)
 
 
 def handlers() -> dict[Any, Any]:
@@ -163,10 +165,19 @@ def handlers() -> dict[Any, Any]:
     async def busy(_: Request, __: Exception) -> Response:
         return refusal(503, "сервер занят или данные не считаются за отведённое время; повторите")
 
+    async def large(_: Request, __: Exception) -> Response:
+        return refusal(413, "слишком много данных")
+
+    async def slow(_: Request, __: Exception) -> Response:
+        return refusal(408, "данные не приходят; повторите")
+
     async def absent(_: Request, __: Exception) -> Response:
         return refusal(404, "нет такой страницы")
 
     async def unexpected(_: Request, error: Exception) -> Response:
         return refusal(500, f"внутренняя ошибка {type(error).__name__}")
 
-    return {KshmError: expected, Busy: busy, 404: absent, 405: absent, 500: unexpected}
+    return {
+        KshmError: expected, Busy: busy, TooLarge: large, TooSlow: slow, 404: absent, 405: absent,
+        500: unexpected,
+    }  # fmt: skip

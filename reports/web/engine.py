@@ -261,7 +261,8 @@ def moving(solution: Solution) -> Data:
     """What the moving mechanism of the first cylinder and the star of cranks are drawn from."""
     engine, columns = solution.engine, solution.columns
     return {
-        "phi": plain_numbers(columns["P3_1"]["phi_deg"]),
+        "phi": plain_numbers(columns["P4_1"]["phi_deg"]),
+        "turn": plain_numbers(columns["P3_1"]["phi_deg"]),  # of the mechanism: one turn
         "s": plain_numbers(columns["P3_1"]["s_mm"]),
         "beta": plain_numbers(columns["P3_2"]["beta_rad"]),
         "forces": {

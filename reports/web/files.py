@@ -57,7 +57,7 @@ def order(jobs: Jobs, dask: str | None) -> Any:  # noqa: ANN401
     async def ordered(request: Request) -> Response:
         data = await body(request)
         kind = data.get("kind")
-        if kind not in known:
+        if not isinstance(kind, str) or kind not in known:
             raise InputError(Problem("kind", "нет такого вида файла", "обновите страницу"))
         wanted = {"engine.toml": mapping(data, "raw")}
         if kind.startswith("compare-"):

@@ -103,21 +103,7 @@ class Guard:
         most, seconds = MOST_JSON, self.body_s
         if headers.get("content-type", "").startswith("application/octet-stream"):
             most, seconds = self.most_file, max(FILE_S, self.body_s)
-        started = False
-
-        async def told(message: Message) -> None:
-            nonlocal started
-            started = True
-            await sender(message)
-
-        try:
-            await self.app(scope, _bounded(receive, most, seconds), told)
-        except TooLarge:
-            if not started:
-                await refusal(413, f"больше {most // 10**6} МБ")(scope, receive, sender)
-        except TooSlow:
-            if not started:
-                await refusal(408, "данные не приходят; повторите")(scope, receive, sender)
+        await self.app(scope, _bounded(receive, most, seconds), sender)
 
     def _refused(self, scope: Scope, headers: Headers) -> tuple[int, str] | None:
         client = scope.get("client")

@@ -65,6 +65,8 @@ async def run(arguments: Sequence[str], folder: Path, timeout_s: float = TIMEOUT
         return Said(-1, (f"не сделано за {timeout_s:.0f} с: уменьшите расчёт",))
     finally:
         _end(process)
+        with contextlib.suppress(asyncio.CancelledError):
+            await process.wait()
     if process.returncode is not None and process.returncode < 0:
         return Said(process.returncode, ("процесс прерван: повторите",))
     lines = [one_line(line, 400) for line in said.decode("utf-8", "replace").splitlines()]

@@ -22,7 +22,6 @@ from reports.web.guard import Rate, refusal
 
 COOKIE, HOURS = "kshm_teacher", 12
 _TEXTS = ("title", "base", "roster", "rubric")
-_TRIES = Rate(0.1, 10)
 _MOST_WORK = 30 * 2**20
 
 
@@ -40,7 +39,7 @@ def _is_teacher(secret: bytes, given: str) -> bool:
     until = given.partition(".")[0]
     if not (until.isdigit() and until.isascii() and len(until) < 12) or int(until) < time.time():
         return False
-    return hmac.compare_digest(_pass(secret, int(until)), given)
+    return hmac.compare_digest(_pass(secret, int(until)).encode(), given.encode("utf-8", "replace"))
 
 
 Door = Callable[[Request], Awaitable[Response]]
@@ -49,10 +48,11 @@ ClassDoor = Callable[[Request, Class], Awaitable[Response]]
 
 def routes(classes: Classes, secret: bytes, secure: bool) -> list[Route]:
     """Doors of the instructor, all but the first behind the token."""
+    tries = Rate(0.1, 10)
 
     async def login(request: Request) -> Response:
         given = str((await body(request)).get("token", ""))
-        if not _TRIES.allows(request.client.host if request.client else ""):
+        if not tries.allows(request.client.host if request.client else ""):
             return refusal(429, "слишком много попыток; подождите минуту")
         if not hmac.compare_digest(
             token_of(secret).encode(), given.strip().encode("utf-8", "replace")

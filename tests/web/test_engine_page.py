@@ -31,6 +31,15 @@ def test_numbers_are_the_solvers(page: Page, name: str) -> None:
         np.testing.assert_array_equal(curve["x"], solution.columns["P4_1"]["phi_deg"])
 
 
+@pytest.mark.parametrize("name", ["gots-diesel", "two-stroke", "yamz-236", "vw-1600"])
+def test_what_moves_has_a_value_at_every_angle(page: Page, name: str) -> None:
+    moves = page.post("/api/solve", {"raw": page.sample(name), "sheet": ""})["moves"]
+    assert len(moves["turn"]) == len(moves["s"]) == len(moves["beta"])
+    assert moves["forces"] and moves["throws"][0] == 0
+    for force in moves["forces"].values():
+        assert len(force["values"]) == len(moves["phi"])
+
+
 def test_a_change_changes_the_numbers(page: Page) -> None:
     raw = page.sample()
     before = page.post("/api/solve", {"raw": raw, "sheet": ""})["results"]

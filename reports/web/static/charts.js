@@ -97,7 +97,8 @@ function mechanism(svg, moves, phi) {
   const {radius: r, rod: l} = moves, turn = phi * Math.PI / 180, scale = 210 / (2 * r + l + 1.6 * r);
   const [x0, y0] = [120, 285 - r * scale * 1.15];
   const pin = [x0 + r * scale * Math.sin(turn), y0 - r * scale * Math.cos(turn)];
-  const beta = between(moves.phi, moves.beta, phi), s = between(moves.phi, moves.s, phi);
+  const inside = phi % moves.turn.at(-1);
+  const beta = between(moves.turn, moves.beta, inside), s = between(moves.turn, moves.s, inside);
   const piston = [pin[0] - l * scale * Math.sin(beta), y0 - (r + l - s) * scale], wide = r * scale * .95;
   svg.setAttribute("viewBox", "0 0 240 300");
   svg.replaceChildren(

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from kshm import quantity, solve
-from kshm.results.solution import Solution
+from kshm.results.solution import Solution, in_units
 from reports.inputs.checks.grid import grid_remark
 from reports.inputs.fields import Field, iter_fields, key_text, tables_shape, to_mapping
 from reports.inputs.load import Loaded, load_mapping
@@ -27,6 +27,7 @@ from reports.inputs.sections.input_file import InputFile
 from reports.inputs.source import MAX_BYTES, refuse_bomb, refused
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.inputs.understood import understood
+from reports.inputs.units import MM
 from reports.shared.errors import InputError, KshmError, Problem
 from reports.shared.russian import written
 from reports.spec.blocks import Model, ScalarTable
@@ -207,7 +208,7 @@ def _results(model: Model, solution: Solution) -> Iterator[Data]:
         if isinstance(block, ScalarTable) and block.id.startswith(("summary", "geometry")):
             rows = []
             for scalar in block.scalars:
-                value, about = solution.scalars.get(scalar.key), scalar.quantity
+                value, about = _scalar(solution, scalar.key), scalar.quantity
                 if value is not None:
                     rows.append({
                         "key": scalar.key, "title": scalar.note or about.title,
@@ -216,6 +217,22 @@ def _results(model: Model, solution: Solution) -> Iterator[Data]:
                     })  # fmt: skip
             if rows:
                 yield {"id": block.id, "title": block.title, "rows": rows}
+
+
+def _scalar(solution: Solution, key: str) -> float | None:
+    """A scalar of the solver in the unit of its quantity; most are those of the chain alone."""
+    found = solution.chain_scalars.get(key)
+    if found is not None:
+        return found / quantity(key).si
+    return solution.scalars.get(key) if solution.engine.regimes else None
+
+
+def _column(solution: Solution, table: str, key: str) -> Any:  # noqa: ANN401
+    """A column of the solver; one of the chain needs no more than the chain."""
+    found = solution.chain_tables.get(table, {}).get(key)
+    if found is not None:
+        return in_units({key: found})[key]
+    return solution.columns.get(table, {}).get(key)
 
 
 def _chart(chart: ChartSpec, solution: Solution, formulas: Evaluation) -> Data:
@@ -241,7 +258,7 @@ def _symbol(key: str) -> str:
 
 def _numbers(key: str, solution: Solution, formulas: Evaluation) -> list[float | None]:
     table, _, column = key.partition(".")
-    found = solution.columns.get(table, {}).get(column)
+    found = _column(solution, table, column)
     values = np.asarray(formulas.value(key) if found is None else found, dtype=float)
     return plain_numbers(values)
 
@@ -259,19 +276,20 @@ def plain_numbers(values: Any) -> list[float | None]:  # noqa: ANN401
 
 def moving(solution: Solution) -> Data:
     """What the moving mechanism of the first cylinder and the star of cranks are drawn from."""
-    engine, columns = solution.engine, solution.columns
+    forces = [key for key in solution.chain_tables["P4_1"] if key.endswith("_MPa")]
     return {
-        "phi": plain_numbers(columns["P4_1"]["phi_deg"]),
-        "turn": plain_numbers(columns["P3_1"]["phi_deg"]),  # of the mechanism: one turn
-        "s": plain_numbers(columns["P3_1"]["s_mm"]),
-        "beta": plain_numbers(columns["P3_2"]["beta_rad"]),
+        "phi": plain_numbers(_column(solution, "P4_1", "phi_deg")),
+        "turn": plain_numbers(_column(solution, "P3_1", "phi_deg")),  # of the mechanism: one turn
+        "s": plain_numbers(_column(solution, "P3_1", "s_mm")),
+        "beta": plain_numbers(_column(solution, "P3_2", "beta_rad")),
         "forces": {
             key: {"symbol": quantity(key).symbol, "unit": quantity(key).unit_label,
-                  "values": plain_numbers(columns["P4_1"][key])}
-            for key in columns["P4_1"] if key.endswith("_MPa")
+                  "values": plain_numbers(_column(solution, "P4_1", key))}
+            for key in forces
         },
-        "radius": solution.scalars["r_crank"], "rod": solution.scalars["L_rod"],
-        "throws": np.degrees([throw.angle for throw in engine.crankshaft.throws]).tolist(),
+        "radius": MM.from_si(solution.engine.geometry.crank_radius),
+        "rod": MM.from_si(solution.engine.geometry.rod_length),
+        "throws": np.degrees([each.angle for each in solution.engine.crankshaft.throws]).tolist(),
     }  # fmt: skip
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 
 from reports.grading.batch.worker import limit_memory
@@ -28,6 +29,8 @@ def book_as_toml(path: str) -> int:
 def begin() -> None:
     """Limit what this process may take, before it reads anything."""
     limit_memory(MEMORY)
+    if hasattr(os, "nice"):
+        os.nice(10)  # who waits for a number comes before who waits for a file
 
 
 def zip_tables() -> None:

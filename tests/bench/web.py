@@ -32,7 +32,9 @@ HEADS = {"X-Kshm": "1"}
 async def person(base: str, number: int, until: float, took: list[float], bad: list[str]) -> int:
     """One browser; how many files it got."""
     chance, files = random.Random(number), 0
-    async with httpx2.AsyncClient(base_url=base, headers=HEADS, timeout=120, trust_env=False) as web:
+    async with httpx2.AsyncClient(
+        base_url=base, headers=HEADS, timeout=120, trust_env=False
+    ) as web:
         await web.get("/")
         raw = (await web.post("/api/new", json={"sample": "gots-diesel"})).json()["raw"]
         await asyncio.sleep(chance.uniform(0, 3))

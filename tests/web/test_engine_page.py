@@ -34,6 +34,10 @@ def test_numbers_are_the_solvers(page: Page, name: str) -> None:
 @pytest.mark.parametrize("name", ["gots-diesel", "two-stroke", "yamz-236", "vw-1600"])
 def test_what_moves_has_a_value_at_every_angle(page: Page, name: str) -> None:
     moves = page.post("/api/solve", {"raw": page.sample(name), "sheet": ""})["moves"]
+    phi, s, beta = (np.array(moves[key]) for key in ("turn", "s", "beta"))
+    pin = moves["radius"] * np.cos(np.radians(phi))
+    drawn = moves["radius"] + moves["rod"] - s - pin  # from crankpin to piston pin along the axis
+    np.testing.assert_allclose(drawn, moves["rod"] * np.cos(beta), atol=0.01 * moves["rod"])
     assert len(moves["turn"]) == len(moves["s"]) == len(moves["beta"])
     assert moves["forces"] and moves["throws"][0] == 0
     for force in moves["forces"].values():

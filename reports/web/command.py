@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 from pathlib import Path
+from socket import gethostname
 from urllib.parse import urlsplit
 
 import click
@@ -10,6 +12,8 @@ import click
 from reports.commands.common import DONE, HELP, dask_option, path_option, verbose_option
 from reports.commands.words import RussianCommand
 from reports.shared.errors import KshmError, SystemPartMissing
+
+_EVERYWHERE = ("0.0.0.0", "::")
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)
@@ -43,18 +47,25 @@ def serve(port: int, host: str, folder: Path, public: str, dask: str | None, ver
     from reports.web.app import Settings, create_app, server_secret
     from reports.web.teacher import token_of
 
+    if not folder.exists():
+        make_dir(folder)
+        folder.chmod(0o700)
     make_dir(folder)
-    hosts = tuple(name for name in (host, address.hostname) if name)
+    wide = host in _EVERYWHERE
+    own = gethostname().lower() if wide else host
+    hosts = tuple(name for name in (own, "*" if wide else "", address.hostname) if name)
     prefix = address.path.rstrip("/")
     app = create_app(Settings(folder.resolve(), hosts, prefix, address.scheme == "https", dask))
     shown = public.rstrip("/") or f"http://{'127.0.0.1' if host == '0.0.0.0' else host}:{port}"
     click.echo(f"Страница: {shown}/")
     click.echo(f"Преподавателю: {shown}/teacher#{token_of(server_secret(folder))}")
     click.echo("Остановить: Ctrl-C", err=True)
-    uvicorn.Server(uvicorn.Config(
+    config = uvicorn.Config(
         app, host=host, port=port, log_level="warning", access_log=False, server_header=False,
         limit_concurrency=1000, timeout_keep_alive=30, timeout_graceful_shutdown=3,
-    )).run()  # fmt: skip
+    )  # fmt: skip
+    with contextlib.suppress(KeyboardInterrupt):  # the usual end
+        uvicorn.Server(config).run()
     return DONE
 
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import time
 from collections import OrderedDict
 from dataclasses import dataclass, field
+from ipaddress import ip_address
 from urllib.parse import urlsplit
 
 from starlette.datastructures import Headers, MutableHeaders
@@ -72,7 +74,7 @@ class Guard:
 
     Args:
         app: what answers.
-        hosts: names under which the page is known; others are answered 421.
+        hosts: names under which the page is known, «*» any bare address; others are answered 421.
         prefix: path under which a proxy shows the page, ``/kshm``.
         most_file: bytes of an uploaded file.
         rate: requests of one address.
@@ -109,7 +111,7 @@ class Guard:
         client = scope.get("client")
         if not self.rate.allows(client[0] if client else ""):
             return 429, "слишком много запросов; подождите немного"
-        if len(headers.getlist("host")) != 1 or _name(headers["host"]) not in self.hosts:
+        if len(headers.getlist("host")) != 1 or not self._known(headers["host"]):
             return 421, "страница известна под другим адресом; см. ключ --public"
         if scope["method"] in ("GET", "HEAD"):
             return None
@@ -126,12 +128,21 @@ class Guard:
             return 415, "неверный вид данных"
         return None
 
+    def _known(self, host: str) -> bool:
+        """Whether a host is ours; a bare address, unlike a name, cannot be made to lead here."""
+        name = _name(host)
+        if name in self.hosts:
+            return True
+        with contextlib.suppress(ValueError):
+            return "*" in self.hosts and bool(ip_address(name.strip("[]")))
+        return False
+
     def _own(self, headers: Headers, origin: str) -> str:
         """The host that an origin must have: that of the request, behind a proxy any of ours."""
         host = headers["host"].lower()
         given = urlsplit(origin)
         if self.prefix or given.scheme == "https":
-            return given.netloc.lower() if _name(given.netloc) in self.hosts else host
+            return given.netloc.lower() if self._known(given.netloc) else host
         return host
 
 

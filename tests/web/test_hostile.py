@@ -245,6 +245,16 @@ def test_behind_a_proxy_under_a_path(tmp_path: Path) -> None:
         assert proxied.post("/kshm/api/new", json={}, headers=own).status_code == 403
 
 
+@pytest.mark.parametrize(
+    ("host", "code"), [("192.168.1.5:8321", 200), ("[fe80::1]:80", 200), ("evil.example", 421)]
+)
+def test_in_a_network_an_address_is_known_and_a_name_is_not(
+    tmp_path: Path, host: str, code: int
+) -> None:
+    app = create_app(Settings(tmp_path, ("*",), workers=1))
+    assert TestClient(app).get("/", headers={"host": host}).status_code == code
+
+
 def test_secrets_lie_closed(client: TestClient) -> None:
     data = client.app.app.state.settings.data  # type: ignore[attr-defined]
     assert (data / "secret.key").stat().st_mode & 0o077 == 0

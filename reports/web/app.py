@@ -22,6 +22,7 @@ from reports.inputs.sections.input_file import LAYOUTS, STROKES
 from reports.inputs.template import list_samples
 from reports.shared.errors import KshmError
 from reports.shared.files import make_dir
+from reports.shared.resources import resource_dir
 from reports.web import engine, files, teacher
 from reports.web.asked import body, mapping
 from reports.web.classes import Classes
@@ -31,7 +32,9 @@ from reports.web.pool import Busy, Pool, processors
 
 STATIC = Path(__file__).parent / "static"
 MOST_FILE = 100_000_000
-_TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css"}
+_TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css",
+          ".svg": "image/svg+xml"}  # fmt: skip
+DRAWINGS = ("arms.svg", "arms-v.svg", "phases.svg", "signs.svg")  # of the manual
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,11 +65,11 @@ class Settings:
 Asked = Callable[[dict[str, Any]], Awaitable[Any]]
 
 
-def page(name: str) -> Callable[[Request], Awaitable[Response]]:
+def page(name: str, folder: Path = STATIC) -> Callable[[Request], Awaitable[Response]]:
     """A page or a part of it as it lies beside this module."""
 
     async def shown(request: Request) -> Response:
-        path = STATIC / name
+        path = folder / name
         answer = FileResponse(path, media_type=_TYPES[path.suffix])
         if path.suffix == ".html" and "kshm" not in request.cookies:
             # Only the place in the queue hangs on it.
@@ -132,6 +135,7 @@ def create_app(settings: Settings) -> Guard:
         *teacher.student_routes(classes),
         *(Route(f"/static/{path.name}", page(path.name)) for path in sorted(STATIC.iterdir())
           if path.suffix in (".js", ".css")),
+        *(Route(f"/static/{name}", page(name, resource_dir("docs/images"))) for name in DRAWINGS),
         Route("/api/choices", choices),
         Route("/api/new", new, methods=["POST"]),
         Route("/api/read", asked(engine.read_toml, "text"), methods=["POST"]),

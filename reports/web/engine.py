@@ -159,8 +159,11 @@ def _groups(model: InputFile) -> Iterator[Data]:
             plain = submodel(annotation) is None and key not in section.lists
             if plain and metas and (name, key) not in shown:
                 groups.setdefault(section.title, []).append(_blank((name, key), metas[0]))
+    arms = "arms-v" if model.engine.layout == "v" else "arms"
+    drawings = {"arms": arms, "throw_angles_deg": "phases", "webs": "signs"}
     for title, fields in groups.items():
-        yield {"title": title, "fields": fields}
+        drawing = drawings.get(str(fields[0]["path"][1]), "")
+        yield {"title": title, "fields": fields, "drawing": drawing}
 
 
 def _as_data(field: Field) -> Data:

@@ -88,6 +88,16 @@ def test_every_fields_error_stands_at_the_field() -> None:
         assert all(error["where"] in keys and error["what"] for error in errors)
 
 
+@pytest.mark.parametrize(("name", "arms"), [("gots-diesel", "arms"), ("yamz-236", "arms-v")])
+def test_drawings_stand_beside_what_they_explain(page: Page, name: str, arms: str) -> None:
+    groups = page.post("/api/start", {"raw": page.sample(name)})["groups"]
+    drawings = {group["drawing"] for group in groups} - {""}
+    assert drawings == {arms, "phases", "signs"}
+    for drawing in drawings:
+        answer = page.client.get(f"/static/{drawing}.svg")
+        assert answer.headers["content-type"] == "image/svg+xml" and "<svg" in answer.text
+
+
 def test_checks_name_what_the_input_explains(page: Page) -> None:
     checks = {
         each["key"]: each for each in page.post("/api/checks", {"raw": page.sample()})["checks"]

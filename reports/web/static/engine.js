@@ -44,7 +44,8 @@ function fill({groups, sheets, absent, raw}) {
   if (!opened.size) ["Двигатель", "Геометрия", "Режим"].forEach(t => opened.add(t));
   $("fields").replaceChildren(...groups.map(group =>
     make("details", {"data-title": group.title, open: opened.has(group.title)},
-      make("summary", {}, group.title), ...group.fields.map(field))));
+      make("summary", {}, group.title),
+      ...(group.drawing ? [make("img", {src: `static/${group.drawing}.svg`, alt: `${group.title}: что есть что`, loading: "lazy"})] : []), ...group.fields.map(field))));
   if (!sheets.some(s => s.id === state.sheet)) state.sheet = sheets[0]?.id;
   $("sheet").replaceChildren(...sheets.map(s => make("option", {value: s.id, selected: s.id === state.sheet, title: s.hint}, s.title)));
   $("absent").replaceChildren(...(absent.length ? [make("p", {class: "tools"}, "Добавить раздел: ",

@@ -30,7 +30,7 @@ def begin() -> None:
     """Limit what this process may take, before it reads anything."""
     limit_memory(MEMORY)
     if hasattr(os, "nice"):
-        os.nice(10)  # who waits for a number comes before who waits for a file
+        os.nice(5)  # who waits for a number comes before who waits for a file
 
 
 def zip_tables() -> None:

@@ -14,6 +14,7 @@ from reports.commands.group import grade, issue
 from reports.commands.studies import compare, sweep, validate
 from reports.commands.words import RussianGroup, error_text
 from reports.shared.errors import KshmError
+from reports.web.command import serve
 
 
 class _Russian(RussianGroup):
@@ -106,7 +107,7 @@ def main(context: click.Context) -> None:
         click.echo(context.get_help())
 
 
-for _command in (new, check, solve, build, issue, grade, validate, sweep, compare, doctor):
+for _command in (new, check, solve, build, issue, grade, validate, sweep, compare, serve, doctor):
     main.add_command(_command)
 
 

@@ -25,7 +25,7 @@ an R1C1 token) and is unique without regard to case.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -119,6 +119,17 @@ def structure(model: InputFile) -> tuple[tuple[str, Value | None], ...]:
     return tuple(
         (field.name, field.value if field.structural else None) for field in iter_fields(model)
     )
+
+
+def tables_shape(fields: Iterable[Field]) -> tuple[tuple[str, Value | None], ...]:
+    """Return all that the tables of an input follow from: everything but its plain numbers."""
+    return tuple((field.name, field.value if _shapes(field) else None) for field in fields)
+
+
+def _shapes(field: Field) -> bool:
+    text = isinstance(field.value, str) and field.path[0] != "report"
+    phase = field.path[0] == "crankshaft" and field.name.endswith("_deg")  # tables shift by them
+    return field.structural or text or phase
 
 
 def to_mapping(model: InputFile) -> dict[str, Any]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,7 +18,7 @@ from reports.grading.issuing.roster import Student, read_roster
 from reports.grading.issuing.rubric import Rubric, load_rubric
 from reports.grading.issuing.ticket import make_secret, read_secret, secret_path
 from reports.grading.issuing.variants import Base, Variant, draw_variants, load_base
-from reports.inputs.fields import Field, Value, iter_fields
+from reports.inputs.fields import iter_fields, tables_shape
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.input_file import InputFile
 from reports.shared.errors import InputError, Problem
@@ -102,20 +101,9 @@ def assignment_for(book: Issued, rubric: Rubric, like: Assignment | None = None)
     model = student_model(book.raw, book.student, book.number)
     if like is not None:
         fields = tuple(iter_fields(model))
-        if _shape(fields) == _shape(like.model.inputs):
+        if tables_shape(fields) == tables_shape(like.model.inputs):
             return like.with_model(like.model.with_inputs(model, fields))
     return assignment_of(build_model(model), rubric)
-
-
-def _shape(fields: Iterable[Field]) -> list[tuple[str, Value | None]]:
-    """All that the tables of an input follow from: everything but its plain numbers."""
-    return [(field.name, field.value if _shapes(field) else None) for field in fields]
-
-
-def _shapes(field: Field) -> bool:
-    text = isinstance(field.value, str) and field.path[0] != "report"
-    phase = field.path[0] == "crankshaft" and field.name.endswith("_deg")  # tables shift by them
-    return field.structural or text or phase
 
 
 def _with_title(raw: dict[str, Any], student: Student, number: int) -> dict[str, Any]:

@@ -1,0 +1,243 @@
+"""Files made by the commands in processes of their own: a queue that stands on the disk.
+
+A job is a folder named by its content and the server's secret: the same order is made once,
+and nobody guesses another's.  ``order.json`` stands from the beginning, ``done.json`` at the
+end; what has the first alone when the server starts is made again.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import hashlib
+import hmac
+import json
+import os
+import shutil
+import signal
+import sys
+import time
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from reports.shared.errors import InputError, Problem, one_line
+from reports.shared.files import make_dir, write_text
+
+TIMEOUT_S = 300.0
+MOST_WAITING, MOST_OWN = 500, 6
+MOST_BYTES = 2 * 10**9  # of all files kept
+KEEP_S = 14 * 86400.0
+_KSHM = (
+    "from reports.web.limited import begin; begin(); from reports.__main__ import start; start()"
+)
+_LINES = 40  # of what a command said
+_SYSTEM = ("PATH", "HOME", "LANG", "LC_ALL", "TMPDIR", "PYTHONPATH", "SYSTEMROOT", "TEMP",
+           "FONTCONFIG_PATH", "FONTCONFIG_FILE", "XDG_CACHE_HOME")  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Said:
+    """How a command ended: its code and what it said."""
+
+    code: int
+    lines: tuple[str, ...]
+    out: str = ""
+
+
+async def run(arguments: Sequence[str], folder: Path, timeout_s: float = TIMEOUT_S) -> Said:
+    """Run a command of kshm in a folder with limits; its whole group ends with it."""
+    kept = {key: os.environ[key] for key in _SYSTEM if key in os.environ}
+    home = [str(Path(__file__).resolve().parents[2]), kept.get("PYTHONPATH", "")]
+    kept |= {"PYTHONPATH": os.pathsep.join(filter(None, home)), "PYTHONIOENCODING": "utf-8"}
+    own = arguments[0] in ("book", "zip")
+    program = ("-m", "reports.web.limited") if own else ("-c", _KSHM)
+    process = await asyncio.create_subprocess_exec(
+        sys.executable, *program, *arguments,
+        cwd=folder, env=kept, stdin=asyncio.subprocess.DEVNULL, stdout=asyncio.subprocess.PIPE,
+        stderr=asyncio.subprocess.PIPE, start_new_session=True,
+    )  # fmt: skip
+    try:
+        out, said = await asyncio.wait_for(process.communicate(), timeout_s)
+    except TimeoutError:
+        return Said(-1, (f"не сделано за {timeout_s:.0f} с: уменьшите расчёт",))
+    finally:
+        _end(process)
+        with contextlib.suppress(asyncio.CancelledError):
+            await process.wait()
+    if process.returncode is not None and process.returncode < 0:
+        return Said(process.returncode, ("процесс прерван: повторите",))
+    lines = [one_line(line, 400) for line in said.decode("utf-8", "replace").splitlines()]
+    return Said(
+        process.returncode or 0, tuple(line for line in lines if line)[:_LINES],
+        out.decode("utf-8", "replace"),
+    )  # fmt: skip
+
+
+def _end(process: asyncio.subprocess.Process) -> None:
+    with contextlib.suppress(ProcessLookupError, PermissionError):
+        if hasattr(os, "killpg"):
+            os.killpg(process.pid, signal.SIGKILL)
+        else:
+            process.kill()
+
+
+class Jobs:
+    """The queue: everybody's first order before anybody's second.
+
+    Args:
+        folder: where the jobs lie.
+        secret: what makes their names unguessable.
+        at_once: how many are made at the same time.
+    """
+
+    def __init__(self, folder: Path, secret: bytes, at_once: int) -> None:
+        self.folder, self.secret, self.at_once = folder, secret, at_once
+        self.waiting: dict[str, str] = {}  # job → visitor, in the order of coming
+        self.running: dict[str, float] = {}
+        self._owner: dict[str, str] = {}
+        self._wake = asyncio.Event()
+        self._tasks: set[asyncio.Task[None]] = set()
+
+    def start(self) -> None:
+        """Take up what an earlier server has left, and begin."""
+        make_dir(self.folder)
+        orders = [path.parent for path in self.folder.glob("*/order.json")]
+        left = [path for path in orders if not (path / "done.json").exists()]
+        for path in sorted(left, key=lambda path: (path / "order.json").stat().st_mtime):
+            shutil.rmtree(path / "out", ignore_errors=True)
+            self.waiting[path.name] = self._order(path.name)["visitor"]
+        self._clean()
+        for _ in range(self.at_once):
+            self._tasks.add(asyncio.create_task(self._work()))
+        self._wake.set()
+
+    async def stop(self) -> None:
+        """End what runs; it is made again by the next server."""
+        for task in self._tasks:
+            task.cancel()
+        await asyncio.gather(*self._tasks, return_exceptions=True)
+
+    def add(self, files: Mapping[str, str], commands: Sequence[Sequence[str]], visitor: str) -> str:
+        """An order: files by name, commands to run beside them; the name of the job.
+
+        Raises:
+            InputError: the queue is full, or the visitor has enough in it.
+        """
+        text = json.dumps([files, commands, _version()], ensure_ascii=False, sort_keys=True)
+        name = hmac.new(self.secret, text.encode(), hashlib.sha256).hexdigest()[:40]
+        folder = self.folder / name
+        if name in self.waiting or name in self.running:
+            return name
+        if (self.about(name) or {}).get("state") == "done":
+            os.utime(folder / "done.json")
+            return name
+        own = sum(who == visitor for who in (*self.waiting.values(), *self._owner.values()))
+        if len(self.waiting) >= MOST_WAITING or own >= MOST_OWN:
+            what = "очередь полна" if own < MOST_OWN else f"у вас уже {own} файлов в очереди"
+            raise InputError(Problem("", what, "дождитесь их"))
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(mode=0o700)
+        for file, content in files.items():
+            write_text(folder / file, content)
+        order = {"visitor": visitor, "commands": [list(command) for command in commands]}
+        write_text(folder / "order.json", json.dumps(order, ensure_ascii=False))
+        self.waiting[name] = visitor
+        self._wake.set()
+        return name
+
+    def line(self) -> list[str]:
+        """The waiting jobs in the order in which they will be made."""
+        turn = Counter(self._owner.values())
+        ordered = []
+        for place, (name, visitor) in enumerate(self.waiting.items()):
+            ordered.append((turn[visitor], place, name))
+            turn[visitor] += 1
+        return [name for _, _, name in sorted(ordered)]
+
+    def about(self, name: str) -> dict[str, Any] | None:
+        """How far a job is; None if there is no such job."""
+        if name in self.waiting:
+            return {"state": "waiting", "place": self.line().index(name) + len(self.running)}
+        if name in self.running:
+            return {"state": "running", "seconds": round(time.monotonic() - self.running[name])}
+        if not (len(name) == 40 and name.isalnum() and name.isascii()):  # a name, never a path
+            return None
+        try:
+            found: dict[str, Any] = json.loads(
+                (self.folder / name / "done.json").read_text(encoding="utf-8")
+            )
+        except (OSError, ValueError):
+            return None
+        return found
+
+    def file(self, name: str, file: str) -> Path | None:
+        """A file that a job has made; only those that it names itself."""
+        about = self.about(name)
+        files = [each["name"] for each in (about or {}).get("files", ())]
+        return self.folder / name / "out" / file if file in files else None
+
+    async def _work(self) -> None:
+        while True:
+            line = self.line()
+            if not line:
+                self._wake.clear()
+                await self._wake.wait()
+                continue
+            name = line[0]
+            self._owner[name] = self.waiting.pop(name)
+            self.running[name] = time.monotonic()
+            try:
+                await self._make(name)
+            finally:
+                self.running.pop(name, None)
+                self._owner.pop(name, None)
+
+    async def _make(self, name: str) -> None:
+        folder = self.folder / name
+        out, code = folder / "out", 0
+        lines: list[str] = []
+        try:
+            out.mkdir(exist_ok=True)
+            for command in self._order(name)["commands"]:
+                said = await run(command, folder)
+                lines += said.lines
+                code = said.code
+                if code not in (0, 1):
+                    break
+            files = [{"name": path.name, "size": path.stat().st_size}
+                     for path in sorted(out.iterdir()) if path.is_file()]  # fmt: skip
+        except OSError:
+            code, files, lines = 2, [], ["на сервере не удаётся записать файл; сообщите кафедре"]
+        good = code in (0, 1, 3) and bool(files)
+        done = {"state": "done" if good else "failed", "files": files if good else [],
+                "lines": [line.replace(f"{folder}/", "") for line in lines]}  # fmt: skip
+        with contextlib.suppress(Exception):  # a full disk must not end the queue
+            write_text(folder / "done.json", json.dumps(done, ensure_ascii=False))
+            self._clean()
+
+    def _order(self, name: str) -> dict[str, Any]:
+        found: dict[str, Any] = json.loads(
+            (self.folder / name / "order.json").read_text(encoding="utf-8")
+        )
+        return found
+
+    def _clean(self) -> None:
+        """Forget the oldest files where they are too old or too many."""
+        done = sorted(self.folder.glob("*/done.json"), key=lambda path: -path.stat().st_mtime)
+        size = 0
+        for path in done:
+            size += sum(each.stat().st_size for each in path.parent.rglob("*") if each.is_file())
+            if size > MOST_BYTES or time.time() - path.stat().st_mtime > KEEP_S:
+                shutil.rmtree(path.parent, ignore_errors=True)
+
+
+def _version() -> str:
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        return version("kshm")
+    except PackageNotFoundError:
+        return ""

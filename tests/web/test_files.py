@@ -1,0 +1,78 @@
+"""Files are made by the commands: one after another, fairly, once for one content."""
+
+from __future__ import annotations
+
+import io
+import time
+import tomllib
+import zipfile
+from typing import Any
+
+import pytest
+from starlette.testclient import TestClient
+
+from reports.commands.engine import build
+from reports.web.files import kinds
+from tests.web.conftest import MARK, Page
+
+
+def made(page: Page, **data: Any) -> tuple[str, dict[str, Any]]:
+    job = page.post("/api/files", data)["id"]
+    for _ in range(600):
+        found = page.get(f"/api/files/{job}")
+        if found["state"] in ("done", "failed"):
+            return job, found
+        time.sleep(0.1)
+    raise AssertionError(found)
+
+
+def test_kinds_are_those_of_the_command() -> None:
+    only = next(option for option in build.params if option.name == "only")
+    assert set(only.type.choices) < set(kinds())  # type: ignore[attr-defined]
+
+
+def test_workbook_down_and_up_again(page: Page, client: TestClient) -> None:
+    raw = page.sample()
+    raw["regime"]["speed_rpm"] = 3210.0
+    job, found = made(page, raw=raw, kind="xlsx")
+    assert [each["name"] for each in found["files"]] == ["engine.xlsx"]
+    answer = client.get(f"/api/files/{job}/engine.xlsx")
+    assert answer.headers["content-disposition"].startswith("attachment")
+    heads = {**MARK, "content-type": "application/octet-stream"}
+    back = client.post("/api/book", content=answer.content, headers=heads).json()
+    assert back["raw"]["regime"]["speed_rpm"] == 3210.0
+    assert not page.post("/api/solve", {"raw": back["raw"], "sheet": "П4.1"})["errors"]
+    # The same once more is there at once.
+    assert page.post("/api/files", {"raw": raw, "kind": "xlsx"})["id"] == job
+    assert page.get(f"/api/files/{job}")["state"] == "done"
+
+
+def test_tables_and_numbers(page: Page, client: TestClient) -> None:
+    raw = page.sample()
+    job, _ = made(page, raw=raw, kind="csv")
+    data = client.get(f"/api/files/{job}/tables.zip").content
+    assert "P3_1.csv" in zipfile.ZipFile(io.BytesIO(data)).namelist()
+    job, _ = made(page, raw=raw, kind="json")
+    assert client.get(f"/api/files/{job}/engine.json").json()["tables"]["P3_1"]
+    text = page.post("/api/toml", {"raw": raw})["text"]
+    assert tomllib.loads(text)["geometry"]["bore_mm"] == 88
+
+
+def test_a_comparison_needs_two(page: Page) -> None:
+    raw = page.sample()
+    page.post("/api/files", {"raw": raw, "kind": "compare-xlsx"}, 422)
+    _, found = made(page, raw=raw, other=page.sample("yamz-236"), kind="compare-xlsx")
+    assert [each["name"] for each in found["files"]] == ["compare.xlsx"]
+
+
+def test_bad_values_make_no_job(page: Page) -> None:
+    raw = page.sample()
+    raw["geometry"]["bore_mm"] = -1
+    errors = page.post("/api/files", {"raw": raw, "kind": "pdf"}, 422)["errors"]
+    assert errors[0]["where"] == "geometry.bore_mm"
+
+
+@pytest.mark.parametrize("name", ["../secret.key", "order.json", "..%2forder.json", "engine.toml"])
+def test_only_what_was_made_is_given(page: Page, client: TestClient, name: str) -> None:
+    job, _ = made(page, raw=page.sample(), kind="json")
+    assert client.get(f"/api/files/{job}/{name}").status_code == 404

@@ -1,0 +1,262 @@
+"""Requests that no page of ours sends: each is refused in a line, none reaches anybody else."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+from typing import Any
+
+import pytest
+from starlette.testclient import TestClient
+
+from reports.web.app import Settings, create_app, server_secret
+from reports.web.guard import MOST_JSON, Rate
+from reports.web.teacher import token_of
+from tests.grading import classroom, hostile
+from tests.grading.fill import filled_book
+from tests.web.conftest import MARK, Page
+
+FILE = {**MARK, "content-type": "application/octet-stream"}
+SOLVE = "/api/solve"
+
+
+def is_refused(answer: Any, *codes: int) -> None:
+    assert answer.status_code in codes, (answer.status_code, answer.text[:300])
+    errors = answer.json()["errors"]
+    assert errors and "Traceback" not in answer.text
+    assert all("\n" not in error["what"] for error in errors)
+
+
+PATHS = [
+    "/static/../secret.key", "/static/..%2f..%2fpool.py", "/static/%2e%2e/app.py", "/secret.key",
+    "/api/files/..", "/api/files/../secret.key", "/api/files/%2e%2e%2fsecret.key/x",
+    "/api/files/" + "a" * 40, "/api/files/" + "a" * 40 + "/..%2f..%2fsecret.key",
+    "/api/files/" + "٠" * 40 + "/x", "/api/files/\u202e/x", "/api/files/" + "x" * 5000,
+    "/api/teacher/../../secret.key", "/api/student/..%2f..", "/api/student/",
+    "/s/", "/static/engine.js/..", "/static/page.py", "/static//etc/passwd", "//etc/passwd",
+    "/api/files/C:%5Cwindows/win.ini", "/api/files/%00/x",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("path", PATHS)
+def test_no_path_of_a_request_is_a_path_of_the_disk(client: TestClient, path: str) -> None:
+    clean = TestClient(client.app, base_url="http://127.0.0.1:8321", follow_redirects=False)
+    answer = clean.get(path)
+    assert answer.status_code in (403, 404, 307), answer.text[:200]
+    assert "import " not in answer.text
+
+
+@pytest.mark.parametrize(
+    ("headers", "code"),
+    [
+        ({"origin": "https://evil.example"}, 403),
+        ({"origin": "null"}, 403),
+        ({"origin": "http://127.0.0.1:9999"}, 403),
+        ({"origin": "http://127.0.0.1.evil.example:8321"}, 403),
+        ({"sec-fetch-site": "cross-site"}, 403),
+        ({"sec-fetch-site": "same-site"}, 403),
+        ({"x-kshm": None}, 403),
+        ({"host": "evil.example"}, 421),
+        ({"host": "127.0.0.1.evil.example"}, 421),
+        ({"host": ""}, 421),
+        ({"content-type": "text/plain"}, 415),
+        ({"content-type": "application/x-www-form-urlencoded"}, 415),
+        ({"content-type": "multipart/form-data; boundary=x"}, 415),
+    ],
+)
+def test_foreign_pages_and_hosts(client: TestClient, headers: dict[str, Any], code: int) -> None:
+    given = {**MARK, "content-type": "application/json", **headers}
+    given = {key: value for key, value in given.items() if value is not None}
+    if "x-kshm" in headers:
+        given.pop("X-Kshm", None)
+    is_refused(client.post(SOLVE, content=b"{}", headers=given), code)
+
+
+@pytest.mark.parametrize("method", ["PUT", "DELETE", "PATCH", "OPTIONS", "TRACE"])
+def test_other_methods(client: TestClient, method: str) -> None:
+    is_refused(client.request(method, SOLVE, headers=MARK), 405)
+
+
+BODIES = [
+    b"", b"[]", b"null", b"{", b'"raw"', b"[" * 100_000, b'{"raw":' * 50_000, b"\xff\xfe{}",
+    b'{"raw": NaN}', b'{"raw": {"geometry": {"bore_mm": Infinity}}}', b'{"raw": 1}', b'{"raw": []}',
+    b'{"raw": {"__proto__": {}, "constructor": 1}}', b'{"raw": {"' + b"a" * 100_000 + b'": 1}}',
+    b'{"raw": {"engine": {"cylinders": ' + b"9" * 4000 + b"}}}",
+    b'{"raw": {"engine": null, "geometry": 1, "crankshaft": "x"}}',
+    b'{"raw": {"crankshaft": {"webs": ' + b"[{}," * 20 + b"{}" + b"]" * 20 + b"}}}",
+    b'{"raw": {}, "sheet": {"$gt": ""}}',
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("content", BODIES, ids=range(len(BODIES)))
+def test_bodies_that_are_no_engine(client: TestClient, content: bytes) -> None:
+    head = {**MARK, "content-type": "application/json"}
+    is_refused(client.post(SOLVE, content=content, headers=head), 200, 422)
+
+
+@pytest.mark.parametrize("path", [SOLVE, "/api/new", "/api/read", "/api/files", "/api/login"])
+def test_giant_bodies(client: TestClient, path: str) -> None:
+    head = {**MARK, "content-type": "application/json"}
+    is_refused(client.post(path, content=b" " * (MOST_JSON + 1), headers=head), 413)
+
+
+TOML = [
+    "", "x", "a" * 100 + "." * 50_000, "[a]\n" * 30_000, "a = " + "[" * 5000, "a = 1\na = 2",
+    "x = " + "9" * 5000, '[gas]\nsource = "file"\nfile = "/etc/passwd"', "[__proto__]", 5, None,
+    {"a": 1}, "\x00", "a = '''" + "x" * 100_000,
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("text", TOML, ids=range(len(TOML)))
+def test_hostile_toml(page: Page, text: Any) -> None:
+    found = page.client.post("/api/read", json={"text": text}, headers=MARK)
+    if found.status_code == 200 and "errors" not in found.json():
+        found = page.client.post(SOLVE, json={**found.json(), "sheet": ""}, headers=MARK)
+    is_refused(found, 200, 422)
+
+
+@pytest.mark.parametrize(
+    "kind", [None, "", "exe", "../xlsx", "compare-", ["pdf"], {"a": 1}, "csv;id"]
+)
+def test_no_such_file(page: Page, kind: Any) -> None:
+    is_refused(page.client.post("/api/files", json={"raw": {}, "kind": kind}, headers=MARK), 422)
+
+
+@pytest.mark.parametrize(
+    "wanted",
+    [{"cylinders": 10**9}, {"cylinders": -1}, {"cylinders": True}, {"cylinders": "4"}, {},
+     {"sample": "../secret"}, {"sample": ["x"]}, {"cylinders": 4, "layout": "; rm"},
+     {"cylinders": 4, "power": 1e308}, {"cylinders": 4, "speed": -5}, {"cylinders": 4, "raw": {}},
+     {"cylinders": 4, "power": "x"}, {"cylinders": 4, "raw": 5}],
+)  # fmt: skip
+def test_no_such_engine(page: Page, wanted: dict[str, Any]) -> None:
+    is_refused(page.client.post("/api/new", json=wanted, headers=MARK), 200, 422)
+
+
+@pytest.mark.parametrize("token", ["", "x", "0" * 32, "0" * 64, "'; --", "\u0430" * 32])
+def test_forged_tokens(client: TestClient, token: str) -> None:
+    fresh = TestClient(client.app, base_url="http://127.0.0.1:8321")
+    is_refused(fresh.post("/api/login", json={"token": token}, headers=MARK), 403, 429)
+    headers = {"cookie": f"kshm_teacher=99999999999.{token}".encode()}
+    is_refused(fresh.get("/api/teacher", headers=headers), 403)
+
+
+@pytest.mark.parametrize(
+    "cookie", ["", "1.x", "-1.x", "x.y", "99999999999." + "0" * 64, "²." + "0" * 64]
+)
+def test_forged_passes(client: TestClient, cookie: str) -> None:
+    fresh = TestClient(client.app, base_url="http://127.0.0.1:8321")
+    headers = {"cookie": f"kshm_teacher={cookie}".encode()}
+    is_refused(fresh.get("/api/teacher", headers=headers), 403)
+
+
+DOORS = ["", "/works", "/worksheet", "/grade", "/decide", "/open"]
+
+
+@pytest.mark.parametrize("door", DOORS)
+def test_the_instructors_doors_are_shut(client: TestClient, door: str) -> None:
+    fresh = TestClient(client.app, base_url="http://127.0.0.1:8321")
+    path = f"/api/teacher/{'0' * 16}{door}"
+    answer = fresh.post(path, json={}, headers=MARK) if door else fresh.get(path)
+    is_refused(answer, 403)
+
+
+@pytest.mark.parametrize("link", ["x", "0" * 16 + "-1-" + "0" * 32, "0" * 16 + "-01-" + "0" * 32])
+def test_links_that_were_not_given(client: TestClient, link: str) -> None:
+    for end in ("", "/book", "/page"):
+        assert client.get(f"/api/student/{link}{end}").status_code == 404
+    assert client.post(f"/api/student/{link}/work", content=b"PK", headers=FILE).status_code == 404
+
+
+def _books() -> list[tuple[str, bytes]]:
+    """A handful of hostile books: each read costs a process of its own."""
+    book = filled_book(classroom.handout(), classroom.assignment())
+    found = dict(hostile.hostile_files(book, classroom.book().ticket, "x"))
+    wanted = [b"not a book", b"MZ", b"PK\x03\x04", hostile.bomb()]
+    chosen = [data for name, data in found.items() if name.endswith(".xlsx")][:4]
+    return [(str(i), data) for i, data in enumerate((*wanted, *chosen))]
+
+
+def test_hostile_books(client: TestClient) -> None:
+    for name, data in _books():
+        answer = client.post("/api/book", content=data, headers=FILE)
+        assert answer.status_code == 422, (name, answer.text[:200])
+        is_refused(answer, 422)
+    data = client.app.app.state.settings.data  # type: ignore[attr-defined]
+    assert not list(data.glob("book-*"))
+
+
+XSS = "<script>alert(1)</script>\"'><img src=x onerror=alert(1)>"
+
+
+def test_names_stay_names(page: Page, client: TestClient) -> None:
+    raw = page.sample()
+    raw["engine"]["name"] = XSS
+    answer = client.post("/api/start", json={"raw": raw}, headers=MARK)
+    assert answer.headers["content-type"].startswith("application/json")
+    assert answer.headers["x-content-type-options"] == "nosniff"
+    policy = client.get("/").headers["content-security-policy"]
+    assert "script-src 'self';" in policy and "frame-ancestors 'none'" in policy
+    for name in ("common", "engine", "teacher", "student", "charts"):
+        text = client.get(f"/static/{name}.js").text
+        assert "innerHTML" not in text and "insertAdjacentHTML" not in text and "eval(" not in text
+
+
+def test_a_slow_body_is_given_up(tmp_path: Path) -> None:
+    sent: list[Any] = []
+
+    async def drip() -> Any:
+        await asyncio.sleep(0.05)
+        return {"type": "http.request", "body": b"x", "more_body": True}
+
+    async def keep(message: Any) -> None:
+        sent.append(message)
+
+    guard = create_app(Settings(tmp_path, body_s=0.3))
+    heads = {"host": "localhost", "x-kshm": "1", "content-type": "application/json"}
+    scope = {
+        "type": "http", "method": "POST", "path": "/api/new", "raw_path": b"/api/new",
+        "query_string": b"", "client": ("1.2.3.4", 1), "scheme": "http", "root_path": "",
+        "headers": [(key.encode(), value.encode()) for key, value in heads.items()],
+    }  # fmt: skip
+    asyncio.run(guard(scope, drip, keep))
+    assert sent[0]["status"] == 408
+
+
+def test_one_address_may_not_ask_for_ever() -> None:
+    rate = Rate(per_s=1, burst=5)
+    assert sum(rate.allows("1.2.3.4") for _ in range(50)) == 5
+    assert rate.allows("5.6.7.8")
+
+
+def test_behind_a_proxy_under_a_path(tmp_path: Path) -> None:
+    app = create_app(Settings(tmp_path, ("kafedra.example",), "/kshm", per_s=1e6, workers=1))
+    with TestClient(app, base_url="http://127.0.0.1:8321") as proxied:
+        head = {"host": "kafedra.example"}
+        assert "api/" not in proxied.get("/kshm/", headers=head).text
+        assert proxied.get("/kshm/static/engine.js", headers=head).status_code == 200
+        assert proxied.get("/api/choices", headers=head).status_code == 200
+        own = {**head, **MARK, "origin": "https://kafedra.example"}
+        assert (
+            proxied.post("/kshm/api/new", json={"sample": "gots-p3"}, headers=own).status_code
+            == 200
+        )
+        own["origin"] = "https://other.example"
+        assert proxied.post("/kshm/api/new", json={}, headers=own).status_code == 403
+
+
+@pytest.mark.parametrize(
+    ("host", "code"), [("192.168.1.5:8321", 200), ("[fe80::1]:80", 200), ("evil.example", 421)]
+)
+def test_in_a_network_an_address_is_known_and_a_name_is_not(
+    tmp_path: Path, host: str, code: int
+) -> None:
+    app = create_app(Settings(tmp_path, ("*",), workers=1))
+    assert TestClient(app).get("/", headers={"host": host}).status_code == code
+
+
+def test_secrets_lie_closed(client: TestClient) -> None:
+    data = client.app.app.state.settings.data  # type: ignore[attr-defined]
+    assert (data / "secret.key").stat().st_mode & 0o077 == 0
+    secret = server_secret(data)
+    assert token_of(secret) not in secret.hex()

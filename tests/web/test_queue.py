@@ -1,0 +1,135 @@
+"""The queue is fair, full only for who fills it, and survives what dies around it."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import signal
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from starlette.testclient import TestClient
+
+from reports.shared.errors import InputError
+from reports.web import jobs as room
+from reports.web.app import Settings, create_app
+from reports.web.jobs import MOST_OWN, Jobs, Said
+from tests.web.conftest import Page
+from tests.web.test_files import made
+
+
+def waiting(folder: Path) -> Jobs:
+    made = Jobs(folder, b"secret", at_once=1)
+    folder.mkdir(exist_ok=True)
+    return made
+
+
+def added(jobs: Jobs, *visitors: str) -> list[str]:
+    return [jobs.add({"a": str(i)}, [["solve"]], who) for i, who in enumerate(visitors)]
+
+
+def test_everybodys_first_comes_before_anybodys_second(tmp_path: Path) -> None:
+    jobs = waiting(tmp_path)
+    one, two, three, other, last = added(jobs, "a", "a", "a", "b", "c")
+    assert jobs.line() == [one, other, last, two, three]
+    about: Any = jobs.about(other)
+    assert about == {"state": "waiting", "place": 1}
+
+
+def test_nobody_fills_the_queue_alone(tmp_path: Path) -> None:
+    jobs = waiting(tmp_path)
+    added(jobs, *["a"] * MOST_OWN)
+    with pytest.raises(InputError, match="дождитесь"):
+        jobs.add({"a": "more"}, [["solve"]], "a")
+    jobs.add({"a": "more"}, [["solve"]], "b")
+    assert jobs.add({"a": "0"}, [["solve"]], "b") in jobs.waiting  # the same content: the same job
+    assert len(jobs.waiting) == MOST_OWN + 1
+
+
+def test_names_hang_on_the_servers_secret(tmp_path: Path) -> None:
+    one, other = waiting(tmp_path / "a"), Jobs(tmp_path / "b", b"other", 1)
+    other.folder.mkdir()
+    assert added(one, "a") != added(other, "a")
+
+
+def until(true: Callable[[], Any], seconds: float = 60.0) -> Any:
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        found = true()
+        if found:
+            return found
+        time.sleep(0.05)
+    raise AssertionError
+
+
+def test_a_killed_solver_and_a_killed_job_cost_one_answer(tmp_path: Path) -> None:
+    app = create_app(Settings(tmp_path, per_s=1e6, workers=1))
+    with TestClient(app, base_url="http://localhost") as client:
+        page = Page(client)
+        raw = page.sample()
+        state = app.app.state  # type: ignore[attr-defined]
+        for process in state.pool.processes:
+            os.kill(process, signal.SIGKILL)
+        time.sleep(0.2)
+        assert not page.post("/api/solve", {"raw": raw, "sheet": "П4.1"})["errors"]
+
+        job = page.post("/api/files", {"raw": raw, "kind": "xlsx"})["id"]
+        until(lambda: state.jobs.running)
+        until(lambda: _children(job) or None)
+        for process in _children(job):
+            os.kill(process, signal.SIGKILL)
+        done = until(lambda: (page.get(f"/api/files/{job}")["state"] == "failed") or None)
+        assert done
+        assert "прерван" in page.get(f"/api/files/{job}")["lines"][0]
+        # Ordered again it is made again.
+        assert made(page, raw=raw, kind="xlsx")[1]["state"] == "done"
+
+
+def _children(job: str) -> list[int]:
+    """Processes that work in the folder of a job."""
+    found = []
+    for path in Path("/proc").glob("[0-9]*"):
+        try:
+            if path.joinpath("cwd").readlink().name == job:
+                found.append(int(path.name))
+        except OSError:
+            continue
+    return found
+
+
+def test_a_killed_server_makes_its_job_again(tmp_path: Path) -> None:
+    settings = Settings(tmp_path, per_s=1e6, workers=1)
+    with TestClient(create_app(settings), base_url="http://localhost") as client:
+        page = Page(client)
+        raw = page.sample()
+        job = page.post("/api/files", {"raw": raw, "kind": "json"})["id"]
+        state = client.app.app.state  # type: ignore[attr-defined]
+        until(lambda: state.jobs.running)
+    folder = tmp_path / "jobs" / job
+    assert (folder / "order.json").exists() and not (folder / "done.json").exists()
+    with TestClient(create_app(settings), base_url="http://localhost") as client:
+        page = Page(client)
+        until(lambda: page.get(f"/api/files/{job}")["state"] == "done")
+        assert page.get(f"/api/files/{job}")["files"][0]["name"] == "engine.json"
+
+
+def test_a_job_that_takes_too_long_is_ended(tmp_path: Path) -> None:
+    said = asyncio.run(room.run(["solve", "x.toml"], tmp_path, timeout_s=0.05))
+    assert isinstance(said, Said) and said.code == -1 and "не сделано" in said.lines[0]
+
+
+def test_the_oldest_files_are_forgotten(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(room, "MOST_BYTES", 2500)
+    jobs = waiting(tmp_path)
+    for index in range(4):
+        folder = tmp_path / f"{index}"
+        folder.mkdir()
+        (folder / "file").write_bytes(b"x" * 1000)
+        (folder / "done.json").write_text(json.dumps({"state": "done"}), encoding="utf-8")
+        os.utime(folder / "done.json", (time.time() - index, time.time() - index))
+    jobs._clean()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["0", "1"]

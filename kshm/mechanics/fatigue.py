@@ -18,7 +18,7 @@ class Swing:
 
     @classmethod
     def of(cls, largest: Array, smallest: Array, modulus: Array) -> Swing:
-        """From the extremes of a moment [N·m] and the modulus of the section [m³]."""
+        """From the extremes of a moment [N·m] and the modulus [m³], elementwise, statics."""
         return cls((largest - smallest) / 2 / modulus, (largest + smallest) / 2 / modulus)
 
 

@@ -48,7 +48,7 @@ class BearingArrays:
         return number
 
     def flow(self, eccentricity: Array, viscosity: Array, pressure: float) -> Array:
-        """Oil through the bearing [m³/s]: side flow and that of the supply [Pa], ISO 7902."""
+        """Oil through the bearing [m³/s]: supply at [Pa], elementwise, ISO 7902."""
         push = pressure / viscosity
         out = oil_film.side_flow(eccentricity, self.diameter, self.width, self.psi, self.omega)
         through = oil_film.groove_flow(eccentricity, self.diameter, self.land, self.psi, push)
@@ -92,7 +92,7 @@ def balance(
     supply: tuple[float, float],
     temperature: float | None = None,
 ) -> Balance:
-    """Steady bearings whose oil carries their heat away, conservation of energy.
+    """Steady bearings, shape (bearings,), whose oil takes their heat, conservation of energy.
 
     The film is half as much warmer than the supply as the oil that leaves it.
 

@@ -18,7 +18,7 @@ from kshm.engine.bearings import LEAST_WIDTH, MOST_WIDTH
 
 
 def check_widths(width: Array) -> None:
-    """Refuse widths over the diameter b [-] for which the closed forms do not hold, any shape.
+    """Refuse widths over the diameter b [-] outside Butenschön's tables, any shape.
 
     Raises:
         ValueError: b is outside 0.1…1.
@@ -47,7 +47,7 @@ class Film:
 
     @classmethod
     def of(cls, width: Array) -> Film:
-        """Film of bearings of the widths b [-], any shape."""
+        """Film of bearings of the widths b [-], any shape, Butenschön."""
         b = np.asarray(width, dtype=float)
         return cls(
             -(b**2) / 2 * _polynomial(b, 1.1642, -1.9456, 7.1161, -10.1073, 5.0141),
@@ -110,7 +110,7 @@ def squeeze_number(eccentricity: Array, width: Array) -> Array:
 
 
 def steady_eccentricity(load_number: Array, width: Array) -> Array:
-    """ε [-] at which So_D carries a steady load of that number, elementwise, by bisection."""
+    """ε [-] at which So_D carries a steady load of that number, elementwise, Butenschön."""
     film = Film.of(width)
     low = np.zeros(np.broadcast(load_number, width).shape)
     high = np.ones_like(low)
@@ -183,6 +183,6 @@ def viscosity(temperature: Array, at_40: Array, at_100: Array) -> Array:
 
 
 def gap(eccentricity: Array, clearance: Array) -> Array:
-    """Least thickness of the film Δ/2·(1 − ε) [m] under a diametral clearance [m], elementwise."""
+    """Least film Δ/2·(1 − ε) [m] under a diametral clearance [m], elementwise, statics."""
     least: Array = clearance / 2 * (1 - eccentricity)
     return least

@@ -21,7 +21,8 @@ UNIT = re.compile(r"\[[^\]]+\]|\bSI\b")
 SOURCE = re.compile(
     r"Gots|Segal|Neiman|Chudakov|Ilchenko|Dinn|Fritsch|Clapeyron|Lanchester|statics|figure|"
     r"Grinevetsky|Mazing|Leiderman|Kolchin|Dizdn|definition|conservation|GOST|"
-    r"Holzer|Ker Wilson|Carter|Zimanenko|Den Hartog"
+    r"Holzer|Ker Wilson|Carter|Zimanenko|Den Hartog|"
+    r"Butenschön|ISO 7902|Poiseuille|Vogel|Serensen|IACS|both film equations"
 )
 
 

@@ -158,6 +158,15 @@ BANDS: tuple[Band, ...] = (
     Band("torsion.speed_max_rpm", "n", "n_max/n", 0.5, 2.5),
     Band("torsion.web_width_mm", "D", "b/D", 0.4, 3),
     Band("torsion.web_thickness_mm", "D", "h/D", 0.06, 0.59),
+    *(
+        Band(f"bearings.{part}_clearance_{end}_mm", "D", "Δ/D", low, 9.5 * low)
+        for part in ("pin", "main")
+        for end, low in (("min", 0.0002), ("max", 0.0004))
+    ),
+    *(
+        Band(f"bearings.{part}_um", "", "высота", 0.25, 2.4, unit="мкм", zero=True)
+        for part in ("journal_roughness", "shell_roughness", "form")
+    ),
     Band("bearings.supply_mpa", "", "давление масла", 0.12, 0.95, unit="МПа"),
     Band("bearings.hole_mm", "D", "d_м/D", 0.015, 0.14),
     Band("bearings.supply_c", "", "температура масла", 40, 120, unit="°C"),

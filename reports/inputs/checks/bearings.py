@@ -70,9 +70,11 @@ def _widths(
                 f"ширина {_WORDS[part]} подшипника к диаметру B/d = {number_text(round(share, 3))}:"
                 " формулы масляной плёнки для неё не проверены"
             )
-            key = "width" if given is not None or not groove else "groove"
+            path = ("bearings", f"{part}_{'width' if given is not None else 'groove'}_mm")
+            if given is None and not groove:
+                path = ("crankshaft", f"{part}_diameter_mm")
             hint = f"нужно от {LEAST_WIDTH:g} до {MOST_WIDTH:g} и шире масляного отверстия"
-            yield Finding(("bearings", f"{part}_{key}_mm"), what, hint)
+            yield Finding(path, what, hint)
             return
 
 

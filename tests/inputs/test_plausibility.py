@@ -26,6 +26,11 @@ TOLERABLE = {
     "crankshaft.nose_angle_deg": "a counterweight may stand at any angle",
     "crankshaft.rear_angle_deg": "a counterweight may stand at any angle",
     "cycle.charge_heating_k": "between none and little heating nothing changes",
+    "torsion.damping_nms_rad": "damping is known by its order at best",
+    "torsion.masses.inertia_kg_m2": "the first mass may be a small pulley or a heavy damper",
+    "torsion.masses.stiffness_nm_rad": "what joins masses may be a shaft or a soft coupling",
+    "torsion.other_flywheel_kg_m2": "any other flywheel may be tried",
+    "torsion.peaks.speed_rpm": "the curve of pressures may begin at any speed",
     "reference.angle_deg": "a scheme may show any angle",
 }
 # Told at what follows from them: the sizes found for a power, the lists of a shaft.

@@ -11,7 +11,6 @@ STYLE = "ЕСКД"
 _FONT = "isocpeur.ttf"  # of AutoCAD and its kin, with Cyrillic
 _SLANT = 15.0
 _BLACK, _GREY = 7, 8
-_MILLIMETRES = 4
 
 
 def dxf_bytes(items: Iterable[Item]) -> bytes:

@@ -9,6 +9,7 @@ from pdftools import fonts_of, pages_of
 from report_samples import ONE, html_page, terms, terms_of
 
 from reports.document import store
+from reports.document.chapters.dynamics import _pressure_at, _pressure_tex
 from reports.document.page.render import render
 from reports.document.report import report_html, report_page
 from reports.document.text.mathsvg import formula, formula_lines
@@ -79,9 +80,21 @@ def test_substitution_shows_numbers_and_result():
 
 def test_branch_in_force_is_the_one_shown():
     t = terms("gots-diesel")
-    assert "n_{2}" in t.formula("gas.p_MPa", 390.0)
-    assert "n_{1}" in t.formula("gas.p_MPa", 300.0)
-    assert r"n_{" not in t.formula("gas.p_MPa", 90.0)
+    assert "гор" in t.formula("gas.p_MPa", 390.0) and "сж" in t.formula("gas.p_MPa", 300.0)
+    assert t.formula("gas.p_MPa", 90.0) == "p_{\\mathrm{г}} = p_{a}"
+
+
+@pytest.mark.parametrize("name", ["gots-diesel", "two-stroke", "cycle-petrol", "ecoboost-10"])
+def test_the_pressure_is_told_by_symbols_that_are_known(name):
+    t = terms(name)
+    lines = _pressure_tex(t).split(r" \\ ")
+    assert sum("n_" in line for line in lines) >= 2
+    own = [t.tex(f"gas.p_{part}_MPa") for part in ("compression", "burning", "exhaust")]
+    assert [line for line in lines if any(f"= {symbol}," in line for symbol in own)] == []
+    for at in (30.0, 300.0, 390.0, 500.0):
+        told = _pressure_at(t, at)
+        assert told.startswith(t.tex("gas.p_MPa") + " = ") and told.endswith("МПа}")
+        assert not any(symbol in told for symbol in own)
 
 
 OWN = ("P3_", "P4_", "gas", "crankpin")
@@ -101,7 +114,7 @@ def test_formulas_of_all_tables_can_be_set(name):
         try:
             tex = t.formula(key, 390.0)
         except NotPrintable as reason:
-            assert key == "gas.p_MPa" and "interpolate" in str(reason)
+            assert key == "gas.p_MPa" and "element" in str(reason)
             continue
         if tex not in seen:
             seen.add(tex)

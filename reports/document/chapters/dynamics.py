@@ -38,6 +38,7 @@ def dynamics(chapter: Chapter) -> Markup:
         rounded=partial(_rounded_text, chapter),
         smooth=is_smooth(chapter.input),
         pressure=_pressure_tex(terms) if polytropic else "",
+        pressure_at=partial(_pressure_at, terms),
         masses=[key for key in ("m_1", "m_2", "m_j") if _is_computed(chapter, key)],
         mass_notes=partial(_mass_notes, chapter),
         rods=partial(rods_text, chapter),
@@ -102,19 +103,42 @@ def _nodes(terms: Terms) -> TableBlock:
     return table_block([Column("Точка", text=True), *map(Column, heads)], rows)
 
 
+_PRESSURE = "gas.p_MPa"
+
+
+def _processes(terms: Terms) -> dict[str, str]:
+    """Symbol of each process of the gas that has a column of its own → the column."""
+    columns = terms.model.tables["gas"].columns
+    names = [f"gas.{c.key}" for c in columns if c.helper and c.key.startswith("p_")]
+    return {terms.tex(name): name for name in names}
+
+
 def _pressure_tex(terms: Terms) -> str:
     """All branches of the pressure with the ranges of angles in which they hold."""
-    lines, low = [], ""
-    for piece in terms.branches("gas.p_MPa"):
-        left = rf"{terms.tex('gas.p_MPa')} = {piece.formula},\quad "
-        if piece.condition is None:
-            lines.append(rf"{left}\varphi > {low}")
-            continue
-        limit = piece.condition.split(r"\leq ")[1]
-        limit += r"^{\circ}" if limit.isdigit() and limit != "0" else ""
-        lines.append(rf"{left}{low} < \varphi \leq {limit}" if low else rf"{left}\varphi = {limit}")
-        low = limit
+    lines, low, processes = [], "", _processes(terms)
+    for outer in terms.branches(_PRESSURE):
+        process = processes.get(outer.formula)
+        inner = terms.branches(process) if process else [outer]
+        for piece in inner:
+            left = rf"{terms.tex(_PRESSURE)} = {piece.formula},\quad "
+            condition = piece.condition or outer.condition
+            if condition is None:
+                lines.append(rf"{left}\varphi > {low}")
+                continue
+            limit = condition.split(r"\leq ")[1]
+            limit += r"^{\circ}" if limit.isdigit() and limit != "0" else ""
+            span = rf"{low} < \varphi \leq {limit}" if low else rf"\varphi = {limit}"
+            lines.append(left + span)
+            low = limit
     return r" \\ ".join(lines)
+
+
+def _pressure_at(terms: Terms, at: float) -> str:
+    """The pressure at an angle with numbers, by the process that is in force there."""
+    symbol = terms.tex(_PRESSURE)
+    shown = terms.formula(_PRESSURE, at).removeprefix(f"{symbol} = ")
+    process = _processes(terms).get(shown, _PRESSURE)
+    return symbol + terms.substitution(process, at).removeprefix(terms.tex(process))
 
 
 def _corners(terms: Terms, *, two_stroke: bool) -> list[Row]:

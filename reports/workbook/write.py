@@ -232,7 +232,8 @@ def _room(sheet: Worksheet, specs: Sequence[ChartSpec], *, frozen: bool) -> list
     if not specs or width + GAP + sizes[0][0] <= SCREEN:
         top = top_of(sheet, FIRST_ROW if frozen else HEADER_ROW)
         return flow(sizes, width + GAP, top, max(UPRIGHT, width + GAP + WIDE))
-    if height + sizes[0][1] <= FOLD + sizes[0][1] // 2:  # its greater half in sight
+    tallest = max(size[1] for size in sizes)
+    if height + tallest <= FOLD + tallest // 2:  # their greater halves in sight
         return flow(sizes, GAP, height + GAP, SCREEN)
     return None
 

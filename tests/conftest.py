@@ -6,6 +6,7 @@ import os
 import tempfile
 from functools import lru_cache
 from pathlib import Path
+from typing import NoReturn
 
 import pytest
 from hypothesis import settings
@@ -130,13 +131,18 @@ def sample_names() -> list[str]:
     return sorted(path.stem for path in samples_dir().glob("*.toml"))
 
 
+def missing(what: str, packages: str) -> NoReturn:
+    """A program that a test needs is not there: a skip, in CI a failure."""
+    if os.environ.get("CI") == "true":
+        pytest.fail(f"{what} is missing: ./run test installs it")
+    pytest.skip(f"{what} не установлен: sudo apt-get install {packages}")
+
+
 @pytest.fixture(scope="session")
 def libreoffice() -> LibreOffice:
-    """The slow referee; without LibreOffice a skip, in CI a failure."""
+    """The slow referee."""
     if find_soffice() is None:
-        if os.environ.get("CI") == "true":
-            pytest.fail("LibreOffice is missing: ./run test installs it")
-        pytest.skip("LibreOffice не установлен: sudo apt-get install libreoffice-calc-nogui")
+        missing("LibreOffice", "libreoffice-calc-nogui")
     return LibreOffice()
 
 

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
 
+from tests.conftest import missing
 from tests.referee.compare import errors_in
 from tests.workbook.made import MOVING, coarse_book, coarse_model, drawn
-from tools.referees.by_gnumeric import COMMAND, INSTALL, Gnumeric
+from tools.referees.by_gnumeric import COMMAND, Gnumeric
 from tools.referees.by_hyperformula import PACKAGE, HyperFormula
 from tools.referees.cells import Book, cached_values
 
@@ -21,20 +21,18 @@ _NEAR = 1e-7  # a power's last digits, in a difference of nearly equal numbers
 
 @pytest.fixture(scope="session")
 def gnumeric() -> Gnumeric:
-    """Without Gnumeric a skip, in CI a failure."""
+    """The third referee."""
     if shutil.which(COMMAND) is None:
-        if os.environ.get("CI") == "true":
-            pytest.fail(f"Gnumeric is missing: {INSTALL}")
-        pytest.skip(f"Gnumeric не установлен: {INSTALL}")
+        missing("Gnumeric", "gnumeric")
     return Gnumeric()
 
 
 @pytest.fixture(scope="session")
 def hyperformula(tmp_path_factory: pytest.TempPathFactory) -> HyperFormula:
-    """Without node or the package a skip."""
+    """The fourth referee; a skip where its package cannot be fetched."""
     npm = shutil.which("npm")
     if npm is None:
-        pytest.skip("node не установлен: проверка HyperFormula пропущена")
+        missing("node", "nodejs npm")
     folder = tmp_path_factory.mktemp("hyperformula")
     done = subprocess.run(
         [npm, "install", "--silent", "--no-audit", "--prefix", str(folder), PACKAGE],

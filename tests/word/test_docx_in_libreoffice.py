@@ -16,16 +16,17 @@ from docx.oxml.ns import qn
 from docx_samples import M, W, docx_of, model_of, page_of, part, root_of
 
 from reports.document.report import report_pdf
+from tests.conftest import missing
 
 PYTHON = "/usr/bin/python3"
 WRITER = Path("/usr/lib/libreoffice/program/libswlo.so")
 NAME = "gots-diesel"
 
-pytestmark = pytest.mark.skipif(
-    not (WRITER.exists() and shutil.which("soffice") and shutil.which("pdftotext")),
-    reason="нет LibreOffice Writer: sudo apt-get install libreoffice-writer-nogui "
-    "libreoffice-math-nogui python3-uno",
-)
+
+@pytest.fixture(autouse=True)
+def _writer() -> None:
+    if not (WRITER.exists() and shutil.which("soffice") and shutil.which("pdftotext")):
+        missing("LibreOffice Writer", "libreoffice-writer-nogui libreoffice-math-nogui")
 
 
 def renewed(data: bytes, folder: Path) -> tuple[dict[str, int], Path]:

@@ -8,16 +8,17 @@ from pathlib import Path
 
 import pytest
 
+from tests.conftest import missing
 from tests.workbook.made import coarse_book
 
 VALIDATOR = "@ooxml-tools/validate@0.4.6"
 
 
 def validated(path: Path) -> str:
-    """What the validator says of a file; without node the test is skipped."""
+    """What the validator says of a file; a skip where the validator cannot be fetched."""
     npx = shutil.which("npx")
     if npx is None:
-        pytest.skip("node не установлен: проверка схемой Microsoft пропущена")
+        missing("node", "nodejs npm")
     ready = subprocess.run(
         [npx, "--yes", "-p", VALIDATOR, "ooxml-validate", "--help"],
         capture_output=True, text=True, timeout=300, check=False,

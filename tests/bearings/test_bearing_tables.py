@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from kshm import solve
@@ -39,6 +40,24 @@ def test_the_tractor_diesel() -> None:
 
 def test_a_groove_with_the_heat_balance() -> None:
     assert_agree(tractor(pin_groove_mm=4.0, oil="m10", material="vch60"))
+
+
+def test_twice_the_viscosity_and_twice_the_square_of_the_clearance_is_the_same_orbit() -> None:
+    oil = {"viscosity_40_mpa_s": 70.0, "viscosity_100_mpa_s": 10.0, "oil_temperature_c": 100.0}
+    thick = oil | {"viscosity_40_mpa_s": 140.0, "viscosity_100_mpa_s": 20.0}
+
+    def orbits(oil: dict[str, float], wide: float) -> list[np.ndarray]:
+        gaps = {"main_clearance_min_mm": 0.06, "main_clearance_max_mm": 0.13}
+        gaps |= {"pin_clearance_min_mm": 0.057, "pin_clearance_max_mm": 0.131}
+        data = tractor(30, **oil, **{key: wide * gap for key, gap in gaps.items()})
+        tables = solve(*engine_and_cycle(data)).columns
+        return [tables[f"oil_orbit_{k}"][f"oil_eps{c}"] for k in (0, 1, 3) for c in (1, 2)]
+
+    plain = orbits(oil, 1.0)
+    assert max(e.max() for e in plain) > 0.8
+    # One more cycle or one less, by the last digit, moves an orbit by what "closed" allows.
+    np.testing.assert_allclose(orbits(thick, 2**0.5), plain, atol=5e-4)
+    assert np.abs(np.subtract(orbits(thick, 1.0), plain)).max() > 0.01
 
 
 def test_every_result_of_the_solver_stands_in_a_table() -> None:

@@ -26,6 +26,15 @@ SQUEEZE = {
     -0.9: (0.5518, 0.1466, 0.0376), -0.5: (0.971, 0.2664, 0.0688), 0.0: (2.4076, 0.7224, 0.1919),
     0.5: (9.7319, 3.675, 1.0715), 0.9: (160.25, 104.75, 46.559),
 }  # fmt: skip
+# Raimondi and Boyd 1958, from memory: ε: (Sommerfeld's S, attitude in degrees), by B/D.
+RAIMONDI = {
+    1.0: {0.1: (1.33, 79.5), 0.4: (0.264, 63.1), 0.6: (0.121, 50.58), 0.8: (0.0446, 36.24),
+          0.9: (0.0188, 26.45), 0.97: (0.00474, 15.47)},
+    0.5: {0.1: (4.31, 81.62), 0.4: (0.779, 61.45), 0.6: (0.319, 48.14), 0.8: (0.0923, 33.31),
+          0.9: (0.0313, 23.66), 0.97: (0.00609, 13.75)},
+    0.25: {0.1: (16.2, 82.31), 0.4: (2.83, 60.86), 0.6: (1.07, 46.72), 0.8: (0.261, 31.04),
+           0.9: (0.0736, 21.85), 0.97: (0.0101, 12.22)},
+}  # fmt: skip
 PHI = np.linspace(0, 4 * np.pi, 73)
 STILL = np.full(PHI.shape, 0.5)
 
@@ -45,6 +54,19 @@ def test_the_printed_numbers_are_met_as_the_note_says() -> None:
     squeeze = errors(oil_film.squeeze_number, SQUEEZE) / np.array(list(SQUEEZE.values()))
     assert np.median(squeeze) < 0.025
     assert squeeze.max() < 0.055
+
+
+@pytest.mark.parametrize("width", RAIMONDI)
+def test_other_published_bearings_are_met(width: float) -> None:
+    """So = 1/(2πS): another solution of the same equation, by another author."""
+    for e, (number, turn) in RAIMONDI[width].items():
+        load = np.array(1 / (2 * np.pi * number))
+        assert oil_film.rotation_number(np.array(e), np.array(width)) == pytest.approx(
+            load, rel=0.068
+        )
+        found = oil_film.steady_eccentricity(load, np.array(width))
+        assert found == pytest.approx(e, abs=0.01)
+        assert np.degrees(oil_film.attitude(found, np.array(width))) == pytest.approx(turn, abs=2.4)
 
 
 def test_the_short_bearing_alone_would_be_wrong_near_contact() -> None:

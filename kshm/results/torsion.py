@@ -50,7 +50,7 @@ def torsion_results(case: Case) -> Results:
         "torsion_campbell": _campbell(study),
         "torsion_response": forced | {"tor_mark": np.full(len(study.speeds), mark)},
     }
-    return tables, scalars
+    return tables, scalars | _tops(forced)
 
 
 @dataclass(frozen=True)
@@ -237,6 +237,17 @@ def forced_columns(study: Study) -> Columns:
         "tor_front_deg": summed(bare.angles[0]),
         "tor_work_J": (bare.work * periods).sum(axis=1),
         "tor_lost_J": (bare.lost * periods).sum(axis=1),
+    }
+
+
+def _tops(forced: Columns) -> Scalars:
+    """The greatest stresses of the forced vibration [Pa] and where the first stands [rad/s]."""
+    bare = forced["tor_tau_MPa"]
+    return {
+        "tor_top_MPa": float(bare.max()),
+        "tor_top_rpm": float(forced["tor_speed_rpm"][bare.argmax()]),
+        "tor_top_damped_MPa": float(forced["tor_tau_damped_MPa"].max()),
+        "tor_top_other_MPa": float(forced["tor_tau_other_MPa"].max()),
     }
 
 

@@ -110,7 +110,7 @@ def test_a_study_over_the_flywheel(tmp_path: Path) -> None:
     base = tmp_path / "base.toml"
     base.write_text(tomlkit.dumps(raw), encoding="utf-8")
     target = tmp_path / "a.csv"
-    wanted = ("tor_f1_hz", "tor_worst", "tor_worst_rpm")
+    wanted = ("tor_f1_hz", "tor_worst", "tor_worst_rpm", "tor_top_MPa")
     sweep(base, ("torsion.flywheel_kg_m2=0.5:2.5:3",), target, quantities=wanted)
     rows = list(csv.DictReader(target.open(encoding="utf-8")))
     found = [float(row["tor_f1_hz"]) for row in rows]
@@ -119,3 +119,6 @@ def test_a_study_over_the_flywheel(tmp_path: Path) -> None:
     single = solve(*engine_and_cycle(load_mapping(raw, source="one").model)).scalars
     assert found[1] == pytest.approx(single["tor_f1_hz"])
     assert float(rows[1]["tor_worst"]) == pytest.approx(single["tor_worst"])
+    tops = [float(row["tor_top_MPa"]) for row in rows]
+    assert len({round(top, 6) for top in tops}) == 3
+    assert tops[1] == pytest.approx(single["tor_top_MPa"])

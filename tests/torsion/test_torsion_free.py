@@ -63,6 +63,17 @@ def test_holzer_s_chain_leaves_nothing_at_the_lowest_frequency(train: Train) -> 
     np.testing.assert_allclose(angles, modes.forms[0], atol=1e-6 * np.abs(angles).max())
 
 
+@given(trains())
+def test_holzer_s_residual_passes_through_zero_at_every_frequency(train: Train) -> None:
+    """Of any length: one more form on the other side, and the sign of the rest turns."""
+    omega = torsion.modes_of(train).omega
+    gaps = np.diff(omega, prepend=0, append=np.inf)
+    for m in np.flatnonzero((gaps[:-1] > 1e-6 * omega) & (gaps[1:] > 1e-6 * omega)):
+        sides = [torsion.holzer(train, float(omega[m]) * (1 + s)) for s in (-1e-7, 1e-7)]
+        below, above = (rest for _, _, rest in sides)
+        assert below * above < 0
+
+
 @given(trains(), st.data(), st.floats(1.01, 3))
 def test_every_frequency_falls_as_an_inertia_rises(
     train: Train, data: st.DataObject, factor: float

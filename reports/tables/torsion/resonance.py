@@ -316,11 +316,18 @@ def _fresh() -> ScalarTable:
     stored = "col_last(torsion_response.tor_mark)"
     yes, no = "отвечают исходным данным", "ДАННЫЕ ИЗМЕНЕНЫ: соберите книгу заново"
     text = f'"{yes}" if round(({live})/{stored}, 8) == 1 else "{no}"'
+    t, most = "torsion_response", "наибольшее из таблицы"
     return ScalarTable(
         "torsion_fresh",
         "Значения этого листа",
         FORCED,
-        scalar_list(f"tor_fresh = {text} | метка данных при сборке"),
+        scalar_list(f"""
+            tor_fresh = {text} | метка данных при сборке
+            tor_top_MPa = col_max({t}.tor_tau_MPa) | {most}
+            tor_top_rpm = element({t}.tor_speed_rpm, first_largest({t}.tor_tau_MPa)) | {most}
+            tor_top_damped_MPa = col_max({t}.tor_tau_damped_MPa) | {most}
+            tor_top_other_MPa = col_max({t}.tor_tau_other_MPa) | {most}
+        """),
     )
 
 

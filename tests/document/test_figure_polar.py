@@ -1,5 +1,6 @@
 import math
 import re
+from functools import lru_cache
 from xml.etree import ElementTree as ET
 
 import numpy as np
@@ -8,13 +9,16 @@ from figure_samples import FIGURES, PHI, K, T
 
 from reports.document.figures.polar import polar_path
 
-DRAWN = FIGURES["polar"]()
+
+@lru_cache(maxsize=1)
+def drawn() -> str:
+    return FIGURES["polar"]()
 
 
 def test_polar_scales_are_equal_and_path_is_not_smoothed():
-    width, height = map(float, ET.fromstring(DRAWN).attrib["viewBox"].split()[2:])
+    width, height = map(float, ET.fromstring(drawn()).attrib["viewBox"].split()[2:])
     assert height > width
-    paths = [p for p in re.findall(r' d="([^"]*)"', DRAWN) if p.count("L") >= PHI.size - 1]
+    paths = [p for p in re.findall(r' d="([^"]*)"', drawn()) if p.count("L") >= PHI.size - 1]
     assert len(paths) == 1 and "C" not in paths[0]
     points = np.array(re.findall(r"[ML] ?(-?[\d.]+) (-?[\d.]+)", paths[0]), dtype=float)
     dx, dy = np.ptp(points[:, 0]) / np.ptp(T), np.ptp(points[:, 1]) / np.ptp(K)
@@ -25,7 +29,7 @@ def test_polar_scales_are_equal_and_path_is_not_smoothed():
 
 
 def test_polar_angle_labels_do_not_collide():
-    tree = ET.fromstring(DRAWN)
+    tree = ET.fromstring(drawn())
     boxes = []
     for node in tree.iter():
         text = "".join(node.itertext())

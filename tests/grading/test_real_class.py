@@ -10,6 +10,8 @@ from tests.grading.real.honest import HONEST
 from tests.grading.real.mistakes import MISTAKES
 from tools.referees.by_libreoffice import LibreOffice
 
+pytestmark = pytest.mark.xdist_group("real class")  # the class is graded once
+
 
 @pytest.fixture(scope="module", autouse=True)
 def _saved_by_another_program(libreoffice: LibreOffice) -> None:

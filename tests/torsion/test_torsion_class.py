@@ -3,27 +3,18 @@
 from __future__ import annotations
 
 import csv
-from functools import lru_cache
 from pathlib import Path
-from tempfile import mkdtemp
 
 import pytest
 
 from kshm import solve
-from reports.grading.issuing.assignment import Assignment
-from reports.grading.issuing.issue import assignment_for, issue
-from reports.grading.judging.marking import Marker
-from reports.grading.reading.submissions import Submission
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.to_si.engine import engine_and_cycle
-from reports.shared.resources import samples_dir
 from reports.spec.evaluation import Evaluation
 from reports.studies.run import sweep
-from reports.workbook.layout import Layout
 from tests.conftest import sample
-from tests.grading.classroom import roster_text
-from tests.grading.fill import filled_book, solved_formulas
+from tests.grading.chapter_class import ChapterClass, unlike_right
 
 RANGES = """
 [variants]
@@ -46,56 +37,30 @@ fill = ["torsion_train", "torsion_forms", "torsion_critical", "torsion_response"
 """
 
 
-@lru_cache(maxsize=1)
-def issued():
-    folder = Path(mkdtemp(prefix="kshm-torsion-"))
-    text = (samples_dir() / "gots-diesel.toml").read_text(encoding="utf-8")
-    text = text.replace("step_deg = 10", "step_deg = 30") + SECTION + RANGES
-    (folder / "base.toml").write_text(text, encoding="utf-8")
-    (folder / "group.csv").write_text(roster_text(2), encoding="utf-8")
-    (folder / "rubric.toml").write_text(RUBRIC, encoding="utf-8")
-    result = issue(
-        folder / "base.toml", folder / "group.csv", folder / "issued", seed=7,
-        rubric_file=folder / "rubric.toml", secret_file=folder / "secret.key",
-    )  # fmt: skip
-    book = result.register.books[0]
-    data = (folder / "issued" / book.folder / book.file).read_bytes()
-    return result.register, assignment_for(book, result.register.rubric), data
-
-
-def marks(changes=None) -> dict:
-    register, assignment, handout = issued()
-    data = filled_book(handout, assignment, changes)
-    return Marker(register).mark(Submission("р.xlsx", Path("р.xlsx"), None, None), data)
-
-
-def wrong(result: dict) -> dict[str, str]:
-    return {line["id"]: line["verdict"] for line in result["items"] if line["verdict"] != "right"}
+CLASS = ChapterClass(SECTION + RANGES, RUBRIC)
 
 
 def test_values_of_the_program_are_never_graded() -> None:
-    assignment: Assignment = issued()[1]
+    assignment = CLASS.assignment
     assert not [item for item in assignment.items if item.block == "torsion_response"]
     assert [item for item in assignment.items if item.block == "torsion_critical"]
 
 
 def test_a_right_book_is_right_throughout() -> None:
-    result = marks()
-    assert wrong(result) == {}
+    result = CLASS.marks()
+    assert unlike_right(result) == {}
     assert result["points"] == pytest.approx(100)
 
 
 def test_a_wrong_inertia_is_wrong_once_and_carried_on() -> None:
-    _, assignment, _ = issued()
-    right = solved_formulas(assignment, Layout.of(assignment.model))["torJ2"]
-    found = wrong(marks({"torJ2": [f"{right[0]}*1.5"]}))
+    found = unlike_right(CLASS.marks({"torJ2": 1.5}))
     assert found.pop("torsion_train.tor_J_kgm2") == "wrong"
     assert set(found.values()) <= {"carried"}
     assert "torsion_forms.tor_theta1" in found
 
 
 def test_every_variant_has_values_of_its_own() -> None:
-    assignment: Assignment = issued()[1]
+    assignment = CLASS.assignment
     values = Evaluation(assignment.model).value("torsion_response.tor_tau_MPa")
     wanted = solve(*engine_and_cycle(assignment.model.input)).columns["torsion_response"]
     assert values == pytest.approx(wanted["tor_tau_MPa"])

@@ -32,7 +32,7 @@ BOX = '<svg class="fig" viewBox="0 0 2 1" style="width:120.0mm" data-size="2/1">
 NUMBER = re.compile(r"[−+]?[\d\u00a0]+(,\d+)?")
 # Blank share at the foot of a page that is not the last of a chapter: the largest and the mean.
 # The full report has many figures to a chapter with little text to go on.
-MOST_BLANK = {"course": (0.35, 0.07), "full": (0.35, 0.08)}
+MOST_BLANK = {"course": (0.30, 0.06), "full": (0.30, 0.06)}
 
 
 def faults(pages: list[list[ink.Word]], sheets: list) -> list[tuple[int, list[str]]]:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from markupsafe import Markup
 
@@ -33,16 +33,22 @@ _PT = 96 / 72  # CSS pixels in a point
 _FULL = 0.97  # of a line that words fill on the average
 _LEAST = 0.7  # to which a figure may be reduced to fit the foot of a page
 _SLACK = 4.0  # px kept free on every page: estimates are no measures
-_FOOT = 6.0  # px of the margin below a formula or a figure, which may miss a page
 _HOLE = 0.12  # of a page that may stay blank, so that figures stand in their own section
 _ROWS = 60.0  # px of a table's margin and first rows, which stand with its head
 _NEARLY = 0.07  # of a page: too little for a heading and what must follow it
 _DOUBT = 10.0  # px kept free below what would miss the page by a hair
 
 
+class Spot(NamedTuple):
+    """Where on a page the last block ends and the margin that it asks for below [px]."""
+
+    used: float
+    margin: float = 0.0
+
+
 @dataclass(frozen=True, slots=True)
 class Block:
-    """A block of the text and its estimated height with its margins [px].
+    """A block of the text and its estimated height without margins [px].
 
     ``tied`` blocks continue what stands before them, a formula or a line of its sentence.
     """
@@ -50,6 +56,8 @@ class Block:
     html: str
     kind: Kind
     height: float
+    above: float = 0.0  # margins; the larger of two that meet is kept
+    below: float = 0.0
     figure: float = 0.0  # of it the picture, which may be reduced
     head: float = 0.0  # of it what a table repeats on each page that it goes on to
     line: float = 0.0  # of a paragraph, and of what a heading must have below it
@@ -66,22 +74,22 @@ def arranged(body: str, style: Style, *, run_on: float = 1.0) -> str:
     room = (297 - style.margins.top - style.margins.bottom) * 96 / 25.4 - _SLACK
     out: list[str] = []
     chapter: list[Block] = []
-    used = room
+    spot = Spot(room)
     for block in _blocks(str(body), style):  # no Markup: nothing is escaped here
         if block.kind == "chapter":
-            placed, used = _filled(chapter, used, room)
+            placed, spot = _filled(chapter, spot, room)
             out += placed
             follows = bool(chapter) and not {_number(chapter[0]), _number(block)} & {""}
             chapter = []
             # A page all but full may run over by a line: then the heading follows that line.
-            free = (room - used) / room
+            free = (room - spot.used) / room
             if follows and run_on < 1 and (free > run_on or free < _NEARLY):
                 html = block.html.replace('class="', 'class="runon ', 1)
-                block = replace(block, html=html, height=block.height + 18 * _PT)  # noqa: PLW2901
+                block = replace(block, html=html, above=18 * _PT)  # noqa: PLW2901
             else:
-                used = 0.0
+                spot = Spot(0.0)
         chapter.append(block)
-    return "\n".join([*out, *_filled(chapter, used, room)[0]])
+    return "\n".join([*out, *_filled(chapter, spot, room)[0]])
 
 
 def _number(chapter: Block) -> str:
@@ -90,76 +98,78 @@ def _number(chapter: Block) -> str:
     return found[1] if found else ""
 
 
-def _filled(blocks: Sequence[Block], used: float, room: float) -> tuple[list[str], float]:
-    """The blocks of one chapter in their new order, and the height used on their last page."""
+def _filled(blocks: Sequence[Block], spot: Spot, room: float) -> tuple[list[str], Spot]:
+    """The blocks of one chapter in their new order, and where its last page ends."""
     out: list[str] = []
     waiting: list[Block] = []
     for index, block in enumerate(blocks):
         if waiting and block.kind not in ("tied", "other"):
-            used, placed, waiting = _placed(waiting, used, room)
+            spot, placed, waiting = _placed(waiting, spot, room)
             out += placed
-        if waiting and block.kind == "heading" and room - used < _HOLE * room:
-            used, placed, waiting = *_all_placed(waiting, used, room), []
+        if waiting and block.kind == "heading" and room - spot.used < _HOLE * room:
+            spot, placed, waiting = *_all_placed(waiting, spot, room), []
             out += placed
         if block.kind == "float" or (waiting and block.kind == "table"):
             waiting.append(block)
             if not (index + 1 < len(blocks) and blocks[index + 1].kind == "tied"):
-                used, placed, waiting = _placed(waiting, used, room)
+                spot, placed, waiting = _placed(waiting, spot, room)
                 out += placed
             continue
         out.append(block.html)
-        used = _after(block, used, room)
-    used, placed = _all_placed(waiting, used, room)
-    return [*out, *placed], used
+        spot = _after(block, spot, room)
+    spot, placed = _all_placed(waiting, spot, room)
+    return [*out, *placed], spot
 
 
-def _all_placed(waiting: list[Block], used: float, room: float) -> tuple[float, list[str]]:
+def _all_placed(waiting: list[Block], spot: Spot, room: float) -> tuple[Spot, list[str]]:
     """Each of the waiting blocks on the page that comes next, others beside it where they fit."""
     out: list[str] = []
     while waiting:
         out.append(waiting[0].html)
-        used = _after(waiting[0], used, room)
-        used, placed, waiting = _placed(waiting[1:], used, room)
+        spot = _after(waiting[0], spot, room)
+        spot, placed, waiting = _placed(waiting[1:], spot, room)
         out += placed
-    return used, out
+    return spot, out
 
 
-def _placed(waiting: list[Block], used: float, room: float) -> tuple[float, list[str], list[Block]]:
-    """What of the waiting blocks fits on this page, in order; the height used then."""
+def _placed(waiting: list[Block], spot: Spot, room: float) -> tuple[Spot, list[str], list[Block]]:
+    """What of the waiting blocks fits on this page, in order; where the page ends then."""
     placed: list[str] = []
     while waiting:
         block = waiting[0]
-        rest = room - used - (_DOUBT if used else 0.0)
+        begin = spot.used + max(spot.margin, block.above)
+        rest = room - begin - (_DOUBT if spot.used else 0.0)
         if block.kind == "table" or block.height <= rest:
             placed.append(block.html)
-            used = _after(block, used, room)
+            spot = _after(block, spot, room)
         elif block.figure and rest >= block.height - (1 - _LEAST) * block.figure:
             placed.append(_reduced(block, 1 - (block.height - rest) / block.figure))
-            used = room
+            spot = Spot(room)
         else:
             break
         waiting = waiting[1:]
-    return used, placed, waiting
+    return spot, placed, waiting
 
 
-def _after(block: Block, used: float, room: float) -> float:
-    """Height used on the page on which a block ends."""
-    total = used + block.height
+def _after(block: Block, spot: Spot, room: float) -> Spot:
+    """Where a block ends on its last page."""
+    begin = spot.used + max(spot.margin, block.above)
+    total = begin + block.height
     # What follows a heading stands below it: two lines at least.
-    below = {"heading": 2 * block.line, "tied": -_FOOT, "float": -_FOOT}.get(block.kind, 0.0)
-    if total + below <= room:
-        return total
+    tail = block.below + 2 * block.line if block.kind == "heading" else 0.0
+    if total + tail <= room:
+        return Spot(total, block.below)
     if block.kind in ("text", "table"):  # goes on over the page's end
         over = total - room
         if block.line:  # no line of a paragraph stands alone
-            free = int((room - used) / block.line)
+            free = int((room - begin) / block.line)
             lines = round(block.height / block.line)
             free = 0 if free < 2 or lines < 4 else min(free, lines - 2)
             over = (lines - free) * block.line
-        elif room - used < block.head + _ROWS:
+        elif room - begin < block.head + _ROWS:
             over = block.height - block.head
-        return over % (room - block.head) + block.head
-    return min(block.height, room)
+        return Spot(over % (room - block.head) + block.head, block.below)
+    return Spot(min(block.above + block.height, room), block.below)
 
 
 def _reduced(block: Block, share: float) -> str:
@@ -209,10 +219,10 @@ def _block(html: str, tag: str, attributes: str, style: Style) -> Block:
     line = em * style.line_spacing
     if tag == "h1":
         lines = _title_lines(html, style, em * 1.15) + html.count("<br>")
-        return Block(html, "chapter", lines * em * 1.5 + 8 * _PT)
+        return Block(html, "chapter", lines * em * 1.5, 0.0, 8 * _PT)
     if tag in ("h2", "h3"):
-        height = _lines(html, style, em) * em * 1.3 + 22 * _PT
-        return Block(html, "heading", height, line=line)
+        height = _lines(html, style, em) * em * 1.3
+        return Block(html, "heading", height, 14 * _PT, 8 * _PT, line=line)
     if tag == "p":
         flush = "flush" in attributes
         height = _lines(html, style, em, indent=not flush) * line
@@ -220,16 +230,17 @@ def _block(html: str, tag: str, attributes: str, style: Style) -> Block:
     if 'class="eq' in attributes:
         heights = [max(1.3, float(height)) * em for height in _EM.findall(html)]
         padding = 4 * _PT * len(heights) if len(heights) > 1 else 0.0
-        return Block(html, "tied", sum(heights) + padding + 6 * _PT)
+        return Block(html, "tied", sum(heights) + padding, 6 * _PT, 6 * _PT)
     if tag == "figure":
         size = _figure_px(html, style)
         caption = html[html.find("<figcaption") :]
         lines = _title_lines(caption, style, em)
-        return Block(html, "float", size + lines * em * 1.3 + 24.5 * _PT, size)
+        height = size + lines * em * 1.3 + 4.5 * _PT
+        return Block(html, "float", height, 10 * _PT, 10 * _PT, figure=size)
     if 'class="where"' in attributes:
         parts = re.findall(r"<p>.*?</p>", html, re.DOTALL)
-        height = sum(_lines(part, style, em, indent=False) for part in parts) * line + 6 * _PT
-        return Block(html, "tied", height)
+        height = sum(_lines(part, style, em, indent=False) for part in parts) * line
+        return Block(html, "tied", height, 0.0, 6 * _PT)
     if tag in ("ul", "ol"):
         items = re.findall(r"<li.*?</li>", html, re.DOTALL)
         return Block(html, "text", sum(_lines(item, style, em) for item in items) * line)
@@ -256,7 +267,7 @@ def _table(html: str, style: Style) -> Block:
     titles = max((_row_lines(row, widths, em) for row in rows[:heads]), default=1)
     # The line of titles, that of the columns' numbers; the rules are drawn between them.
     head = (titles * 1.2 + 0.85 * 1.2) * em + 5.5 * _PT
-    height = caption + head + 20 * _PT
+    height = caption + head + 10 * _PT
     lines = html.find('<tr class="lines">')
     if lines > 0:
         height += html.count("\n", lines) * 1.37 * em
@@ -264,7 +275,7 @@ def _table(html: str, style: Style) -> Block:
         for row in rows[heads:]:
             height += _row_lines(row, widths, em) * em * 1.2 + 2.05 * _PT
     kind: Kind = "float" if re.search(r'class="data[^"]* keep', html) else "table"
-    return Block(html, kind, height, head=head + 1.5 * style.em_px)
+    return Block(html, kind, height, 10 * _PT, head=head + 1.5 * style.em_px)
 
 
 def _row_lines(row: str, widths: Sequence[float], em: float) -> int:

@@ -49,6 +49,24 @@ def pinned(grid: Grid, cells: Iterable[Cells]) -> Grid:
     return Grid(sheets, grid.names, grid.areas)
 
 
+def needed(grid: Grid, areas: Iterable[Area]) -> Grid:
+    """The columns of a grid with some cells, and those that their formulas read in turn.
+
+    Columns are taken whole: SUMIF may read beyond the cells that it names.
+    """
+    sheets: dict[str, dict[int, Column]] = {title: {} for title in grid.sheets}
+    stack = list(areas)
+    while stack:
+        area = stack.pop()
+        for number in grid.columns_of(area):
+            if number not in sheets[area.sheet]:
+                column = sheets[area.sheet][number] = grid.sheets[area.sheet][number]
+                for run in column.runs:
+                    stack += grid.precedents(run)
+                    stack += [run.array] if run.array is not None else []
+    return Grid(sheets, grid.names, grid.areas)
+
+
 class Bench:
     """Some formulas on a grid of constants.
 
@@ -77,11 +95,13 @@ class Bench:
                         columns.setdefault(other.column, Column()).runs.append(other)
                     moved = made[id(run)]
                 self._runs[key].append(moved)
-        self._engine = Engine(Grid({**grid.sheets, **scratch}, grid.names, grid.areas))
+        read = needed(grid, (area for run in made.values() for area in grid.precedents(run)))
+        self._engine = Engine(Grid({**read.sheets, **scratch}, grid.names, grid.areas))
+        self._read = {(title, n) for title, columns in read.sheets.items() for n in columns}
 
     def put(self, cells: Iterable[Cells]) -> None:
         """Change constants; the next values are those of the changed grid."""
-        self._engine.put(cells)
+        self._engine.put(part for part in cells if (part.sheet, part.column) in self._read)
 
     def values(self, key: str, rows: Sequence[int | None]) -> NDArray[np.float64]:
         """Numbers that a key's formulas give in some rows, NaN where there is none.

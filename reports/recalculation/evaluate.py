@@ -239,6 +239,8 @@ class Engine:
     def _raw(self) -> dict[Run, list[Any]]:
         """What formualizer says of the cells of every run that it was given."""
         runs = [run for run in self.grid.runs() if run not in self._unknown]
+        if not runs:
+            return {}
         self._evaluate(
             (run.sheet, row, run.column) for run in runs for row in range(run.first, run.last + 1)
         )

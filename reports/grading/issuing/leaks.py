@@ -136,13 +136,18 @@ def _of_scalars(
     for place, numbers in places.items():
         given, short = _digits(numbers, _EXACT), _digits(numbers, 5)
         hits = [n for n, d in exact.items() if d & given and not _short(asked[n])]
-        few = [n for n, d in shown.items() if d & short and not d & known]
+        few = [n for n, d in shown.items() if d & short - known and not _is_round(d)]
         chance = len(asked) * len(short) / 90_000
         alike = set().union(*(shown[n] for n in few)) if few else set()
         if not hits and len(alike) >= max(3, chance + 5 * sqrt(chance) + 2):
             hits = few
         found += [Leak(name, place, 1) for name in hits]
     return found
+
+
+def _is_round(digits: set[str]) -> bool:
+    """Whether digits are those that the number of a row may have: 1.06, and row 106."""
+    return all(len(text.rstrip("0")) < _DIGITS for text in digits)
 
 
 def _short(value: float) -> bool:

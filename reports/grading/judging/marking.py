@@ -157,6 +157,7 @@ class Marker:
     ) -> None:
         student = self.student(book, grid)
         response = self.response(student)
+        student.settle(response.settled)
         judgements = judge_all(student, response)
         tampered = response.tampered
         if tampered:
@@ -266,7 +267,7 @@ def altered(student: Student, original: Grid | None) -> list[str]:
     columns = {(place.sheet, place.column): place for place in places if place is not None}
     for place in columns.values():
         column = grid.column(place.sheet, place.column)
-        for run in column.runs:
+        for run in engine.grid.column(place.sheet, place.column).runs:
             claims = column.saved_of(run)
             if not claims.size or np.isnan(claims).all():
                 continue

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Item
+from reports.grading.judging.settled import EXACT, settled
 from reports.grading.judging.tolerances import close, tolerance
 from reports.grading.judging.trials import Trial
 from reports.grading.reading.student import Student
@@ -49,6 +50,7 @@ class Proofs:
 
     trials: tuple[Trial, ...]
     known: dict[tuple[object, ...], str] = field(default_factory=dict)
+    exact: set[tuple[object, ...]] = field(default_factory=set)  # that follow to the last digit
 
 
 @dataclass
@@ -66,7 +68,7 @@ class Response:
     @cached_property
     def _nodes(self) -> list[str]:
         """Nodes with formulas."""
-        return [node for node in sorted(self.student.answers) if self.student.runs(node)]
+        return [n for n in sorted(self.student.assignment.fill_nodes) if self.student.runs(n)]
 
     @cached_property
     def _keys(self) -> dict[str, tuple[object, ...]]:
@@ -203,7 +205,25 @@ class Response:
         found = self._judged(item, node, count)
         if key is not None:
             self.proofs.known[key] = found
+            if set(found) == {RIGHT} and self._is_exact(item, node):
+                self.proofs.exact.add(key)
         return found
+
+    @cached_property
+    def settled(self) -> frozenset[str]:
+        """Nodes that need not be calculated anew."""
+        exact = {node: key in self.proofs.exact for node, key in self._keys.items()}
+        return settled(self.student, exact)
+
+    def _is_exact(self, item: Item, node: str) -> bool:
+        """Whether a node's formulas have given the very values of every trial."""
+        values = self._values[node]
+        if isinstance(values, str) or not values:
+            return False
+        return all(
+            bool((np.abs(own - right) <= EXACT * np.abs(right).max()).all())
+            for own, right in zip(values, self._right(item, node), strict=True)
+        )
 
     def _judged(self, item: Item, node: str, count: int) -> str:
         values = self._values[node]

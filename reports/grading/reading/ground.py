@@ -81,7 +81,7 @@ def resting_on(student: Student, nodes: frozenset[str]) -> frozenset[str]:
         right = student.expected.value(node)
         if not isinstance(right, str):
             cells += student.cells_of(node, right)
-    other = Engine(pinned(student.grid, cells))
+    other = Engine(pinned(student.known, cells))
     found = set(nodes)
     for node, answer in student.answers.items():
         place = answer.place

@@ -6,14 +6,15 @@ import re
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.reading.placement import Place, Placement, find_places
-from reports.recalculation.bench import Cells, pinned
-from reports.recalculation.evaluate import BLANK, ERROR, Engine
+from reports.recalculation.bench import Cells, needed, pinned
+from reports.recalculation.evaluate import BLANK, ERROR, NUMBER, Engine
 from reports.recalculation.formulas import is_doubtful
 from reports.recalculation.grid import Area, Grid, Run
 from reports.recalculation.language import UnknownFormula
@@ -64,6 +65,7 @@ class Student:
     expected: Evaluation
     changed: list[Changed] = field(default_factory=list)
     rewritten: set[str] = field(default_factory=set)  # given formulas that read otherwise
+    _settled: frozenset[str] = frozenset()
 
     @classmethod
     def of(cls, assignment: Assignment, layout: Layout, grid: Grid) -> Student:
@@ -74,7 +76,24 @@ class Student:
     @cached_property
     def engine(self) -> Engine:
         """The formulas, calculated with the issued input data."""
-        return Engine(self.grid)
+        return Engine(self.known)
+
+    @cached_property
+    def known(self) -> Grid:
+        """The grid that is calculated: what ``settle`` has settled stands in it as numbers."""
+        return self.grid
+
+    def settle(self, nodes: frozenset[str]) -> None:
+        """Leave out of the calculation what is known to hold the right numbers."""
+        self._settled = nodes
+        asked = self.assignment.fill_nodes
+        if asked <= nodes:
+            self.known = Grid({title: {} for title in self.grid.sheets})
+        elif nodes:
+            right = [self.cells_of(node, self.expected.value(node)) for node in sorted(nodes)]
+            spans = ((p, p.span) for p in map(self.placement.places.get, asked) if p is not None)
+            areas = [Area(p.sheet, s.first, s.last, p.column, p.column) for p, s in spans if s]
+            self.known = needed(pinned(self.grid, chain.from_iterable(right)), areas)
 
     # --- answers ----------------------------------------------------------------------
 
@@ -96,6 +115,9 @@ class Student:
         span = place.span
         if span is None:
             return Answer(place, np.full(count, np.nan), LOST * count, np.zeros(count, dtype=bool))
+        if node in self._settled:
+            numbers = np.ravel(np.asarray(self.expected.value(node), dtype=float))
+            return Answer(place, numbers, NUMBER * count, np.zeros(count, dtype=bool))
         first, last = span.first, span.last
         try:
             numbers, kinds = self.engine.values(place.sheet, place.column, first, last)
@@ -222,7 +244,7 @@ class Student:
                 rows = tuple(found)
                 values = tuple(found.values())
                 cells.append(Cells(place.sheet, place.column, rows, values))
-        self.engine = Engine(pinned(self.grid, cells))
+        self.engine = Engine(pinned(self.known, cells))
         for node in waiting:
             self.answers[node] = self._answer(node)
 

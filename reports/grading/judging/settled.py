@@ -1,0 +1,61 @@
+"""Columns that need not be calculated anew: their formulas are proven, and so is all they read.
+
+A formula that has followed every trial to the last digit, whose cells hold the right numbers
+as the student's own program has calculated them, and that reads nothing but input data and
+columns of the same kind, would give the same numbers once more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from reports.grading.reading.student import Student
+
+EXACT = 1e-9  # of the largest value of a column
+
+
+def settled(student: Student, exact: Mapping[str, bool]) -> frozenset[str]:
+    """Nodes that hold what they should; ``exact`` tells whose formulas have followed exactly."""
+    assignment = student.assignment
+    given = assignment.model.fields.keys() | assignment.given_nodes | _rows_as_issued(student)
+    found = {node for node, follows in exact.items() if follows and _is_right(student, node)}
+    found |= {node for node in assignment.live_nodes - student.rewritten if student.runs(node)}
+    found = {node for node in found if not isinstance(student.expected.value(node), str)}
+    waiting = True
+    while waiting:
+        out = {node for node in found if not student.refers(node) <= given | found}
+        found -= out
+        waiting = bool(out)
+    return frozenset(found)
+
+
+def _rows_as_issued(student: Student) -> set[str]:
+    """Columns of angles and the like that hold what the tables begin with."""
+    found = set()
+    for node, place in student.placement.places.items():
+        table = student.assignment.model.tables.get(node.partition(".")[0])
+        asked = node in student.assignment.fill_nodes
+        if table is None or asked or node not in student.layout.columns:
+            continue
+        constants = student.grid.column(place.sheet, place.column).constants
+        if [constants.get(row) for row in place.rows if row is not None] == list(table.rows):
+            found.add(node)
+    return found
+
+
+def _is_right(student: Student, node: str) -> bool:
+    """Whether the numbers saved in a node's cells are the right ones."""
+    place, right = student.placement.places[node], student.expected.value(node)
+    if place.span is None or isinstance(right, str):
+        return False
+    wanted = np.ravel(np.asarray(right, dtype=float))
+    column = student.grid.column(place.sheet, place.column)
+    if column.saved_rows == list(place.rows):
+        found = np.array(column.saved)
+    else:
+        saved = dict(zip(column.saved_rows, column.saved, strict=True))
+        found = np.array([np.nan if row is None else saved.get(row, np.nan) for row in place.rows])
+    largest = float(np.abs(wanted).max()) if wanted.size else np.nan
+    return bool((np.abs(found - wanted) <= EXACT * largest).all())

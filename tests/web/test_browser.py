@@ -19,7 +19,7 @@ def test_the_page_fits_and_shows_the_solvers_numbers(
     browser: Any, served: Served, width: int, scheme: str, tmp_path: Path
 ) -> None:
     page = opened(browser, served.page, width, scheme)
-    page.wait_for_selector("#chart-fig46 path")
+    page.wait_for_selector("#chart-fig46 output")
     page.wait_for_selector("#checks table")
     assert page.evaluate("document.documentElement.scrollWidth") <= width
     raw = page.evaluate("kshm.raw")
@@ -41,7 +41,7 @@ def test_an_own_engine_by_the_keyboard_to_workbook_and_pdf(
     browser: Any, served: Served, tmp_path: Path
 ) -> None:
     page = opened(browser, served.page)
-    page.wait_for_selector("#chart-fig46 path")
+    page.wait_for_selector("#chart-fig46 output")
     page.focus("#cylinders")
     page.keyboard.press("Control+A")
     page.keyboard.type("4")
@@ -76,7 +76,7 @@ def test_an_own_engine_by_the_keyboard_to_workbook_and_pdf(
 
 def test_every_control_has_a_name(browser: Any, served: Served) -> None:
     page = opened(browser, served.page)
-    page.wait_for_selector("#chart-fig46 path")
+    page.wait_for_selector("#chart-fig46 output")
     nameless = page.evaluate("""[...document.querySelectorAll('input,select,button,a,svg[role]')]
         .filter(e => !(e.getAttribute('aria-label') || e.labels?.length || e.textContent.trim()))
         .map(e => e.outerHTML.slice(0, 100))""")

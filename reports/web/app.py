@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import contextlib
 import secrets
-from collections.abc import AsyncIterator, Awaitable, Callable
+from collections.abc import AsyncIterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from starlette.applications import Starlette
+from starlette.exceptions import HTTPException
 from starlette.middleware import Middleware
 from starlette.middleware.gzip import GZipMiddleware
 from starlette.requests import Request
 from starlette.responses import FileResponse, JSONResponse, Response
-from starlette.routing import Route
+from starlette.routing import Mount, Route
+from starlette.staticfiles import StaticFiles
 
 from reports.grading.issuing.ticket import make_secret, read_secret
 from reports.inputs.sections.cycle import KINDS
@@ -24,17 +26,13 @@ from reports.shared.errors import KshmError
 from reports.shared.files import make_dir
 from reports.shared.resources import resource_dir
 from reports.web import engine, files, teacher
-from reports.web.asked import body, mapping
 from reports.web.classes import Classes
-from reports.web.guard import BODY_S, Guard, Rate, TooLarge, TooSlow, refusal
+from reports.web.guard import BODY_S, Guard, Rate, body, mapping, refusal
 from reports.web.jobs import Jobs
 from reports.web.pool import Busy, Pool, processors
 
 STATIC = Path(__file__).parent / "static"
 MOST_FILE = 100_000_000
-_TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css",
-          ".svg": "image/svg+xml"}  # fmt: skip
-DRAWINGS = ("arms.svg", "arms-v.svg", "phases.svg", "signs.svg")  # of the manual
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,21 +60,36 @@ class Settings:
     body_s: float = BODY_S
 
 
-Asked = Callable[[dict[str, Any]], Awaitable[Any]]
-
-
-def page(name: str, folder: Path = STATIC) -> Callable[[Request], Awaitable[Response]]:
-    """A page or a part of it as it lies beside this module."""
+def page(name: str) -> files.Door:
+    """A page as it lies beside this module."""
 
     async def shown(request: Request) -> Response:
-        path = folder / name
-        answer = FileResponse(path, media_type=_TYPES[path.suffix])
-        if path.suffix == ".html" and "kshm" not in request.cookies:
-            # Only the place in the queue hangs on it.
+        answer = FileResponse(STATIC / name)
+        if "kshm" not in request.cookies:  # only the place in the queue hangs on it
             answer.set_cookie("kshm", secrets.token_urlsafe(16), httponly=True, samesite="strict")
         return answer
 
     return shown
+
+
+def asked(function: Any, *keys: str) -> files.Door:  # noqa: ANN401
+    """A question to the solving processes: values of these keys of a request, or all of it."""
+
+    async def answer(request: Request) -> Response:
+        data = await body(request)
+        values: list[Any] = [
+            mapping(data, key) if key == "raw" else data.get(key, 0 if key == "cylinder" else "")
+            for key in keys
+        ]
+        return JSONResponse(await request.app.state.pool.ask(function, *(values or [data])))
+
+    return answer
+
+
+async def choices(_: Request) -> Response:
+    """What may be chosen before there is an engine."""
+    return JSONResponse({"samples": list_samples(), "layouts": LAYOUTS, "strokes": STROKES,
+                         "kinds": KINDS, "files": files.kinds()})  # fmt: skip
 
 
 def server_secret(folder: Path) -> bytes:
@@ -87,11 +100,9 @@ def server_secret(folder: Path) -> bytes:
 
 def create_app(settings: Settings) -> Guard:
     """The whole application, the guard before it."""
-    pool = Pool(settings.workers)
     make_dir(settings.data)
-    secret = server_secret(settings.data)
+    secret, pool = server_secret(settings.data), Pool(settings.workers)
     jobs = Jobs(settings.data / "jobs", secret, settings.workers or processors())
-
     classes = Classes(settings.data / "classes", secret, settings.dask)
 
     @contextlib.asynccontextmanager
@@ -106,55 +117,36 @@ def create_app(settings: Settings) -> Guard:
             await jobs.stop()
             pool.stop()
 
-    def asked(function: Callable[..., engine.Data], *keys: str) -> Any:  # noqa: ANN401
-        """A question to the solving processes: values of these keys of a request."""
-
-        async def answer(request: Request) -> Response:
-            data = await body(request)
-            values: list[Any] = [
-                mapping(data, key) if key == "raw" else data.get(key, "") for key in keys
-            ]
-            return JSONResponse(await pool.ask(function, *values))
-
-        return answer
-
-    async def choices(_: Request) -> Response:
-        return JSONResponse({
-            "samples": list_samples(), "layouts": LAYOUTS, "strokes": STROKES, "kinds": KINDS,
-            "files": files.kinds(),
-        })  # fmt: skip
-
-    async def new(request: Request) -> Response:
-        return JSONResponse(await pool.ask(engine.fresh, await body(request)))
-
+    questions = {
+        "new": asked(engine.fresh),
+        "read": asked(engine.read_toml, "text"),
+        "start": asked(engine.start, "raw"),
+        "solve": asked(engine.answer, "raw", "sheet", "cylinder"),
+        "checks": asked(engine.checks, "raw"),
+        "toml": asked(engine.as_toml, "raw"),
+        "book": files.book,
+        "files": files.order(jobs, settings.dask),
+    }
     routes = [
         Route("/", page("engine.html")),
         Route("/teacher", page("teacher.html")),
         Route("/s/{link}/", page("student.html")),
         *teacher.routes(classes, secret, settings.secure),
         *teacher.student_routes(classes),
-        *(Route(f"/static/{path.name}", page(path.name)) for path in sorted(STATIC.iterdir())
-          if path.suffix in (".js", ".css")),
-        *(Route(f"/static/{name}", page(name, resource_dir("docs/images"))) for name in DRAWINGS),
+        Mount("/static", StaticFiles(directory=STATIC)),
+        Mount("/images", StaticFiles(directory=resource_dir("docs/images"))),
         Route("/api/choices", choices),
-        Route("/api/new", new, methods=["POST"]),
-        Route("/api/read", asked(engine.read_toml, "text"), methods=["POST"]),
-        Route("/api/start", asked(engine.start, "raw"), methods=["POST"]),
-        Route("/api/solve", asked(engine.answer, "raw", "sheet"), methods=["POST"]),
-        Route("/api/checks", asked(engine.checks, "raw"), methods=["POST"]),
-        Route("/api/toml", asked(engine.as_toml, "raw"), methods=["POST"]),
-        Route("/api/book", files.book, methods=["POST"]),
-        Route("/api/files", files.order(jobs, settings.dask), methods=["POST"]),
+        *(Route(f"/api/{name}", door, methods=["POST"]) for name, door in questions.items()),
         Route("/api/files/{job}", files.about(jobs)),
         Route("/api/files/{job}/{name}", files.taken(jobs)),
-    ]  # fmt: skip
+    ]
     app = Starlette(
         routes=routes, lifespan=lifespan, exception_handlers=handlers(),
         middleware=[Middleware(GZipMiddleware, minimum_size=1000)],
     )  # fmt: skip
     app.state.pool, app.state.settings = pool, settings
     app.state.jobs, app.state.classes = jobs, classes
-    hosts = frozenset({"127.0.0.1", "localhost", "[::1]", *map(str.lower, settings.hosts)})
+    hosts = frozenset({"127.0.0.1", "localhost", "::1", *map(str.lower, settings.hosts)})
     rate = Rate(settings.per_s, 2 * settings.per_s)
     return Guard(app, hosts, settings.prefix, MOST_FILE, rate, settings.body_s)
 
@@ -162,26 +154,17 @@ def create_app(settings: Settings) -> Guard:
 def handlers() -> dict[Any, Any]:
     """What becomes of errors: a line for the person, never a traceback."""
 
-    async def expected(_: Request, error: Exception) -> Response:
-        assert isinstance(error, KshmError)
+    async def expected(_: Request, error: KshmError) -> Response:
         return JSONResponse({"errors": [engine.as_dict(p) for p in error.problems]}, 422)
 
     async def busy(_: Request, __: Exception) -> Response:
         return refusal(503, "сервер занят или данные не считаются за отведённое время; повторите")
 
-    async def large(_: Request, __: Exception) -> Response:
-        return refusal(413, "слишком много данных")
-
-    async def slow(_: Request, __: Exception) -> Response:
-        return refusal(408, "данные не приходят; повторите")
-
-    async def absent(_: Request, __: Exception) -> Response:
-        return refusal(404, "нет такой страницы")
+    async def refused(_: Request, error: HTTPException) -> Response:
+        ours = not error.detail.isascii()
+        return refusal(error.status_code, error.detail if ours else "нет такой страницы")
 
     async def unexpected(_: Request, error: Exception) -> Response:
         return refusal(500, f"внутренняя ошибка {type(error).__name__}")
 
-    return {
-        KshmError: expected, Busy: busy, TooLarge: large, TooSlow: slow, 404: absent, 405: absent,
-        500: unexpected,
-    }  # fmt: skip
+    return {KshmError: expected, Busy: busy, HTTPException: refused, 500: unexpected}

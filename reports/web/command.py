@@ -29,12 +29,16 @@ _EVERYWHERE = ("0.0.0.0", "::")
 def serve(port: int, host: str, folder: Path, public: str, dask: str | None, verbose: bool) -> int:
     """Открыть страницу в браузере: числа, диаграммы, файлы, группа преподавателя."""
     try:
-        import starlette  # noqa: F401
+        import pebble
+        import starlette
         import uvicorn
+
+        assert pebble and starlette
     except ImportError:
         raise SystemPartMissing(
-            "пакеты starlette и uvicorn", 'pip install "kshm[serve]"', purpose="для kshm serve"
-        ) from None
+            "пакеты starlette, uvicorn и pebble", 'pip install "kshm[serve]"',
+            purpose="для kshm serve",
+        ) from None  # fmt: skip
     if not 0 < port < 65536:
         msg = f"--port {port}: порт — число от 1 до 65535"
         raise KshmError(msg)

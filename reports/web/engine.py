@@ -1,4 +1,4 @@
-"""What the page of an engine asks for, as plain data: fields, numbers, charts, checks.
+"""What the page of an engine asks for, as plain data: numbers, charts, checks, what moves.
 
 These functions run in the workers of `reports.web.pool`; what they raise as `KshmError`
 comes back as problems with the keys of their fields.
@@ -6,9 +6,10 @@ comes back as problems with the keys of their fields.
 
 from __future__ import annotations
 
+import os
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
-from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,13 +17,11 @@ import numpy as np
 from kshm import quantity, solve
 from kshm.results.solution import Solution, in_units
 from reports.inputs.checks.grid import grid_remark
-from reports.inputs.fields import Field, iter_fields, key_text, tables_shape, to_mapping
-from reports.inputs.load import Loaded, load_mapping
-from reports.inputs.meta import Meta, Strictly, find_meta, hints, submodel
+from reports.inputs.fields import iter_fields, tables_shape, to_mapping
+from reports.inputs.load import Loaded, load_mapping, load_text
 from reports.inputs.own_engine import Made
 from reports.inputs.own_file import file_text
 from reports.inputs.ranges import split_ranges
-from reports.inputs.registry import SECTIONS
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.source import MAX_BYTES, refuse_bomb, refused
 from reports.inputs.to_si.engine import engine_and_cycle
@@ -36,8 +35,8 @@ from reports.spec.evaluation import Evaluation
 from reports.tables.overview.summary import NO
 from reports.tables.overview.verdicts import reasons_of
 from reports.tables.registry import build_model
+from reports.web.fields import Data, absent, groups, without_foreign
 
-Data = dict[str, Any]
 HEAD = ("Исходные данные двигателя для kshm.",)
 _DIGITS = 8  # of the greatest number of a curve: what no screen shows
 _PATHS = ("style", "templates", "compare")  # keys of [report] that name files of the machine
@@ -51,6 +50,11 @@ def answered(function: Callable[..., Data], *arguments: Any) -> Data:  # noqa: A
         return function(*arguments)
     except KshmError as error:
         return {"errors": [as_dict(problem) for problem in error.problems]}
+    except MemoryError:  # the heap may be in pieces: a new process takes over
+        os._exit(1)
+    except Exception as error:  # a bug costs one answer
+        what = f"внутренняя ошибка {type(error).__name__}"
+        return {"errors": [as_dict(Problem("", what, "сообщите о ней"))]}
 
 
 def as_dict(problem: Problem) -> Data:
@@ -70,12 +74,20 @@ def read_toml(text: str) -> Data:
     try:
         raw = tomllib.loads(text)
     except (ValueError, RecursionError):
-        # The loader knows the words for it.
-        from reports.inputs.load import load_text
-
-        load_text(text, source="файл")
+        load_text(text, source="файл")  # knows the words for it
         raise
     return {"raw": split_ranges(raw)[0]}
+
+
+def read_book(path: str) -> Data:
+    """The mapping of the input that an edited workbook holds.
+
+    Raises:
+        InputError: it is no workbook of ours, or its cells are wrong.
+    """
+    from reports.workbook.read import load_workbook_input
+
+    return {"raw": to_mapping(load_workbook_input(Path(path)).model)}
 
 
 def checked_text(text: str) -> Data:
@@ -97,13 +109,8 @@ def loaded_of(raw: Mapping[str, Any]) -> Loaded:
     loaded = load_mapping(raw, source="")
     named = [key for key in _PATHS if getattr(loaded.model.report, key)]
     if named:
-        what = "страница не читает файлов с диска"
-        raise InputError(
-            [
-                Problem(f"report.{key}", what, "уберите ключ; команде kshm он доступен")
-                for key in named
-            ]
-        )
+        what, hint = "страница не читает файлов с диска", "уберите ключ; команде kshm он доступен"
+        raise InputError([Problem(f"report.{key}", what, hint) for key in named])
     return loaded
 
 
@@ -125,74 +132,25 @@ def start(raw: Mapping[str, Any]) -> Data:
 
     What is wrong with its values stands among the errors; the fields are shown all the same.
     """
-    plain = understood(raw)
+    plain = without_foreign(understood(raw))
+    found: Data = {"sheets": [], "errors": []}
     try:
-        loaded = loaded_of(plain)
+        model = loaded_of(plain).model
     except InputError as error:
-        return {"raw": plain, "groups": [], "errors": [as_dict(each) for each in error.problems]}
-    model = _model_for(loaded.model)
-    sheets: dict[str, str] = {}
-    for chart in model.charts:
-        sheets.setdefault(chart.sheet, chart.title)
-    return {
-        "raw": to_mapping(loaded.model),
-        "groups": list(_groups(loaded.model)),
-        "sheets": [{"id": name, "title": name or "Прочее", "hint": title}
-                   for name, title in sheets.items()],
-        "absent": [{"id": name, "title": section.title} for name, section in SECTIONS.items()
-                   if section.absent and getattr(loaded.model, name) is None],
-    }  # fmt: skip
+        found["errors"] = [as_dict(problem) for problem in error.problems]
+    else:
+        plain, sheets = to_mapping(model), dict[str, str]()
+        for chart in _model_for(model).charts:
+            sheets.setdefault(chart.sheet, chart.title)
+        found["sheets"] = [{"id": name, "title": name or "Прочее", "hint": title}
+                           for name, title in sheets.items()]  # fmt: skip
+    return {"raw": plain, "groups": list(groups(plain)), "absent": absent(plain), **found}
 
 
-def _groups(model: InputFile) -> Iterator[Data]:
-    """Groups of fields; after those given come the keys that may be."""
-    groups: dict[str, list[Data]] = {}
-    for field in iter_fields(model):
-        groups.setdefault(field.section, []).append(_as_data(field))
-    shown = {field.path for field in iter_fields(model)}
-    for name, section in SECTIONS.items():
-        part: Strictly | None = getattr(model, name)
-        if part is None:
-            continue
-        for key, annotation in hints(type(part)).items():
-            metas = find_meta(annotation)
-            plain = submodel(annotation) is None and key not in section.lists
-            if plain and metas and (name, key) not in shown:
-                groups.setdefault(section.title, []).append(_blank((name, key), metas[0]))
-    arms = "arms-v" if model.engine.layout == "v" else "arms"
-    drawings = {"arms": arms, "throw_angles_deg": "phases", "webs": "signs"}
-    for title, fields in groups.items():
-        drawing = drawings.get(str(fields[0]["path"][1]), "")
-        yield {"title": title, "fields": fields, "drawing": drawing}
-
-
-def _as_data(field: Field) -> Data:
-    return {
-        "path": list(field.path), "key": key_text(field.path), "title": field.title,
-        "symbol": field.symbol, "unit": field.unit, "value": field.value,
-        "number": not isinstance(field.value, str) and field.choices is None,
-        "choices": field.choices, "min": field.minimum, "max": field.maximum,
-        "optional": field.optional,
-    }  # fmt: skip
-
-
-def _blank(path: tuple[str, str], meta: Meta) -> Data:
-    return {
-        "path": list(path), "key": key_text(path), "title": meta.title, "symbol": meta.symbol,
-        "unit": meta.unit.label, "value": None, "number": meta.minimum is not None,
-        "choices": None if meta.choices is None else dict(meta.choices),
-        "min": meta.minimum, "max": meta.maximum, "optional": True,
-    }  # fmt: skip
-
-
-def _solved(model: InputFile) -> Solution:
-    return solve(*engine_and_cycle(model))
-
-
-def answer(raw: Mapping[str, Any], sheet: str) -> Data:
+def answer(raw: Mapping[str, Any], sheet: str, cylinder: int = 0) -> Data:
     """Numbers of an engine, the charts of a sheet, what moves, what is odd about the input."""
     loaded = loaded_of(raw)
-    model, solution = _model_for(loaded.model), _solved(loaded.model)
+    model, solution = _model_for(loaded.model), solve(*engine_and_cycle(loaded.model))
     formulas = Evaluation(model)
     return {
         "errors": [],
@@ -201,7 +159,7 @@ def answer(raw: Mapping[str, Any], sheet: str) -> Data:
         "results": list(_results(model, solution)),
         "charts": [_chart(chart, solution, formulas)
                    for chart in model.charts if chart.sheet == sheet],
-        "moves": moving(solution),
+        "moves": moving(solution, cylinder),
     }  # fmt: skip
 
 
@@ -239,17 +197,40 @@ def _column(solution: Solution, table: str, key: str) -> Any:  # noqa: ANN401
 
 
 def _chart(chart: ChartSpec, solution: Solution, formulas: Evaluation) -> Data:
-    curves = []
-    for curve in chart.drawn_by("report"):
-        curves.append({
-            "name": curve.name or _symbol(curve.y),
-            "x": _numbers(curve.x, solution, formulas), "y": _numbers(curve.y, solution, formulas),
-        })  # fmt: skip
+    def numbers(key: str) -> list[float | None]:
+        found = _column(solution, *key.split(".", 1))
+        return plain_numbers(formulas.value(key) if found is None else found)
+
+    curves = [{"name": curve.name or _symbol(curve.y), "x": numbers(curve.x), "y": numbers(curve.y)}
+              for curve in chart.drawn_by("report")]  # fmt: skip
     return {
         "id": chart.id, "title": chart.title, "kind": chart.kind, "x_title": chart.x_title,
         "y_title": chart.y_title, "angle": chart.x_is_angle, "x_reversed": chart.x_reversed,
-        "y_reversed": chart.y_reversed, "curves": curves,
+        "y_reversed": chart.y_reversed, "curves": curves, "path": _path(chart, solution, curves),
     }  # fmt: skip
+
+
+def _path(chart: ChartSpec, solution: Solution, curves: list[Data]) -> Data | None:
+    """Where the cursor stands on a chart of no angle at every φ: a vector's end, the worn side."""
+    angles = {len(phi): phi for phi in (
+        _column(solution, table, "phi_deg") for table in ("P3_1", "P4_1"))}  # fmt: skip
+    if chart.kind == "wear":
+        place, _, regime = chart.series[0].x.partition("_sums")[0].partition("_R")
+        number, suffix = place.rpartition("_")[2], f"_R{regime}" if regime else ""
+        if "_main_" in place:
+            table, keys, sign = f"P4_3_{number}{suffix}", ("Ry_MPa", "Rx_MPa"), 1
+        else:
+            pin = f"crankpin_{number}" if "_pin_" in place else "crankpin"
+            table, keys, sign = f"{pin}{suffix}", ("Krod_MPa", "T_MPa"), -1
+        up, against = (sign * _column(solution, table, key) for key in keys)
+        size = np.maximum(np.hypot(up, against), 1e-12)
+        phi = angles[len(size)]
+        return {"phi": plain_numbers(phi), "x": plain_numbers(-against / size),
+                "y": plain_numbers(-up / size)}  # fmt: skip
+    if chart.kind == "polar" and len(curves[0]["x"]) in angles:
+        phi = angles[len(curves[0]["x"])]
+        return {"phi": plain_numbers(phi), "x": curves[0]["x"], "y": curves[0]["y"]}
+    return None
 
 
 def _symbol(key: str) -> str:
@@ -259,40 +240,57 @@ def _symbol(key: str) -> str:
         return ""
 
 
-def _numbers(key: str, solution: Solution, formulas: Evaluation) -> list[float | None]:
-    table, _, column = key.partition(".")
-    found = _column(solution, table, column)
-    values = np.asarray(formulas.value(key) if found is None else found, dtype=float)
-    return plain_numbers(values)
-
-
 def plain_numbers(values: Any) -> list[float | None]:  # noqa: ANN401
     """A column as JSON carries it: digits that no screen shows are left out."""
     values = np.asarray(values, dtype=float)
     finite = np.isfinite(values)
     most = float(np.max(np.abs(values[finite]), initial=0.0))
     digits = _DIGITS - int(np.ceil(np.log10(most))) if most > 0 else 0
-    return [
-        x if ok else None for x, ok in zip(np.round(values, digits).tolist(), finite, strict=True)
-    ]
+    rounded: list[float | None] = np.round(values, digits).tolist()
+    if not finite.all():
+        rounded = [x if ok else None for x, ok in zip(rounded, finite, strict=True)]
+    return rounded
 
 
-def moving(solution: Solution) -> Data:
-    """What the moving mechanism of the first cylinder and the star of cranks are drawn from."""
-    forces = [key for key in solution.chain_tables["P4_1"] if key.endswith("_MPa")]
+def moving(solution: Solution, cylinder: int = 0) -> Data:
+    """What the moving mechanism of a cylinder and the star of cranks are drawn from.
+
+    ``joints`` are the places of crankpin, articulated pin and piston pin [mm] in the frame of
+    the cylinder, its axis upwards, over its own angle ``turn``; forces stand over the engine's.
+    """
+    engine, chain = solution.engine, solution.chain_tables
+    number = cylinder if 0 <= cylinder < engine.cylinders else 0
+    place, geometry = engine.arrangement[number], engine.geometry
+    table = f"cylinder_{number + 1}" if number else "P4_1"
+    phi = _column(solution, table, "phi_deg")
+    phase = _column(solution, table, "phase_deg") if number else phi
+    r, rod, e = (MM.from_si(size) for size in (
+        geometry.crank_radius, geometry.rod_length, geometry.offset))  # fmt: skip
+    turn = _column(solution, "P3_1", "phi_deg")
+    joints = [(r * np.sin(np.radians(turn)), r * np.cos(np.radians(turn)))]
+    if place.master is None:
+        exact = ("offset", "x_exact_mm") if "offset" in chain else ("P3_1", "s_mm")
+        height = np.sqrt((r + rod) ** 2 - e**2) - _column(solution, *exact)
+    else:
+        own = MM.from_si(engine.articulated[0].rod_length)
+        across, along, beta = (_column(solution, "articulated", key)
+                               for key in ("across_mm", "along_mm", "beta_rad"))  # fmt: skip
+        joints.append((across, along))
+        height = along + own * np.cos(beta)
+    joints.append((np.full(len(height), e), height))
+    forces = [key for key in chain["P4_1"] if key.endswith("_MPa")]
     return {
-        "phi": plain_numbers(_column(solution, "P4_1", "phi_deg")),
-        "turn": plain_numbers(_column(solution, "P3_1", "phi_deg")),  # of the mechanism: one turn
-        "s": plain_numbers(_column(solution, "P3_1", "s_mm")),
-        "beta": plain_numbers(_column(solution, "P3_2", "beta_rad")),
+        "phi": plain_numbers(phi), "turn": plain_numbers(turn), "shift": float(phi[0] - phase[0]),
+        "joints": [[plain_numbers(x), plain_numbers(y)] for x, y in joints],
         "forces": {
             key: {"symbol": quantity(key).symbol, "unit": quantity(key).unit_label,
-                  "values": plain_numbers(_column(solution, "P4_1", key))}
+                  "values": plain_numbers(_column(solution, table, key))}
             for key in forces
         },
-        "radius": MM.from_si(solution.engine.geometry.crank_radius),
-        "rod": MM.from_si(solution.engine.geometry.rod_length),
-        "throws": np.degrees([each.angle for each in solution.engine.crankshaft.throws]).tolist(),
+        "radius": r, "bore": MM.from_si(geometry.bore), "axis": float(np.degrees(place.axis)),
+        "wall": MM.from_si(geometry.crank_offset or 0.0), "throw": place.throw,
+        "cylinder": number, "cylinders": engine.cylinders,
+        "throws": np.degrees([each.angle for each in engine.crankshaft.throws]).tolist(),
     }  # fmt: skip
 
 
@@ -300,34 +298,31 @@ def checks(raw: Mapping[str, Any]) -> Data:
     """The checks of the calculation, each with its value, and what the step leaves out."""
     loaded = loaded_of(raw)
     model = _model_for(loaded.model)
-    formulas = Evaluation(model)
-    found, reasons = [], reasons_of(loaded.model)
-    for key, scalar in model.scalars.items():
-        if key.startswith("check_"):
-            name = key.removeprefix("check_")
-            value = float(formulas.value(f"value_{name}"))
-            ok = formulas.value(key) != NO
-            found.append({
-                "key": name, "title": scalar.note, "value": value, "ok": ok,
-                "reason": reasons.get(name, ""),
-            })  # fmt: skip
+    formulas, reasons = Evaluation(model), reasons_of(loaded.model)
+    names = {key.removeprefix("check_"): scalar for key, scalar in model.scalars.items()
+             if key.startswith("check_")}  # fmt: skip
+    found = [
+        {"key": name, "title": scalar.note, "value": float(formulas.value(f"value_{name}")),
+         "ok": formulas.value(f"check_{name}") != NO, "reason": reasons.get(name, "")}
+        for name, scalar in names.items()
+    ]  # fmt: skip
     grid = grid_remark(loaded.model)
     return {"checks": found, "remarks": [*model.remarks, *((grid,) if grid else ())]}
 
 
 def as_toml(raw: Mapping[str, Any]) -> Data:
     """The commented file of an input."""
-    return {"text": toml_text(loaded_of(raw).model)}
-
-
-def toml_text(model: InputFile) -> str:
-    """A checked input as the file that a person keeps."""
-    return file_text(Made(to_mapping(model), {}, HEAD))
+    return {"text": file_text(Made(to_mapping(loaded_of(raw).model), {}, HEAD))}
 
 
 def fresh(wanted: Mapping[str, Any]) -> Data:
-    """A new engine as ``kshm new`` makes it: a sample, an own one, or an alternative to ``raw``."""
+    """A new engine as ``kshm new`` makes it: a sample, an own one, or an alternative to ``raw``.
+
+    Raises:
+        KshmError: there is no such engine.
+    """
     from reports.commands.own import own_text
+    from reports.inputs.own_similar import alternative
     from reports.inputs.template import new_file
 
     if wanted.get("sample"):
@@ -335,21 +330,16 @@ def fresh(wanted: Mapping[str, Any]) -> Data:
     cylinders = wanted.get("cylinders")
     if not isinstance(cylinders, int) or isinstance(cylinders, bool):
         raise InputError(Problem("cylinders", "нужно целое число цилиндров", "от 1 до 12"))
-    if wanted.get("raw") is not None:
-        from reports.inputs.own_similar import alternative
-
-        base = loaded_of(wanted["raw"]).model
-        layout = wanted.get("layout") if wanted.get("layout") in _WORDS["layout"] else None
-        return read_toml(file_text(alternative(base, cylinders, layout=layout)))
-    options = {f"--{key}": wanted.get(key) for key in ("layout", "strokes", "kind")}
+    options = {f"--{key}": wanted.get(key) for key in (*_WORDS, "power", "speed")}
     for key, words in _WORDS.items():
-        if options[f"--{key}"] is not None and options[f"--{key}"] not in words:
+        if options[f"--{key}"] not in (None, *words):
             raise InputError(Problem(key, "нет такого", "выберите из списка"))
+    if wanted.get("raw") is not None:
+        base = loaded_of(wanted["raw"]).model
+        return read_toml(file_text(alternative(base, cylinders, layout=options["--layout"])))
     for key in ("power", "speed"):
-        value = wanted.get(key)
-        if value is not None and not isinstance(value, (int, float)):
+        if not isinstance(options[f"--{key}"], int | float | None):
             raise InputError(Problem(key, "нужно число", "впишите его или оставьте пустым"))
-        options[f"--{key}"] = value
     return read_toml(own_text(None, None, cylinders, options))
 
 
@@ -358,7 +348,6 @@ _WORDS = {
 }  # fmt: skip
 
 
-@lru_cache
-def warm() -> None:
+def warm() -> Data:
     """Import and solve once, so that the first person does not wait."""
-    answer(fresh({"sample": "gots-diesel"})["raw"], "П4.1")
+    return answer(fresh({"sample": "gots-diesel"})["raw"], "П4.1")

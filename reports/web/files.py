@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import tempfile
-import zipfile
-from collections.abc import Mapping
+from collections.abc import Awaitable, Callable
 from pathlib import Path
-from typing import Any
 
 import click
+from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import FileResponse, JSONResponse, Response
 
 from reports.commands.engine import build
 from reports.shared.errors import InputError, Problem
 from reports.web import engine
-from reports.web.asked import body, mapping, visitor
-from reports.web.guard import refusal
-from reports.web.jobs import Jobs, run
+from reports.web.guard import body, mapping
+from reports.web.jobs import Jobs
 
+Door = Callable[[Request], Awaitable[Response]]
+NO_FILE = "нет такого файла; закажите заново"
 _TITLES = {
     "xlsx": "Книга Excel", "pdf": "Отчёт PDF", "html": "Отчёт HTML", "docx": "Отчёт Word",
     "sheet": "Лист А1",
@@ -38,19 +38,18 @@ def kinds() -> dict[str, str]:
     }  # fmt: skip
 
 
-def commands(kind: str, dask: str | None) -> list[list[str]]:
+def command(kind: str, dask: str | None) -> list[str]:
     """What makes a kind of file out of ``engine.toml`` (and ``other.toml``) into ``out``."""
     if kind.startswith("compare-"):
-        return [["compare", "engine.toml", "other.toml", "-o", f"out/compare.{kind[8:]}"]]
-    if kind == "csv":
-        return [["solve", "engine.toml", "--csv", "csv"], ["zip"]]
-    if kind == "json":
-        return [["solve", "engine.toml", "--json", "out/engine.json"]]
+        return ["compare", "engine.toml", "other.toml", "-o", f"out/compare.{kind[8:]}"]
+    if kind in ("csv", "json"):
+        where = "csv" if kind == "csv" else "out/engine.json"
+        return ["solve", "engine.toml", f"--{kind}", where]
     far = ["--dask", dask] if dask else []
-    return [["build", "engine.toml", "-o", "out", "--only", kind, *far]]
+    return ["build", "engine.toml", "-o", "out", "--only", kind, *far]
 
 
-def order(jobs: Jobs, dask: str | None) -> Any:  # noqa: ANN401
+def order(jobs: Jobs, dask: str | None) -> Door:
     """The door at which files are ordered."""
     known = kinds()
 
@@ -70,67 +69,58 @@ def order(jobs: Jobs, dask: str | None) -> Any:  # noqa: ANN401
             if "errors" in text:
                 return JSONResponse(text, 422)
             files[name] = text["text"]
-        return JSONResponse({"id": jobs.add(files, commands(kind, dask), visitor(request))})
+        return JSONResponse({"id": jobs.add(files, [command(kind, dask)], visitor(request))})
 
     return ordered
 
 
-def about(jobs: Jobs) -> Any:  # noqa: ANN401
+def visitor(request: Request) -> str:
+    """Who orders: a browser by its cookie, else an address."""
+    return request.cookies.get("kshm", "")[:64] or (request.client.host if request.client else "")
+
+
+def about(jobs: Jobs) -> Door:
     """How far an order is."""
 
     async def told(request: Request) -> Response:
         found = jobs.about(request.path_params["job"])
-        return JSONResponse(found) if found else refusal(404, "нет такого файла; закажите заново")
+        if found is None:
+            raise HTTPException(404, NO_FILE)
+        return JSONResponse(found)
 
     return told
 
 
-def taken(jobs: Jobs) -> Any:  # noqa: ANN401
+def taken(jobs: Jobs) -> Door:
     """A file that was made."""
 
     async def given(request: Request) -> Response:
-        path = jobs.file(request.path_params["job"], request.path_params["name"])
-        if path is None or not path.exists():
-            return refusal(404, "нет такого файла; закажите заново")
-        return attachment(path)
+        return attachment(jobs.file(request.path_params["job"], request.path_params["name"]))
 
     return given
 
 
-def attachment(path: Path, name: str = "") -> FileResponse:
+def attachment(path: Path | None) -> FileResponse:
     """A file to be kept, never to be shown by the browser as a page of ours."""
-    return FileResponse(path, filename=name or path.name, media_type="application/octet-stream")
+    if path is None or not path.exists():
+        raise HTTPException(404, NO_FILE)
+    return FileResponse(path, filename=path.name, media_type="application/octet-stream")
 
 
 async def save_body(request: Request, target: Path) -> int:
     """Write the body of a request to a file as it comes; its size."""
-    size = 0
     with target.open("wb") as stream:
         async for chunk in request.stream():
             stream.write(chunk)
-            size += len(chunk)
-    return size
+        return stream.tell()
 
 
 async def book(request: Request) -> Response:
-    """The input that an edited workbook holds, read by a process of its own."""
-    folder = request.app.state.settings.data
-    with tempfile.TemporaryDirectory(prefix="book-", dir=folder) as name:
+    """The input that an edited workbook holds, read by a solving process."""
+    state = request.app.state
+    with tempfile.TemporaryDirectory(prefix="book-", dir=state.settings.data) as name:
         path = Path(name) / "книга.xlsx"
         if await save_body(request, path) > _MOST_BOOK:
-            return refusal(413, f"книга больше {_MOST_BOOK // 2**20} МБ")
-        said = await run(["book", path.name], Path(name), _BOOK_S)
-    if said.code != 0:
-        lines = said.lines or ("книга не читается",)
-        return JSONResponse({"errors": [{"where": "", "what": x, "hint": ""} for x in lines]}, 422)
-    return JSONResponse(await request.app.state.pool.ask(engine.read_toml, said.out))
-
-
-def zip_folder(folder: Path, target: Path, names: Mapping[str, Path] | None = None) -> None:
-    """All files of a folder, or those named, in one archive."""
-    found = names or {path.name: path for path in sorted(folder.iterdir()) if path.is_file()}
-    part = target.with_name(target.name + ".part")
-    with zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, path in found.items():
-            archive.write(path, name)
-    part.replace(target)
+            raise HTTPException(413, f"книга больше {_MOST_BOOK // 2**20} МБ")
+        found = await state.pool.ask(engine.read_book, str(path), seconds=_BOOK_S)
+    return JSONResponse(found, 422 if "errors" in found else 200)

@@ -4,15 +4,21 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import json
 import time
 from collections import OrderedDict
 from dataclasses import dataclass, field
 from ipaddress import ip_address
+from typing import Any
 from urllib.parse import urlsplit
 
 from starlette.datastructures import Headers, MutableHeaders
+from starlette.exceptions import HTTPException
+from starlette.requests import Request
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from reports.shared.errors import InputError, Problem
 
 MARK = "x-kshm"  # a header that no foreign page can send without being asked for leave
 MOST_JSON = 2_000_000
@@ -31,8 +37,8 @@ _HEADERS = {
     "cross-origin-opener-policy": "same-origin",
     "cross-origin-resource-policy": "same-origin",
     "permissions-policy": "camera=(), microphone=(), geolocation=()",
-    "cache-control": "no-store",
 }
+_FOREIGN = "запрос с чужой страницы"
 _MOST_VISITORS = 10_000
 
 
@@ -56,56 +62,75 @@ class Rate:
         return allowed
 
 
-class TooLarge(Exception):  # noqa: N818 - an answer, no fault
-    """A body is larger than it may be."""
-
-
-class TooSlow(Exception):  # noqa: N818
-    """A body does not come."""
-
-
 def refusal(code: int, what: str) -> JSONResponse:
     """An answer that says in a line why not."""
     return JSONResponse({"errors": [{"where": "", "what": what, "hint": ""}]}, code)
 
 
+async def body(request: Request) -> dict[str, Any]:
+    """The JSON object of a request.
+
+    Raises:
+        InputError: it is none.
+    """
+    found = None
+    with contextlib.suppress(ValueError, RecursionError):
+        found = json.loads(await request.body(), parse_constant=int)  # no NaN
+    if not isinstance(found, dict):
+        raise InputError(Problem("", "запрос не читается", "обновите страницу"))
+    return found
+
+
+def mapping(data: dict[str, Any], key: str) -> dict[str, Any]:
+    """A mapping within a request.
+
+    Raises:
+        InputError: there is none.
+    """
+    found = data.get(key)
+    if not isinstance(found, dict):
+        raise InputError(Problem(key, "нет исходных данных", "обновите страницу"))
+    return found
+
+
+@dataclass(frozen=True, slots=True)
 class Guard:
     """Lets through what a person's own page may ask for.
 
-    Args:
+    Attributes:
         app: what answers.
         hosts: names under which the page is known, «*» any bare address; others are answered 421.
         prefix: path under which a proxy shows the page, ``/kshm``.
         most_file: bytes of an uploaded file.
         rate: requests of one address.
+        body_s: seconds that the body of a form may take.
     """
 
-    def __init__(
-        self, app: ASGIApp, hosts: frozenset[str], prefix: str, most_file: int, rate: Rate,
-        body_s: float = BODY_S,
-    ) -> None:  # fmt: skip
-        self.app, self.hosts, self.prefix = app, hosts, prefix
-        self.most_file, self.rate, self.body_s = most_file, rate, body_s
+    app: ASGIApp
+    hosts: frozenset[str]
+    prefix: str
+    most_file: int
+    rate: Rate
+    body_s: float = BODY_S
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Refuse, or hand on with a body that is bounded in size and time."""
+        if scope["type"] == "lifespan":
+            await self.app(scope, receive, send)
         if scope["type"] != "http":
-            if scope["type"] == "lifespan":
-                await self.app(scope, receive, send)
             return
-        sender = _with_headers(send)
-        headers = Headers(scope=scope)
+        path, headers = scope["path"], Headers(scope=scope)
+        if self.prefix and path.startswith(self.prefix + "/"):
+            path = path.removeprefix(self.prefix)
+        sender = _with_headers(send, "no-cache" if path.startswith("/static/") else "no-store")
         why = self._refused(scope, headers)
         if why is not None:
             await refusal(*why)(scope, receive, sender)
             return
-        path = scope["path"]
-        if self.prefix and path.startswith(self.prefix + "/"):
-            scope = {**scope, "path": path.removeprefix(self.prefix)}
         most, seconds = MOST_JSON, self.body_s
         if headers.get("content-type", "").startswith("application/octet-stream"):
             most, seconds = self.most_file, max(FILE_S, self.body_s)
-        await self.app(scope, _bounded(receive, most, seconds), sender)
+        await self.app({**scope, "path": path}, _bounded(receive, most, seconds), sender)
 
     def _refused(self, scope: Scope, headers: Headers) -> tuple[int, str] | None:
         client = scope.get("client")
@@ -117,40 +142,28 @@ class Guard:
             return None
         if scope["method"] != "POST":
             return 405, "нет такого действия"
-        origin = headers.get("origin")
-        if origin is not None and urlsplit(origin).netloc.lower() != self._own(headers, origin):
-            return 403, "запрос с чужой страницы"
-        if headers.get("sec-fetch-site", "same-origin") != "same-origin" or MARK not in headers:
-            return 403, "запрос с чужой страницы"
-        if not headers.get("content-type", "").startswith(
-            ("application/json", "application/octet-stream")
-        ):
+        if not self._own(headers) or MARK not in headers:
+            return 403, _FOREIGN
+        kind = headers.get("content-type", "")
+        if not kind.startswith(("application/json", "application/octet-stream")):
             return 415, "неверный вид данных"
         return None
 
     def _known(self, host: str) -> bool:
         """Whether a host is ours; a bare address, unlike a name, cannot be made to lead here."""
-        name = _name(host)
-        if name in self.hosts:
-            return True
         with contextlib.suppress(ValueError):
-            return "*" in self.hosts and bool(ip_address(name.strip("[]")))
+            name = urlsplit(f"//{host}").hostname or ""
+            return name in self.hosts or ("*" in self.hosts and bool(ip_address(name)))
         return False
 
-    def _own(self, headers: Headers, origin: str) -> str:
-        """The host that an origin must have: that of the request, behind a proxy any of ours."""
-        host = headers["host"].lower()
-        given = urlsplit(origin)
-        if self.prefix or given.scheme == "https":
-            return given.netloc.lower() if self._known(given.netloc) else host
-        return host
-
-
-def _name(host: str) -> str:
-    host = host.strip().lower()
-    if host.startswith("["):
-        return host.partition("]")[0] + "]"
-    return host.partition(":")[0]
+    def _own(self, headers: Headers) -> bool:
+        """Whether a page of ours asks: behind a proxy its host is any of ours."""
+        origin = urlsplit(headers.get("origin", ""))
+        if headers.get("sec-fetch-site", "same-origin") != "same-origin":
+            return False
+        if "origin" not in headers or origin.netloc.lower() == headers["host"].lower():
+            return True
+        return bool(self.prefix or origin.scheme == "https") and self._known(origin.netloc)
 
 
 def _bounded(receive: Receive, most: int, seconds: float) -> Receive:
@@ -164,10 +177,10 @@ def _bounded(receive: Receive, most: int, seconds: float) -> Receive:
         try:
             message = await asyncio.wait_for(receive(), max(0.01, until - time.monotonic()))
         except TimeoutError:
-            raise TooSlow from None
+            raise HTTPException(408, "данные не приходят; повторите") from None
         size += len(message.get("body", b""))
         if size > most:
-            raise TooLarge
+            raise HTTPException(413, "слишком много данных")
         if not message.get("more_body", False):
             size = -1
         return message
@@ -175,11 +188,11 @@ def _bounded(receive: Receive, most: int, seconds: float) -> Receive:
     return bounded
 
 
-def _with_headers(send: Send) -> Send:
+def _with_headers(send: Send, cache: str) -> Send:
     async def sender(message: Message) -> None:
         if message["type"] == "http.response.start":
             headers = MutableHeaders(scope=message)
-            for key, value in _HEADERS.items():
+            for key, value in (*_HEADERS.items(), ("cache-control", cache)):
                 headers.setdefault(key, value)
         await send(message)
 

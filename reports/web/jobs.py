@@ -20,6 +20,7 @@ import time
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -30,10 +31,16 @@ TIMEOUT_S = 300.0
 MOST_WAITING, MOST_OWN = 500, 6
 MOST_BYTES = 2 * 10**9  # of all files kept
 KEEP_S = 14 * 86400.0
-_KSHM = (
-    "from reports.web.limited import begin; begin(); from reports.__main__ import start; start()"
-)
 _LINES = 40  # of what a command said
+# The command with little memory; who waits for a number comes before who waits for a file.
+_KSHM = """
+import os
+from reports.grading.batch.worker import limit_memory
+from reports.__main__ import start
+limit_memory(3 * 2**30)
+getattr(os, "nice", abs)(5)
+start()
+"""
 _SYSTEM = ("PATH", "HOME", "LANG", "LC_ALL", "TMPDIR", "PYTHONPATH", "SYSTEMROOT", "TEMP",
            "FONTCONFIG_PATH", "FONTCONFIG_FILE", "XDG_CACHE_HOME")  # fmt: skip
 
@@ -44,7 +51,20 @@ class Said:
 
     code: int
     lines: tuple[str, ...]
-    out: str = ""
+
+
+def read_json(path: Path) -> dict[str, Any]:
+    """What a file says; nothing if it is not there or damaged."""
+    try:
+        found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return found
+
+
+def write_json(path: Path, data: Mapping[str, Any]) -> None:
+    """Keep plain data, whole or not at all."""
+    write_text(path, json.dumps(data, ensure_ascii=False))
 
 
 async def run(arguments: Sequence[str], folder: Path, timeout_s: float = TIMEOUT_S) -> Said:
@@ -52,36 +72,25 @@ async def run(arguments: Sequence[str], folder: Path, timeout_s: float = TIMEOUT
     kept = {key: os.environ[key] for key in _SYSTEM if key in os.environ}
     home = [str(Path(__file__).resolve().parents[2]), kept.get("PYTHONPATH", "")]
     kept |= {"PYTHONPATH": os.pathsep.join(filter(None, home)), "PYTHONIOENCODING": "utf-8"}
-    own = arguments[0] in ("book", "zip")
-    program = ("-m", "reports.web.limited") if own else ("-c", _KSHM)
     process = await asyncio.create_subprocess_exec(
-        sys.executable, *program, *arguments,
-        cwd=folder, env=kept, stdin=asyncio.subprocess.DEVNULL, stdout=asyncio.subprocess.PIPE,
-        stderr=asyncio.subprocess.PIPE, start_new_session=True,
+        sys.executable, "-c", _KSHM, *arguments, cwd=folder, env=kept, start_new_session=True,
+        stdin=asyncio.subprocess.DEVNULL, stdout=asyncio.subprocess.DEVNULL,
+        stderr=asyncio.subprocess.PIPE,
     )  # fmt: skip
     try:
-        out, said = await asyncio.wait_for(process.communicate(), timeout_s)
+        _, said = await asyncio.wait_for(process.communicate(), timeout_s)
     except TimeoutError:
         return Said(-1, (f"не сделано за {timeout_s:.0f} с: уменьшите расчёт",))
     finally:
-        _end(process)
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(process.pid, signal.SIGKILL) if hasattr(os, "killpg") else process.kill()
         with contextlib.suppress(asyncio.CancelledError):
             await process.wait()
-    if process.returncode is not None and process.returncode < 0:
-        return Said(process.returncode, ("процесс прерван: повторите",))
-    lines = [one_line(line, 400) for line in said.decode("utf-8", "replace").splitlines()]
-    return Said(
-        process.returncode or 0, tuple(line for line in lines if line)[:_LINES],
-        out.decode("utf-8", "replace"),
-    )  # fmt: skip
-
-
-def _end(process: asyncio.subprocess.Process) -> None:
-    with contextlib.suppress(ProcessLookupError, PermissionError):
-        if hasattr(os, "killpg"):
-            os.killpg(process.pid, signal.SIGKILL)
-        else:
-            process.kill()
+    code = process.returncode or 0
+    if code < 0:
+        return Said(code, ("процесс прерван: повторите",))
+    lines = (one_line(line, 400) for line in said.decode("utf-8", "replace").splitlines())
+    return Said(code, tuple(filter(None, lines))[:_LINES])
 
 
 class Jobs:
@@ -96,23 +105,20 @@ class Jobs:
     def __init__(self, folder: Path, secret: bytes, at_once: int) -> None:
         self.folder, self.secret, self.at_once = folder, secret, at_once
         self.waiting: dict[str, str] = {}  # job → visitor, in the order of coming
-        self.running: dict[str, float] = {}
-        self._owner: dict[str, str] = {}
+        self.running: dict[str, tuple[str, float]] = {}  # job → visitor, beginning
         self._wake = asyncio.Event()
-        self._tasks: set[asyncio.Task[None]] = set()
+        self._tasks: list[asyncio.Task[None]] = []
 
     def start(self) -> None:
         """Take up what an earlier server has left, and begin."""
         make_dir(self.folder)
-        orders = [path.parent for path in self.folder.glob("*/order.json")]
-        left = [path for path in orders if not (path / "done.json").exists()]
-        for path in sorted(left, key=lambda path: (path / "order.json").stat().st_mtime):
-            shutil.rmtree(path / "out", ignore_errors=True)
-            self.waiting[path.name] = self._order(path.name)["visitor"]
+        left = [path for path in self.folder.glob("*/order.json")
+                if not (path.parent / "done.json").exists()]  # fmt: skip
+        for path in sorted(left, key=lambda path: path.stat().st_mtime):
+            shutil.rmtree(path.parent / "out", ignore_errors=True)
+            self.waiting[path.parent.name] = read_json(path).get("visitor", "")
         self._clean()
-        for _ in range(self.at_once):
-            self._tasks.add(asyncio.create_task(self._work()))
-        self._wake.set()
+        self._tasks = [asyncio.create_task(self._work()) for _ in range(self.at_once)]
 
     async def stop(self) -> None:
         """End what runs; it is made again by the next server."""
@@ -126,15 +132,16 @@ class Jobs:
         Raises:
             InputError: the queue is full, or the visitor has enough in it.
         """
-        text = json.dumps([files, commands, _version()], ensure_ascii=False, sort_keys=True)
+        text = json.dumps([files, commands, version("kshm")], ensure_ascii=False, sort_keys=True)
         name = hmac.new(self.secret, text.encode(), hashlib.sha256).hexdigest()[:40]
         folder = self.folder / name
-        if name in self.waiting or name in self.running:
-            return name
-        if (self.about(name) or {}).get("state") == "done":
+        about = self.about(name) or {}
+        if about.get("state") == "done":
             os.utime(folder / "done.json")
+        if about.get("state") in ("waiting", "running", "done"):
             return name
-        own = sum(who == visitor for who in (*self.waiting.values(), *self._owner.values()))
+        busy = (*self.waiting.values(), *(who for who, _ in self.running.values()))
+        own = busy.count(visitor)
         if len(self.waiting) >= MOST_WAITING or own >= MOST_OWN:
             what = "очередь полна" if own < MOST_OWN else f"у вас уже {own} файлов в очереди"
             raise InputError(Problem("", what, "дождитесь их"))
@@ -142,15 +149,14 @@ class Jobs:
         folder.mkdir(mode=0o700)
         for file, content in files.items():
             write_text(folder / file, content)
-        order = {"visitor": visitor, "commands": [list(command) for command in commands]}
-        write_text(folder / "order.json", json.dumps(order, ensure_ascii=False))
+        write_json(folder / "order.json", {"visitor": visitor, "commands": commands})
         self.waiting[name] = visitor
         self._wake.set()
         return name
 
     def line(self) -> list[str]:
         """The waiting jobs in the order in which they will be made."""
-        turn = Counter(self._owner.values())
+        turn = Counter(who for who, _ in self.running.values())
         ordered = []
         for place, (name, visitor) in enumerate(self.waiting.items()):
             ordered.append((turn[visitor], place, name))
@@ -162,67 +168,55 @@ class Jobs:
         if name in self.waiting:
             return {"state": "waiting", "place": self.line().index(name) + len(self.running)}
         if name in self.running:
-            return {"state": "running", "seconds": round(time.monotonic() - self.running[name])}
+            return {"state": "running", "seconds": round(time.monotonic() - self.running[name][1])}
         if not (len(name) == 40 and name.isalnum() and name.isascii()):  # a name, never a path
             return None
-        try:
-            found: dict[str, Any] = json.loads(
-                (self.folder / name / "done.json").read_text(encoding="utf-8")
-            )
-        except (OSError, ValueError):
-            return None
-        return found
+        return read_json(self.folder / name / "done.json") or None
 
     def file(self, name: str, file: str) -> Path | None:
         """A file that a job has made; only those that it names itself."""
-        about = self.about(name)
-        files = [each["name"] for each in (about or {}).get("files", ())]
+        files = [each["name"] for each in (self.about(name) or {}).get("files", ())]
         return self.folder / name / "out" / file if file in files else None
 
     async def _work(self) -> None:
         while True:
-            line = self.line()
-            if not line:
+            if not (line := self.line()):
                 self._wake.clear()
                 await self._wake.wait()
                 continue
             name = line[0]
-            self._owner[name] = self.waiting.pop(name)
-            self.running[name] = time.monotonic()
+            self.running[name] = self.waiting.pop(name), time.monotonic()
             try:
                 await self._make(name)
             finally:
                 self.running.pop(name, None)
-                self._owner.pop(name, None)
 
     async def _make(self, name: str) -> None:
-        folder = self.folder / name
-        out, code = folder / "out", 0
-        lines: list[str] = []
+        folder, code = self.folder / name, 0
+        out, lines, files = folder / "out", list[str](), list[dict[str, Any]]()
         try:
             out.mkdir(exist_ok=True)
-            for command in self._order(name)["commands"]:
+            for command in read_json(folder / "order.json")["commands"]:
                 said = await run(command, folder)
                 lines += said.lines
                 code = said.code
                 if code not in (0, 1):
                     break
+            if (folder / "csv").exists():  # many tables are taken as one file
+                await asyncio.to_thread(
+                    shutil.make_archive, str(out / "tables"), "zip", folder / "csv"
+                )
             files = [{"name": path.name, "size": path.stat().st_size}
                      for path in sorted(out.iterdir()) if path.is_file()]  # fmt: skip
-        except OSError:
+        except (OSError, KeyError):
             code, files, lines = 2, [], ["на сервере не удаётся записать файл; сообщите кафедре"]
         good = code in (0, 1, 3) and bool(files)
-        done = {"state": "done" if good else "failed", "files": files if good else [],
-                "lines": [line.replace(f"{folder}/", "") for line in lines]}  # fmt: skip
+        lines = [line.replace(f"{folder}/", "") for line in lines]
+        state = "done" if good else "failed"
         with contextlib.suppress(Exception):  # a full disk must not end the queue
-            write_text(folder / "done.json", json.dumps(done, ensure_ascii=False))
+            done = {"state": state, "files": files if good else [], "lines": lines}
+            write_json(folder / "done.json", done)
             self._clean()
-
-    def _order(self, name: str) -> dict[str, Any]:
-        found: dict[str, Any] = json.loads(
-            (self.folder / name / "order.json").read_text(encoding="utf-8")
-        )
-        return found
 
     def _clean(self) -> None:
         """Forget the oldest files where they are too old or too many."""
@@ -232,12 +226,3 @@ class Jobs:
             size += sum(each.stat().st_size for each in path.parent.rglob("*") if each.is_file())
             if size > MOST_BYTES or time.time() - path.stat().st_mtime > KEEP_S:
                 shutil.rmtree(path.parent, ignore_errors=True)
-
-
-def _version() -> str:
-    from importlib.metadata import PackageNotFoundError, version
-
-    try:
-        return version("kshm")
-    except PackageNotFoundError:
-        return ""

@@ -1,6 +1,13 @@
 from __future__ import annotations
 
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -8,8 +15,10 @@ import pytest
 from starlette.testclient import TestClient
 
 from reports.web.app import Settings, create_app
+from tests.browser import chromium
 
 MARK = {"X-Kshm": "1"}
+ROOT = Path(__file__).parents[2]
 
 
 class Page:
@@ -44,3 +53,79 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
 @pytest.fixture(scope="module")
 def page(client: TestClient) -> Page:
     return Page(client)
+
+
+@dataclass(frozen=True)
+class Served:
+    """A server as the command starts it: its two printed addresses and its folder."""
+
+    page: str
+    teacher: str
+    data: Path
+
+
+@pytest.fixture(scope="session")
+def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
+    """One server for all that a real browser does."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    data = tmp_path_factory.mktemp("served")
+    command = [sys.executable, "-m", "reports", "serve", "--port", str(port), "--data", str(data)]
+    home = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path])}
+    process = subprocess.Popen(
+        command, cwd=data, env=home, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+    )
+    assert process.stdout is not None
+    page, teacher = (process.stdout.readline().partition(": ")[2].strip() for _ in range(2))
+    for _ in range(200):
+        with socket.socket() as probe:
+            if probe.connect_ex(("127.0.0.1", port)) == 0:
+                break
+        time.sleep(0.1)
+    yield Served(page, teacher, data)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(20) in (0, -signal.SIGINT, 2)
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Any]:
+    """One Chromium for all."""
+    driver = pytest.importorskip("playwright.sync_api").sync_playwright
+    path = chromium()
+    with driver() as started:
+        found = started.chromium.launch(
+            executable_path=path, args=["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]
+        )
+        yield found
+        found.close()
+
+
+def opened(browser: Any, address: str, width: int = 1280, scheme: str = "light") -> Any:
+    """A page of a person of his own; what goes wrong in it is kept in ``faults``."""
+    context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme)
+    page = context.new_page()
+    page.faults = []
+    page.on("pageerror", lambda error: page.faults.append(str(error)))
+    page.on("console", lambda m: m.type == "error" and page.faults.append(m.text))
+    page.goto(address)
+    return page
+
+
+def until(page: Any, true: str) -> None:
+    """Wait for what a page says; its own policy forbids a driver's loop inside it."""
+    for _ in range(300):
+        if page.evaluate(true):
+            return
+        page.wait_for_timeout(100)
+    raise AssertionError(true)
+
+
+def photo(page: Any, name: str) -> None:
+    """Pictures of a page for a person to look at, where ``KSHM_SHOTS`` names a folder."""
+    folder = os.environ.get("KSHM_SHOTS")
+    for scheme in ("light", "dark") if folder else ():
+        for width in (1280, 390):
+            page.emulate_media(color_scheme=scheme)
+            page.set_viewport_size({"width": width, "height": 900})
+            page.screenshot(path=f"{folder}/{name}-{width}-{scheme}.png", full_page=True)

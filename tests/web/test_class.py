@@ -1,112 +1,189 @@
-"""A class of five from its issue to Moodle's file, through the page alone."""
+"""A class of five in the browser: from its issue to Moodle's file, seen by both sides."""
 
 from __future__ import annotations
 
 import csv
 import io
-import time
 import zipfile
+from pathlib import Path
 from typing import Any
 
 import pytest
-from starlette.testclient import TestClient
 
+from reports.grading.issuing.issue import assignment_for
 from reports.web.app import server_secret
-from reports.web.teacher import token_of
+from reports.web.classes import Class, Classes
 from tests.grading import classroom
 from tests.grading.fill import filled_book
+from tests.grading.test_decisions import UNKNOWN
 from tests.grading.test_moodle import ENGLISH, worksheet
-from tests.web.conftest import MARK, Page
+from tests.web import axe
+from tests.web.conftest import MARK, Served, opened, photo, until
 
-FILE = {**MARK, "content-type": "application/octet-stream"}
+WAIT = 90_000
 
 
 @pytest.fixture(scope="module")
-def teacher(client: TestClient, page: Page) -> Page:
-    settings = client.app.app.state.settings  # type: ignore[attr-defined]
-    page.post("/api/login", {"token": token_of(server_secret(settings.data))})
-    return page
+def teacher(browser: Any, served: Served) -> Any:
+    """The instructor, come in by the printed address."""
+    page = opened(browser, served.teacher)
+    page.wait_for_selector("#inside:not([hidden])")
+    yield page
+    page.context.close()
 
 
-def settled(page: Page, name: str) -> dict[str, Any]:
-    for _ in range(1200):
-        found: dict[str, Any] = page.get(f"/api/teacher/{name}")
-        if not found["state"].get("doing"):
-            return found
-        time.sleep(0.1)
-    raise AssertionError(found)
+def stored(served: Served) -> Class:
+    """The class as it lies on the server's disk: its register is the test's key to the answers."""
+    (found,) = Classes(served.data / "classes", server_secret(served.data), None).all()
+    return found
 
 
-def test_a_class_of_five(client: TestClient, teacher: Page) -> None:
-    given = {"title": "ДВС-1 <b>", "base": classroom.base_text(), "seed": 7,
-             "roster": classroom.roster_text(5)}  # fmt: skip
-    name = teacher.post("/api/teacher", given)["name"]
-    own = settled(teacher, name)
-    assert own["state"]["code"] == 0, own
-    assert len(own["students"]) == 5
-    every = client.get(f"/api/teacher/{name}/file/issued.zip").content
-    assert len(zipfile.ZipFile(io.BytesIO(every)).namelist()) == 5
+def taken(page: Any, selector: str) -> bytes:
+    with page.expect_download() as download:
+        page.click(selector)
+    return Path(download.value.path()).read_bytes()
 
-    # Students: their own books by their own links, and nothing else.
-    links = [student["link"] for student in own["students"]]
-    fresh = TestClient(client.app, base_url="http://127.0.0.1:8321")
-    books = [fresh.get(f"/api/student/{link}/book").content for link in links]
-    assert len(set(books)) == 5
-    assert fresh.get(f"/api/teacher/{name}").status_code == 403
-    assert fresh.get(f"/api/student/{links[0]}/page").status_code == 404
-    forged = links[0].replace("-1-", "-2-")
-    assert fresh.get(f"/api/student/{forged}").status_code == 404
 
-    found = client.app.app.state.classes.find(name)  # type: ignore[attr-defined]
-    register = found.register
-    from reports.grading.issuing.issue import assignment_for
+def points(page: Any) -> dict[str, str]:
+    """Surname → what the gradebook on the page shows."""
+    rows = page.locator("#class table tbody tr").all()
+    cells = [[cell.inner_text() for cell in row.locator("td").all()] for row in rows]
+    return {row[0].split()[0]: row[2] for row in cells}
 
-    def solved(number: int, **changes: Any) -> bytes:
+
+def decide(page: Any, who: str, what: str, worth: str, remark: str = "") -> None:
+    """Decide as the instructor does, and wait until the gradebook says so."""
+    form = page.locator(f"tr:has-text('{who}') form")
+    if not form.is_visible():
+        page.locator(f"tr:has-text('{who}') summary").click()
+    form.locator("select").select_option(what)
+    form.locator("input").nth(0).fill(worth)
+    form.locator("input").nth(1).fill(remark)
+    form.locator("button").click()
+    until(page, "document.querySelector('#class [role=status]').textContent.includes('идёт')")
+    until(page, "document.querySelector('#class [role=status]').textContent.includes('Проверено')")
+
+
+def test_the_printed_address_is_a_door_for_the_instructor_alone(
+    browser: Any, served: Served, teacher: Any
+) -> None:
+    assert "#" not in teacher.url
+    stranger = opened(browser, served.page + "teacher")
+    stranger.wait_for_selector("#login:not([hidden])")
+    assert not stranger.is_visible("#inside")
+    assert axe.faults(stranger) == []
+    stranger.fill("#token", "not the key")
+    stranger.keyboard.press("Enter")
+    until(stranger, "document.getElementById('errors').textContent.includes('неверный ключ')")
+    stranger.context.close()
+
+
+def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: Path) -> None:
+    files = {"base": classroom.base_text(), "roster": classroom.roster_text(5)}
+    teacher.fill("#title", "ДВС-1 <b>")
+    for name, text in files.items():
+        teacher.set_input_files(
+            f"#{name}", {"name": f"{name}.txt", "mimeType": "", "buffer": text.encode()}
+        )
+    teacher.click("#issue button")
+    teacher.wait_for_selector("#links a >> nth=4", timeout=WAIT)
+    every = zipfile.ZipFile(io.BytesIO(taken(teacher, "a[download='issued.zip']")))
+    assert len(every.namelist()) == 5
+    links = [a.get_attribute("href") for a in teacher.query_selector_all("#links a")]
+
+    # A student takes the own book by the own link and hands it in; nothing else is open.
+    register = stored(served).register
+    assert register is not None
+
+    def solved(number: int, book: bytes, **changes: Any) -> bytes:
         assignment = assignment_for(register.books[number - 1], register.rubric)
-        return filled_book(books[number - 1], assignment, changes or None)
+        return filled_book(book, assignment, changes or None)
 
-    handed = fresh.post(f"/api/student/{links[2]}/work", content=solved(3), headers=FILE)
-    assert handed.status_code == 200
-    assert (
-        fresh.post(f"/api/student/{links[2]}/work", content=b"MZ", headers=FILE).status_code == 422
+    student = opened(browser, served.page + links[2])
+    student.wait_for_selector("#book[href]")
+    own = taken(student, "#book")
+    issued = {name: every.read(name) for name in every.namelist()}
+    assert own in issued.values() and len(set(issued.values())) == 5
+    student.set_input_files(
+        "#work", {"name": "р.xlsx", "mimeType": "", "buffer": b"MZ not a workbook"}
     )
+    student.wait_for_selector("#errors li")
+    student.set_input_files("#work", {"name": "р.xlsx", "mimeType": "", "buffer": solved(3, own)})
+    until(student, "document.getElementById('state').textContent.includes('работа сдана')")
+    assert not student.is_visible("#page")
+    name = stored(served).folder.name
+    ask = student.context.request
+    assert ask.get(f"{served.page}api/teacher/{name}").status == 403
+    forged = links[2].replace("-3-", "-2-").removeprefix("s/").rstrip("/")
+    assert ask.get(f"{served.page}api/student/{forged}").status == 404
+    assert ask.get(f"{served.page}{links[2].replace('s/', 'api/student/')}page").status == 404
+
+    # The others' works come as Moodle's archive, with Moodle's worksheet.
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w") as archive:
-        archive.writestr("Имя Иванов_101_assignsubmission_file_/р.xlsx", solved(1))
-        archive.writestr(
-            "Имя Петров_102_assignsubmission_file_/р.xlsx", solved(2, omega=["=regime_speed_rpm"])
-        )
-    upload = f"/api/teacher/{name}"
-    assert (
-        client.post(f"{upload}/works", content=stream.getvalue(), headers=FILE).status_code == 200
+        for number, word, changes in (
+            (1, "Иванов_101", {}),
+            (2, "Петров_102", {"omega": ["=regime_speed_rpm"]}),
+            (4, "Кузнецов_104", UNKNOWN),
+        ):
+            place = register.books[number - 1]
+            book = issued[f"{place.folder}/{place.file}"]
+            archive.writestr(
+                f"Имя {word}_assignsubmission_file_/р.xlsx", solved(number, book, **changes)
+            )
+    uploads = teacher.locator("#class input[type=file]")
+    uploads.nth(0).set_input_files(
+        {"name": "works.zip", "mimeType": "", "buffer": stream.getvalue()}
     )
-    sheet = "\ufeff" + worksheet(ENGLISH)
-    client.post(f"{upload}/worksheet", content=sheet.encode(), headers=FILE)
-    teacher.post(f"{upload}/grade", {})
-    teacher.post(f"{upload}/grade", {}, 422)  # one at a time
-    own = settled(teacher, name)
-    assert own["state"]["code"] in (0, 1), own["state"]
-    points = {row["number"]: row["points"] for row in own["rows"]}
-    assert points[1] == points[3] == 100
-    assert points[2] is not None and points[2] < 100
-    assert points[4] is None
+    until(teacher, "document.querySelector('#class').textContent.includes('works.zip: загружено')")
+    sheet = ("\ufeff" + worksheet(ENGLISH)).encode()
+    uploads.nth(1).set_input_files({"name": "moodle.csv", "mimeType": "", "buffer": sheet})
+    until(teacher, "document.querySelector('#class').textContent.includes('moodle.csv: загружено')")
+    teacher.click("#grade")
+    until(teacher, "document.querySelector('#class [role=status]').textContent.includes('идёт')")
+    assert teacher.is_disabled("#grade")
+    again = teacher.context.request.post(
+        f"{served.page}api/teacher/{name}/grade", data={}, headers=MARK
+    )
+    assert again.status == 422  # one at a time
+    teacher.wait_for_selector("#class table", timeout=WAIT)
+    found = points(teacher)
+    assert found["Иванов"] == found["Сидорова"] == "100" and found["Попова"] == ""
+    assert 0 < float(found["Петров"].replace(",", ".")) < 100
+    assert float(found["Кузнецов"].replace(",", ".")) < 100
+    waiting = teacher.locator("tr.odd").all_inner_texts()
+    assert [row.split()[0] for row in waiting] == ["Кузнецов"]  # a person has to look
+    assert axe.faults(teacher) == []
+    photo(teacher, "teacher")
 
-    # A decision, and Moodle's file.
-    teacher.post(f"{upload}/decide", {"who": "2", "what": "всё", "points": "77", "remark": "="})
-    own = settled(teacher, name)
-    assert {row["number"]: row["points"] for row in own["rows"]}[2] == 77
-    assert {"gradebook.xlsx", "moodle.csv", "moodle-worksheet.csv", "moodle-feedback.zip"} <= set(
-        own["files"]
-    )
-    text = client.get(f"{upload}/file/moodle-worksheet.csv").content.decode("utf-8-sig")
+    # The page of a work, the decision about what the program could not judge, Moodle's file.
+    with teacher.expect_popup() as popup:
+        teacher.click("#class table a:has-text('Кузнецов')")
+    popup.value.wait_for_selector("text=Кузнецов")
+    popup.value.close()
+    unknown = teacher.locator("tr:has-text('Кузнецов') option").nth(1)
+    assert unknown.get_attribute("value") == "geometry.V_c"
+    decide(teacher, "Кузнецов", "geometry.V_c", "0,21")
+    decide(teacher, "Петров", "всё", "77", remark="=1+1")
+    found = points(teacher)
+    assert found["Петров"] == "77" and found["Кузнецов"] == "99,99"
+    assert not teacher.locator("tr.odd").count()
+    for file in ("gradebook.xlsx", "moodle.csv", "moodle-feedback.zip"):
+        assert taken(teacher, f"#results a[download='{file}']")
+    text = taken(teacher, "#results a[download='moodle-worksheet.csv']").decode("utf-8-sig")
     grades = {line["Identifier"]: line["Grade"] for line in csv.DictReader(io.StringIO(text))}
     assert float(grades["Participant 101"]) == 100
     assert float(grades["Participant 102"]) == 77
-    # Pages: the instructor's at once, the student's own when opened, never another's.
-    assert "Иванов" in client.get(f"{upload}/page/1").text
-    assert fresh.get(f"/api/student/{links[0]}/page").status_code == 404
-    teacher.post(f"{upload}/open", {"open": True})
-    answer = fresh.get(f"/api/student/{links[0]}/page")
-    assert "Иванов" in answer.text and "Петров" not in answer.text
+
+    # Students see their own page once it is opened, never another's.
+    teacher.check("#open")
+    until(teacher, "document.getElementById('open').checked")
+    student.reload()
+    student.wait_for_selector("#page:not([hidden])")
+    assert "баллы: 100" in student.inner_text("#state")
+    assert axe.faults(student) == []
+    answer = ask.get(f"{served.page}{links[2].replace('s/', 'api/student/')}page")
+    assert "Сидорова" in answer.text() and "Петров" not in answer.text()
     assert answer.headers["content-security-policy"].startswith("sandbox")
-    assert fresh.get(f"/api/student/{links[1]}").json()["points"] == 77
+    assert not teacher.faults
+    student.context.close()

@@ -1,10 +1,8 @@
 "use strict";
 // What all pages share: elements, questions to the server, numbers as Russian print has them.
 const $ = id => document.getElementById(id);
-const SVG = "http://www.w3.org/2000/svg";
 
-function make(tag, attributes = {}, ...children) {
-  const element = document.createElement(tag);
+function dressed(element, attributes, children) {
   for (const [key, value] of Object.entries(attributes))
     if (key.startsWith("on")) element.addEventListener(key.slice(2), value);
     else if (value !== false && value !== null && value !== undefined)
@@ -12,53 +10,44 @@ function make(tag, attributes = {}, ...children) {
   element.append(...children);
   return element;
 }
+const make = (tag, attributes = {}, ...children) => dressed(document.createElement(tag), attributes, children);
+const draw = (tag, attributes = {}, ...children) =>
+  dressed(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
+const options = (list, chosen) => list.map(([value, label, title]) =>
+  make("option", {value, title, selected: String(chosen) === value}, label));
+const row = cells => make("tr", {}, ...cells.map(([text, name]) => make("td", {class: name}, ...[text].flat())));
+const table = (caption, rows, head) => make("div", {class: "box", tabindex: 0, role: "region", "aria-label": caption},
+  make("table", {}, make("caption", {}, caption), head || "", make("tbody", {}, ...rows)));
 
-function draw(tag, attributes = {}, ...children) {
-  const element = document.createElementNS(SVG, tag);
-  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
-  element.append(...children);
-  return element;
-}
-
-async function ask(path, data, signal) {
-  const file = data instanceof Blob;
+async function ask(path, data) {
+  const file = data instanceof Blob, fault = (what, hint) => ({errors: [{where: "", what, hint}]});
   let answer;
   try {
-    answer = await fetch(path, data === undefined ? {signal} : {
-      method: "POST", signal, body: file ? data : JSON.stringify(data),
+    answer = await fetch(path, data === undefined ? {} : {
+      method: "POST", body: file ? data : JSON.stringify(data),
       headers: {"X-Kshm": "1", "Content-Type": file ? "application/octet-stream" : "application/json"},
     });
-  } catch (error) {
-    if (error.name === "AbortError") throw error;
-    return {errors: [{where: "", what: "нет связи с сервером", hint: "повторите"}]};
-  }
-  try { return await answer.json(); } catch {
-    return {errors: [{where: "", what: `сервер ответил ${answer.status}`, hint: "повторите"}]};
-  }
+  } catch { return fault("нет связи с сервером", "повторите"); }
+  try { return await answer.json(); } catch { return fault(`сервер ответил ${answer.status}`, "повторите"); }
 }
 
-const line = problem => [problem.where, [problem.what, problem.hint].filter(Boolean).join("; ")].filter(Boolean).join(": ");
-const say = (list, problems) => list.replaceChildren(...(problems || []).map(p => make("li", {}, typeof p === "string" ? p : line(p))));
+const words = problem => [problem.what, problem.hint].filter(Boolean).join("; ");
+const line = problem => [problem.where, words(problem)].filter(Boolean).join(": ");
+const say = (list, problems) => list.replaceChildren(
+  ...(problems || []).map(p => make("li", {}, typeof p === "string" ? p : line(p))));
+const told = answer => { say($("errors"), answer.errors); return !answer.errors?.length; };
 
 function printed(value, digits = 4) {
   if (typeof value !== "number") return value ?? "";
-  return (value || 0).toLocaleString("ru", {maximumSignificantDigits: digits, useGrouping: false}).replace("-", "−").replace(/^−0$/, "0");
+  const text = (value || 0).toLocaleString("ru", {maximumSignificantDigits: digits, useGrouping: false});
+  return text.replace("-", "−").replace(/^−0$/, "0");
 }
 
 // «p_z», «$\gamma_{1}$»: what follows the underscore is a subscript.
+const GREEK = {alpha: "α", beta: "β", gamma: "γ", delta: "δ", varphi: "φ", phi: "φ", omega: "ω", lambda: "λ", bar: "",
+  varepsilon: "ε", epsilon: "ε", rho: "ρ", tau: "τ", theta: "θ", Delta: "Δ", Sigma: "Σ", psi: "ψ"};
 function symbol(text) {
   const plain = text.replace(/\$|\\mathrm|\\text|\\,/g, "").replace(/\\(\w+)/g, (_, word) => GREEK[word] || word);
-  const out = [];
-  for (const part of plain.split(/(_\{[^}]*\}|_[^\s_,;=(]+)/))
-    if (part.startsWith("_")) out.push(make("sub", {}, part.replace(/[_{}]/g, "")));
-    else if (part) out.push(part.replace(/[{}]/g, ""));
-  return out;
-}
-const GREEK = {alpha: "α", beta: "β", gamma: "γ", delta: "δ", varphi: "φ", phi: "φ", omega: "ω", lambda: "λ",
-  varepsilon: "ε", epsilon: "ε", rho: "ρ", tau: "τ", theta: "θ", Delta: "Δ", Sigma: "Σ", psi: "ψ", bar: ""};
-
-function download(name, text) {
-  const link = make("a", {href: URL.createObjectURL(new Blob([text], {type: "application/toml"})), download: name});
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  return plain.split(/(_\{[^}]*\}|_[^\s_,;=(]+)/).filter(Boolean).map(part =>
+    part.startsWith("_") ? make("sub", {}, part.replace(/[_{}]/g, "")) : part.replace(/[{}]/g, ""));
 }

@@ -1,109 +1,133 @@
 "use strict";
 // The page of an engine: a mapping of the file's values is all its state.
-const state = {raw: null, sheet: "П4.1", past: [], other: null, last: null, shown: []};
+const state = {raw: null, sheet: "П4.1", past: [], other: null, last: null, figures: []};
 window.kshm = state; // for a person's console and for the tests
+const copy = structuredClone;
 
+// What `start` says of a mapping: its fields, its sheets; then its numbers.
 async function open(raw, keep = true) {
   const answer = await ask("api/start", {raw});
-  if (answer.groups?.length) {
-    if (keep && state.raw) remember();
-    Object.assign(state, {raw: answer.raw});
-    fill(answer);
-    await solve();
-  } else {
-    // Wrong values stay to be mended where their fields are shown.
-    if (state.raw) { if (keep) remember(); state.raw = raw; }
-    problems(answer.errors, []);
-  }
-  return answer;
+  if (!answer.groups) { told(answer); return false; }
+  if (keep && state.raw) remember();
+  state.raw = answer.raw;
+  touched = null;
+  fill(answer);
+  await solve();
+  return true;
 }
 
 function remember() {
   const text = JSON.stringify(state.raw);
   if (state.past.at(-1) !== text) state.past.push(text);
-  if (state.past.length > 200) state.past.shift();
+  state.past = state.past.slice(-200);
   $("undo").disabled = false;
 }
 
-function store() {
-  try { localStorage.setItem("kshm", JSON.stringify({raw: state.raw, other: state.other})); } catch { /* private window */ }
+function undo() {
+  const text = state.past.pop();
+  $("undo").disabled = !state.past.length;
+  if (text) open(JSON.parse(text), false);
 }
 
 // --- fields ---
-const at = (raw, path) => path.reduce((part, key) => part?.[key], raw);
 function put(raw, path, value) {
   let part = raw;
   for (const key of path.slice(0, -1)) part = part[key] ??= {};
-  if (value === "" || value === null) delete part[path.at(-1)]; else part[path.at(-1)] = value;
+  const last = path.at(-1);
+  if (value !== "" && value !== null) part[last] = value;
+  else if (Array.isArray(part)) part[last] = "";
+  else delete part[last];
+}
+
+function edited(change) { // the mapping with a change that alters its shape
+  const raw = copy(state.raw);
+  change(raw);
+  open(raw);
 }
 
 function fill({groups, sheets, absent, raw}) {
-  $("name").textContent = raw.engine.name || "Двигатель";
-  document.title = `${raw.engine.name || "Двигатель"} — КШМ`;
-  const opened = new Set([...document.querySelectorAll("#fields details[open]")].map(d => d.dataset.title));
-  if (!opened.size) ["Двигатель", "Геометрия", "Режим"].forEach(t => opened.add(t));
-  $("fields").replaceChildren(...groups.map(group =>
-    make("details", {"data-title": group.title, open: opened.has(group.title)},
-      make("summary", {}, group.title),
-      ...(group.drawing ? [make("img", {src: `static/${group.drawing}.svg`, alt: `${group.title}: что есть что`, loading: "lazy"})] : []), ...group.fields.map(field))));
-  if (!sheets.some(s => s.id === state.sheet)) state.sheet = sheets[0]?.id;
-  $("sheet").replaceChildren(...sheets.map(s => make("option", {value: s.id, selected: s.id === state.sheet, title: s.hint}, s.title)));
-  $("absent").replaceChildren(...(absent.length ? [make("p", {class: "tools"}, "Добавить раздел: ",
-    ...absent.map(s => make("button", {onclick: () => { const next = structuredClone(state.raw); next[s.id] = {}; open(next); }}, s.title)))] : []));
+  const name = raw.engine?.name || "Двигатель";
+  $("name").textContent = name;
+  document.title = `${name} — КШМ`;
+  const opened = new Set([...document.querySelectorAll("#fields details[open]")].map(d => d.dataset.key));
+  if (!opened.size && innerWidth > 900) ["engine", "geometry", "regime"].forEach(key => opened.add(key));
+  const focus = document.activeElement?.id, top = $("data").scrollTop;
+  $("fields").replaceChildren(...groups.map(group => section(group, opened.has(group.key))));
+  $("data").scrollTop = top;
+  if (focus) $(focus)?.focus();
+  if (sheets.length && !sheets.some(s => s.id === state.sheet)) state.sheet = sheets[0].id;
+  if (sheets.length) $("sheet").replaceChildren(...options(sheets.map(s => [s.id, s.title, s.hint]), state.sheet));
+  $("absent").replaceChildren(absent.length ? "Добавить раздел: " : "", ...absent.map(({id, title}) =>
+    make("button", {onclick: () => edited(next => { next[id] = {}; })}, title)));
   find();
 }
 
-function field(f) {
-  const id = `f-${f.key}`, help = [];
-  if (f.min !== null && f.number) help.push(`от ${printed(f.min, 9)} до ${printed(f.max, 9)} ${f.unit}`);
-  if (f.optional) help.push("можно не задавать");
-  help.push(f.key);
-  let input;
-  if (f.choices) {
-    input = make("select", {id}, ...(f.optional && f.value === null ? [make("option", {value: ""}, "—")] : []),
-      ...Object.entries(f.choices).map(([key, label]) => make("option", {value: key, selected: String(f.value) === key}, label)));
-    const whole = typeof f.value === "number";
-    input.addEventListener("change", () => change(f, whole ? Number(input.value) : input.value, true));
-  } else {
-    input = make("input", {id, value: f.value === null ? "" : f.number ? String(f.value).replace(".", ",") : f.value,
-      inputmode: f.number ? "decimal" : false, autocomplete: "off", maxlength: 300});
-    input.addEventListener("input", () => change(f, input.value.trim()));
+function section({title, key, path, fields, entries, blank, drawing}, open) {
+  const node = make("details", {"data-key": key, open}, make("summary", {}, title), make("span", {class: "said"}));
+  if (drawing) node.append(make("img", {src: `images/${drawing}.svg`, alt: `${title}: что есть что`, loading: "lazy"}));
+  if (!entries) node.append(...fields.map(field));
+  else {
+    const list = raw => {
+      let part = raw;
+      for (const [i, each] of path.entries()) part = part[each] ??= i === path.length - 1 ? [] : {};
+      return part;
+    };
+    const button = (label, change) => make("button", {class: "small", onclick: () => edited(change)}, label);
+    entries.forEach((entry, i) => node.append(make("fieldset", {}, make("legend", {}, `${title}, ${i + 1} `,
+      button(`Убрать ${i + 1}`, raw => list(raw).splice(i, 1))), ...entry.map(field))));
+    node.append(make("p", {}, button("Добавить", raw => list(raw).push(copy(list(raw).at(-1) ?? blank)))));
   }
-  input.setAttribute("aria-describedby", `h-${f.key} e-${f.key}`);
-  const row = make("div", {class: f.number || f.choices ? "field" : "field wide", "data-key": f.key, "data-text": `${f.title} ${f.key} ${f.symbol}`.toLowerCase()},
-    make("label", {for: id}, f.title, f.symbol ? ", " : "", ...symbol(f.symbol)), input, make("span", {}, f.unit));
-  if (f.number && typeof f.value === "number" && f.value !== 0 && !f.key.includes("[")) {
-    const span = Math.abs(f.value) * .4, step = 10 ** Math.floor(Math.log10(span / 50));
-    const tidy = v => Math.round(v / step) * step;
+  return node;
+}
+
+const shown = value => typeof value === "number" ? String(value).replace(".", ",") : value ?? "";
+function field(f) {
+  const id = `f-${f.key}`, help = [], title = [f.title, f.symbol ? ", " : "", ...symbol(f.symbol)];
+  if (f.number && f.min !== null) help.push(`от ${printed(f.min, 9)} до ${printed(f.max, 9)} ${f.unit}`);
+  if (f.optional) help.push("можно не задавать");
+  const told = {id, "aria-describedby": `h-${f.key} e-${f.key}`};
+  const input = f.choices
+    ? make("select", {...told, onchange: () => { remember(); change(f, input.value, true); }},
+      ...options([...(f.optional || f.value === null ? [["", "—"]] : []), ...Object.entries(f.choices)], f.value ?? ""))
+    : make("input", {...told, value: shown(f.value), inputmode: f.number ? "decimal" : false, autocomplete: "off",
+      maxlength: 300, oninput: () => change(f, input.value.trim())});
+  const row = make("div", {class: f.number || f.choices ? "field" : "field wide", "data-key": f.key,
+    "data-text": `${f.title} ${f.key} ${f.symbol}`.toLowerCase()}, make("label", {for: id}, ...title), input,
+  make("span", {}, f.unit));
+  if (f.number && typeof f.value === "number" && f.value && !f.key.includes("[")) {
+    const span = Math.abs(f.value) * .4, step = 10 ** Math.floor(Math.log10(span / 50)), tidy = v => Math.round(v / step) * step;
     const drag = make("input", {type: "range", "aria-label": `${f.title}: подвинуть`, step,
-      min: tidy(Math.max(f.min ?? -Infinity, f.value - span)), max: tidy(Math.min(f.max ?? Infinity, f.value + span)), value: f.value});
-    drag.addEventListener("input", () => { input.value = String(+Number(drag.value).toPrecision(8)).replace(".", ","); change(f, input.value); });
+      min: tidy(Math.max(f.min ?? -Infinity, f.value - span)), max: tidy(Math.min(f.max ?? Infinity, f.value + span)),
+      oninput: () => { input.value = shown(+Number(drag.value).toPrecision(8)); change(f, input.value); }});
+    drag.value = f.value;
     row.append(drag);
   }
-  row.append(make("small", {id: `h-${f.key}`}, help.join(" · ")), make("span", {id: `e-${f.key}`}));
+  row.append(make("small", {id: `h-${f.key}`}, [...help, f.key].join(" · ")), make("span", {id: `e-${f.key}`, class: "said"}));
   return row;
 }
 
 let touched = null;
-function change(f, value, anew = false) {
-  if (touched !== f.key) { remember(); touched = f.key; } // one step of undo for one field
-  put(state.raw, f.path, f.number && /^[-−]?\d+([.,]\d+)?$/.test(value) ? Number(value.replace(",", ".").replace("−", "-")) : value);
-  if (anew) { open(state.raw, false); touched = null; } else solve();
+function change(f, value, shape = false) {
+  if (touched !== f.key && !shape) remember(); // one step of undo for one field
+  touched = f.key;
+  const plain = value.replace(",", ".").replace("−", "-");
+  put(state.raw, f.path, f.number && /^-?\d+(\.\d+)?$/.test(plain) ? Number(plain) : value);
+  if (shape) open(state.raw, false); else solve();
 }
 
-function problems(errors, warnings) {
-  for (const row of document.querySelectorAll(".field")) {
-    row.querySelector("[id^='e-']").replaceChildren();
-    row.querySelector("input, select").removeAttribute("aria-invalid");
-  }
+// Each problem stands at its field, else at its list, else above all.
+function problems(errors = [], warnings = []) {
+  for (const place of document.querySelectorAll("#fields .said")) place.replaceChildren();
+  for (const input of document.querySelectorAll("[aria-invalid]")) input.removeAttribute("aria-invalid");
   const rest = [];
   for (const [list, kind] of [[errors, "error"], [warnings, "odd"]])
-    for (const p of list || []) {
-      const row = document.querySelector(`.field[data-key="${CSS.escape(p.where)}"]`) ||
-        (p.where && document.querySelector(`.field[data-key^="${CSS.escape(p.where)}["]`));
-      if (!row) { if (kind === "error") rest.push(p); continue; }
-      row.querySelector("[id^='e-']").append(make("span", {class: kind}, [p.what, p.hint].filter(Boolean).join("; ")));
-      if (kind === "error") { row.querySelector("input, select").setAttribute("aria-invalid", "true"); row.closest("details").open = true; }
+    for (const problem of list) {
+      const place = document.querySelector(`#fields [data-key="${CSS.escape(problem.where)}"]`);
+      if (!place || !problem.where) { if (kind === "error") rest.push(problem); continue; }
+      place.querySelector(".said").append(make("span", {class: kind}, words(problem)));
+      if (kind === "odd") continue;
+      place.closest("details").open = true;
+      if (place.matches(".field")) place.querySelector("input, select").setAttribute("aria-invalid", "true");
     }
   say($("errors"), rest);
 }
@@ -111,28 +135,29 @@ function problems(errors, warnings) {
 function find() {
   const wanted = $("find").value.trim().toLowerCase();
   for (const group of document.querySelectorAll("#fields details")) {
-    let any = false;
-    for (const row of group.querySelectorAll(".field")) any |= !(row.hidden = wanted && !row.dataset.text.includes(wanted));
-    group.hidden = !any;
-    if (wanted && any) group.open = true;
+    const rows = [...group.querySelectorAll(".field")];
+    for (const row of rows) row.hidden = wanted && !row.dataset.text.includes(wanted);
+    group.hidden = Boolean(wanted) && rows.every(row => row.hidden);
+    if (wanted && !group.hidden) group.open = true;
   }
 }
 
 // --- numbers ---
 let running = false, again = false, later = 0;
 async function solve() {
-  store();
-  if (running) { again = true; return; } // at most one question on its way
+  try { localStorage.setItem("kshm", JSON.stringify({raw: state.raw, other: state.other})); } catch { /* private window */ }
+  again = true;
+  if (running) return; // at most one question on its way
   running = true;
-  do {
+  while (again) {
     again = false;
-    const raw = JSON.stringify(state.raw);
-    const [own, other] = await Promise.all([ask("api/solve", {raw: JSON.parse(raw), sheet: state.sheet}),
-      state.other ? ask("api/solve", {raw: state.other, sheet: state.sheet}) : null]);
+    const asked = {sheet: state.sheet, cylinder: Number($("cylinder").value) || 0};
+    const [own, other] = await Promise.all([ask("api/solve", {raw: copy(state.raw), ...asked}),
+      state.other && ask("api/solve", {raw: state.other, ...asked})]);
     problems(own.errors, own.warnings);
-    $("results").classList.toggle("late", Boolean(own.errors.length));
-    if (!own.errors.length) { state.last = own; state.second = other; show(own, other); }
-  } while (again);
+    $("results").classList.toggle("late", own.errors.length > 0);
+    if (!own.errors.length) { state.last = own; show(own, other); }
+  }
   running = false;
   clearTimeout(later);
   later = setTimeout(check, 400);
@@ -141,23 +166,31 @@ async function solve() {
 async function check() {
   const answer = await ask("api/checks", {raw: state.raw});
   if (answer.errors) return;
-  $("checks").replaceChildren(make("div", {class: "box"}, make("table", {}, make("caption", {}, "Проверки расчёта"), make("tbody", {},
-    ...answer.checks.map(c => make("tr", {}, make("td", {}, c.title), make("td", {class: "n"}, printed(c.value)),
-      make("td", {class: c.ok ? "good" : c.reason ? "odd" : "bad"}, c.ok ? "выполнена" : c.reason ? `принято: ${c.reason}` : "не выполнена")))))));
-  say($("warnings"), [...(state.last?.warnings || []), ...answer.remarks]);
+  const verdict = c => c.ok ? ["выполнена", "good"] : c.reason ? [`принято: ${c.reason}`, "odd"] : ["не выполнена", "bad"];
+  $("checks").replaceChildren(table("Проверки расчёта",
+    answer.checks.map(c => row([[c.title], [printed(c.value), "n"], verdict(c)]))));
+  say($("warnings"), [...state.last.warnings, ...answer.remarks]);
 }
 
 function show(own, other) {
-  const figures = own.charts.map(spec => chart(spec, other?.charts?.find(c => c.id === spec.id)));
-  state.shown = figures;
-  $("charts").replaceChildren(...figures.map(f => f.figure));
+  const ids = own.charts.map(spec => spec.id).join();
+  if (ids !== state.figures.map(f => f.id).join()) {
+    state.figures.forEach(f => f.drop());
+    state.figures = own.charts.map(figure);
+    $("charts").replaceChildren(...state.figures.map(f => f.node));
+  }
+  own.charts.forEach((spec, i) => state.figures[i].show(spec, other?.charts?.find(c => c.id === spec.id)));
   $("scene").hidden = false;
   $("phi").max = own.moves.phi.at(-1);
-  const second = new Map((other?.results || []).flatMap(t => t.rows.map(r => [r.key, r])));
-  $("summary").replaceChildren(...own.results.map(block => make("details", {open: /^(summary_torque|geometry)/.test(block.id)},
-    make("summary", {}, block.title), make("div", {class: "box"}, make("table", {}, make("tbody", {}, ...block.rows.map(r =>
-      make("tr", {"data-key": r.key}, make("td", {}, r.title), make("td", {}, ...symbol(r.symbol)),
-        make("td", {class: "n"}, r.text), make("td", {class: "n"}, second.get(r.key)?.text ?? ""), make("td", {}, r.unit)))))))));
+  const numbers = Array.from({length: own.moves.cylinders}, (_, i) => [i, i + 1]);
+  $("cylinder").replaceChildren(...options(numbers, own.moves.cylinder));
+  const second = new Map((other?.results || []).flatMap(t => t.rows.map(r => [r.key, r.text])));
+  const closed = new Set([...document.querySelectorAll("#summary details:not([open])")].map(d => d.dataset.id));
+  const begin = !$("summary").children.length;
+  $("summary").replaceChildren(...own.results.map(({id, title, rows}) => make("details",
+    {"data-id": id, open: begin ? /^(summary_torque|geometry)/.test(id) : !closed.has(id)}, make("summary", {}, title),
+    table(title, rows.map(r => dressed(row([[r.title], [symbol(r.symbol)], [r.text, "n"], [second.get(r.key) ?? "", "n"],
+      [r.unit]]), {"data-key": r.key}, []))))));
   turn();
 }
 
@@ -167,75 +200,19 @@ function turn() {
   $("phi").setAttribute("aria-valuetext", `${printed(phi)} градусов`);
   mechanism($("mechanism"), moves, phi);
   star($("star"), moves, phi);
-  for (const figure of state.shown) figure.at(phi, moves.phi);
-  $("values").replaceChildren(make("caption", {}, "Значения при φ"), make("tbody", {}, ...Object.values(moves.forces).map(f =>
-    make("tr", {}, make("td", {}, ...symbol(f.symbol)), make("td", {class: "n"}, printed(between(moves.phi, f.values, phi), 4)), make("td", {}, f.unit)))));
-}
-
-// --- files ---
-const jobs = new Map();
-async function order(kind, title) {
-  const answer = await ask("api/files", {raw: state.raw, other: state.other, kind});
-  if (answer.errors) { say($("errors"), answer.errors); return; }
-  if (jobs.has(answer.id)) return;
-  const item = make("li", {}, `${title}: в очереди`);
-  jobs.set(answer.id, item);
-  $("jobs").prepend(item);
-  for (;;) {
-    const job = await ask(`api/files/${answer.id}`);
-    if (job.state === "done")
-      item.replaceChildren(`${title}: `, ...job.files.flatMap(f => [make("a", {href: `api/files/${answer.id}/${encodeURIComponent(f.name)}`, download: f.name}, f.name), ` (${printed(f.size / 1e6, 2)} МБ) `]),
-        ...(job.lines || []).map(l => make("div", {class: "odd"}, l)));
-    else if (job.state === "failed" || job.errors)
-      item.replaceChildren(make("span", {class: "bad"}, `${title}: ${(job.lines || job.errors.map(line)).join("; ")}`));
-    else item.textContent = job.state === "running" ? `${title}: делается, ${job.seconds} с` : `${title}: в очереди, перед вами ${job.place}`;
-    if (job.state === "done" || job.state === "failed" || job.errors) break;
-    await new Promise(done => setTimeout(done, 700));
-  }
-  jobs.delete(answer.id);
-}
-
-// --- what the buttons do ---
-const toNumber = text => text.trim() === "" ? null : Number(text.replace(",", "."));
-async function fresh(wanted) {
-  const answer = await ask("api/new", wanted);
-  if (answer.errors) { say($("errors"), answer.errors); return; }
-  $("new").open = false;
-  await open(answer.raw);
-}
-
-function wanted() {
-  const out = {cylinders: Number($("cylinders").value), layout: $("layout").value, strokes: $("strokes").value, kind: $("kind").value};
-  for (const key of ["power", "speed"]) if (toNumber($(key).value) !== null) out[key] = toNumber($(key).value);
-  return out;
-}
-
-async function upload(file) {
-  const book = /\.xlsx$/i.test(file.name);
-  const answer = book ? await ask("api/book", file) : await ask("api/read", {text: await file.text()});
-  if (answer.errors) { say($("errors"), answer.errors); return; }
-  $("new").open = false;
-  await open(answer.raw);
-}
-
-async function packed(text) {
-  const stream = new Blob([text]).stream().pipeThrough(new CompressionStream("deflate-raw"));
-  const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
-  return btoa(String.fromCharCode(...bytes)).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
-}
-async function unpacked(text) {
-  const bytes = Uint8Array.from(atob(text.replaceAll("-", "+").replaceAll("_", "/")), c => c.charCodeAt(0));
-  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"))).text();
+  for (const each of state.figures) each.at(phi);
+  $("values").replaceChildren(...Object.values(moves.forces).map(f =>
+    row([[symbol(f.symbol)], [printed(between(moves.phi, f.values, phi), 4), "n"], [f.unit]])));
 }
 
 function play() {
   const on = $("play").getAttribute("aria-pressed") !== "true";
   $("play").setAttribute("aria-pressed", on);
   $("play").textContent = on ? "Стоп" : "Пуск";
-  let before = performance.now();
+  let before = null;
   const step = now => {
     if ($("play").getAttribute("aria-pressed") !== "true") return;
-    $("phi").value = (Number($("phi").value) + Math.max(1, (now - before) * .09)) % Number($("phi").max);
+    if (before !== null) $("phi").value = (Number($("phi").value) + Math.round((now - before) * .12)) % Number($("phi").max);
     before = now;
     turn();
     requestAnimationFrame(step);
@@ -243,50 +220,119 @@ function play() {
   if (on) requestAnimationFrame(step);
 }
 
-addEventListener("DOMContentLoaded", async () => {
-  const choices = await ask("api/choices");
-  for (const [id, options] of [["sample", Object.fromEntries(choices.samples.map(s => [s, s]))], ["layout", choices.layouts],
-    ["strokes", choices.strokes], ["kind", choices.kinds]])
-    $(id).replaceChildren(...Object.entries(options).map(([value, label]) => make("option", {value}, label)));
-  $("strokes").value = "4"; $("sample").value = "gots-diesel";
-  $("kinds").replaceChildren(...Object.entries(choices.files || {}).map(([kind, title]) =>
-    make("button", {"data-kind": kind, onclick: () => order(kind, title)}, title)));
-  $("sampleForm").addEventListener("submit", e => { e.preventDefault(); fresh({sample: $("sample").value}); });
-  $("ownForm").addEventListener("submit", e => { e.preventDefault(); fresh(wanted()); });
-  $("alike").addEventListener("click", () => fresh({raw: state.raw, cylinders: Number($("cylinders").value), layout: $("layout").value}));
-  $("upload").addEventListener("change", async e => { const file = e.target.files[0]; if (file) await upload(file); e.target.value = ""; });
-  $("undo").addEventListener("click", () => {
-    const text = state.past.pop();
-    $("undo").disabled = !state.past.length;
-    touched = null;
-    if (text) open(JSON.parse(text), false);
-  });
-  $("save").addEventListener("click", async () => {
+// --- files ---
+const jobs = new Map();
+async function order(kind, title) {
+  const {id, errors} = await ask("api/files", {raw: state.raw, other: state.other, kind});
+  if (!told({errors}) || jobs.has(id)) return;
+  const item = make("li", {});
+  jobs.set(id, item);
+  $("jobs").prepend(item);
+  for (;;) {
+    const job = await ask(`api/files/${id}`);
+    if (job.state === "waiting") item.textContent = `${title}: в очереди, перед вами ${job.place}`;
+    else if (job.state === "running") item.textContent = `${title}: делается, ${job.seconds} с`;
+    else {
+      const files = (job.files || []).flatMap(({name, size}) => [make("a", {href: `api/files/${id}/${encodeURIComponent(name)}`,
+        download: name}, name), ` (${printed(size / 1e6, 2)} МБ) `]);
+      const kind = job.state === "done" ? "odd" : "bad";
+      item.replaceChildren(`${title}: `, ...files,
+        ...(job.lines || job.errors.map(line)).map(text => make("div", {class: kind}, text)));
+      break;
+    }
+    await new Promise(done => setTimeout(done, 700));
+  }
+  jobs.delete(id);
+}
+
+function download(name, text) {
+  const link = make("a", {href: URL.createObjectURL(new Blob([text], {type: "application/toml"})), download: name});
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+// --- what the buttons do ---
+async function fresh(answering) {
+  const answer = await answering;
+  if (!told(answer)) return;
+  $("new").open = false;
+  await open(answer.raw);
+}
+
+function wanted() {
+  const out = {cylinders: Number($("cylinders").value)};
+  for (const key of ["layout", "strokes", "kind"]) out[key] = $(key).value;
+  for (const key of ["power", "speed"]) if ($(key).value.trim()) out[key] = Number($(key).value.replace(",", "."));
+  return ask("api/new", out);
+}
+
+const read = async file => /\.xlsx$/i.test(file.name) ? ask("api/book", file) : ask("api/read", {text: await file.text()});
+
+async function through(bytes, way) {
+  return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(way)).arrayBuffer());
+}
+async function packed(text) {
+  const bytes = await through(text, new CompressionStream("deflate-raw"));
+  return btoa(String.fromCharCode(...bytes)).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
+}
+async function unpacked(text) {
+  const bytes = Uint8Array.from(atob(text.replaceAll("-", "+").replaceAll("_", "/")), c => c.charCodeAt(0));
+  return new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw")));
+}
+
+function compare(other) {
+  state.other = other;
+  $("drop").hidden = !other;
+  solve();
+}
+
+const ACTIONS = {
+  undo, play,
+  alike: () => fresh(ask("api/new", {raw: state.raw, cylinders: Number($("cylinders").value), layout: $("layout").value})),
+  keep: () => compare(copy(state.raw)),
+  drop: () => compare(null),
+  save: async () => {
     const answer = await ask("api/toml", {raw: state.raw});
-    if (answer.errors) say($("errors"), answer.errors); else download("engine.toml", answer.text);
-  });
-  $("link").addEventListener("click", async () => {
+    if (told(answer)) download("engine.toml", answer.text);
+  },
+  link: async () => {
     location.hash = await packed(JSON.stringify(state.raw));
     try { await navigator.clipboard.writeText(location.href); } catch { /* the address shows it */ }
     $("link").textContent = "Ссылка в адресе";
-  });
-  $("keep").addEventListener("click", () => { state.other = structuredClone(state.raw); $("drop").hidden = false; solve(); });
-  $("drop").addEventListener("click", () => { state.other = null; $("drop").hidden = true; solve(); });
+  },
+};
+
+async function begin() {
+  const choices = await ask("api/choices"), pairs = Object.entries;
+  $("sample").replaceChildren(...options(choices.samples.map(name => [name, name]), "gots-diesel"));
+  for (const [id, list] of pairs({layout: choices.layouts, strokes: choices.strokes, kind: choices.kinds}))
+    $(id).replaceChildren(...options(pairs(list), "4"));
+  $("kinds").replaceChildren(...pairs(choices.files).map(([kind, title]) =>
+    make("button", {"data-kind": kind, onclick: () => order(kind, title)}, title)));
+  for (const [id, action] of pairs(ACTIONS)) $(id).addEventListener("click", action);
+  $("sampleForm").addEventListener("submit", e => { e.preventDefault(); fresh(ask("api/new", {sample: $("sample").value})); });
+  $("ownForm").addEventListener("submit", e => { e.preventDefault(); fresh(wanted()); });
+  $("upload").addEventListener("change", async e => { await fresh(read(e.target.files[0])); e.target.value = ""; });
   $("find").addEventListener("input", find);
   $("sheet").addEventListener("change", () => { state.sheet = $("sheet").value; solve(); });
+  $("cylinder").addEventListener("change", solve);
   $("phi").addEventListener("input", turn);
-  $("play").addEventListener("click", play);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { // colours are drawn in
+    state.figures.forEach(f => f.drop());
+    state.figures = [];
+    solve();
+  });
   let kept = null;
   try {
-    if (location.hash.length > 1) kept = {raw: JSON.parse(await unpacked(location.hash.slice(1)))};
-    else kept = JSON.parse(localStorage.getItem("kshm"));
+    const hash = location.hash.slice(1);
+    kept = hash ? {raw: JSON.parse(await unpacked(hash))} : JSON.parse(localStorage.getItem("kshm"));
   } catch { /* a damaged link or store is none */ }
-  if (kept?.raw) {
-    state.other = kept.other || null;
-    $("drop").hidden = !state.other;
-    const answer = await open(kept.raw, false);
-    if (answer.groups?.length) { $("new").open = false; return; }
+  state.other = kept?.other || null;
+  $("drop").hidden = !state.other;
+  $("new").open = !kept?.raw;
+  if (!kept?.raw || !await open(kept.raw, false)) {
+    await fresh(ask("api/new", {sample: "gots-diesel"}));
+    $("new").open = true;
   }
-  await fresh({sample: "gots-diesel"});
-  $("new").open = true;
-});
+}
+addEventListener("DOMContentLoaded", begin);

@@ -1,17 +1,15 @@
 "use strict";
-let chosen = "", timer = 0;
+let chosen = "", timer = 0, wasBusy = false;
 const door = () => `api/teacher/${chosen}`;
-const told = answer => { say($("errors"), answer.errors); return !answer.errors; };
 
 async function enter() {
   const answer = await ask("api/teacher");
   $("login").hidden = !answer.errors;
   $("inside").hidden = Boolean(answer.errors);
   if (answer.errors) return;
-  if (!chosen) chosen = answer.classes[0]?.name || "";
+  chosen ||= answer.classes[0]?.name || "";
   $("newClass").open = !chosen;
-  $("classes").replaceChildren(...answer.classes.map(c =>
-    make("option", {value: c.name, selected: c.name === chosen}, `${c.title}, ${c.date.slice(0, 10)}`)));
+  $("classes").replaceChildren(...options(answer.classes.map(c => [c.name, `${c.title}, ${c.date.slice(0, 10)}`]), chosen));
   look();
 }
 
@@ -19,22 +17,26 @@ async function enter() {
 async function text(file) {
   if (!file) return "";
   const bytes = await file.arrayBuffer();
-  try { return new TextDecoder("utf-8", {fatal: true}).decode(bytes); } catch { return new TextDecoder("windows-1251").decode(bytes); }
+  try { return new TextDecoder("utf-8", {fatal: true}).decode(bytes); } catch {
+    return new TextDecoder("windows-1251").decode(bytes);
+  }
 }
 
-const picker = (title, accept, path) => make("label", {class: "button"}, title, make("input", {type: "file", class: "hidden", accept,
-  onchange: async event => {
-    const file = event.target.files[0];
-    if (file && told(await ask(`${door()}/${path}`, file))) look(`${file.name}: загружено`);
-  }}));
-const link = (href, title, more = {}) => make("a", {href, ...more}, title);
+async function act(path, data, news) {
+  if (told(await ask(`${door()}/${path}`, data))) look(news);
+}
 
-function doing(state) {
-  const words = {issue: "Выдача", grade: "Проверка"};
-  if (state.doing) return `${words[state.doing[0]] || "Работа"} идёт…`;
-  if (state.done === "issue" && state.code === 0) return "Варианты выданы.";
-  if (state.done === "grade" && state.code in [0, 1]) return state.code ? "Проверено; есть работы, которые ждут вашего решения." : "Проверено.";
-  return "";
+function picker(title, accept, path) {
+  const taken = ({target: {files: [file]}}) => file && act(path, file, `${file.name}: загружено`);
+  return make("label", {class: "button"}, title, make("input", {type: "file", class: "hidden", accept, onchange: taken}));
+}
+const link = (href, title, more = {}) => make("a", {href: `${door()}/${href}`, ...more}, title);
+
+function doing({doing, done, code}) {
+  if (doing) return `${{issue: "Выдача", grade: "Проверка"}[doing[0]] || "Работа"} идёт…`;
+  if (code !== 0 && code !== 1) return "";
+  if (done === "issue") return code ? "" : "Варианты выданы.";
+  return code ? "Проверено; есть работы, которые ждут вашего решения." : "Проверено.";
 }
 
 async function look(news = "") {
@@ -42,45 +44,59 @@ async function look(news = "") {
   if (!chosen) return;
   const own = await ask(door());
   if (!told(own)) return;
-  const busy = Boolean(own.state.doing), open = new Set([...document.querySelectorAll("#class details[open]")].map(d => d.id));
-  if (document.activeElement?.closest?.("form.decide") && busy === look.busy && !news) { timer = setTimeout(look, 2000); return; }
-  look.busy = busy;
-  const failed = !busy && ![0, 1].includes(own.state.code);
+  const busy = Boolean(own.state.doing), failed = !busy && ![0, 1].includes(own.state.code);
+  if (document.activeElement?.closest?.("form.decide") && busy === wasBusy && !news) { // a person writes
+    timer = setTimeout(look, 2000);
+    return;
+  }
+  wasBusy = busy;
+  const closed = $("links") && !$("links").open;
+  const status = [news, doing(own.state), busy && own.graded ? `готово файлов: ${own.graded}` : ""];
   $("class").replaceChildren(
-    make("p", {role: "status", class: failed ? "bad" : ""}, [news, doing(own.state), busy && own.graded ? `готово файлов: ${own.graded}` : ""].filter(Boolean).join(" ")),
+    make("p", {role: "status", class: failed ? "bad" : ""}, status.filter(Boolean).join(" ")),
     make("ul", {class: failed ? "errors" : "warnings"}, ...(own.state.lines || []).map(l => make("li", {}, l))),
-    make("p", {class: "tools"}, ...(own.students.length ? [
-      link(`${door()}/file/issued.zip`, "Рабочие книги .zip", {class: "button", download: "issued.zip"}),
-      picker("Загрузить архив работ .zip", ".zip", "works"), picker("Ведомость Moodle .csv", ".csv", "worksheet"),
-      make("button", {disabled: busy, id: "grade", onclick: async () => { if (told(await ask(`${door()}/grade`, {}))) look(); }}, "Проверить"),
-      make("label", {}, make("input", {type: "checkbox", id: "open", checked: own.open,
-        onchange: async e => told(await ask(`${door()}/open`, {open: e.target.checked}))}), " студенты видят свои страницы")] : [])),
-    make("p", {class: "tools", id: "results"}, ...own.files.map(name => link(`${door()}/file/${name}`, name, name.endsWith(".html") ? {target: "_blank"} : {download: name}))),
-    ...(own.rows.length ? [table(own)] : []),
-    ...(own.students.length ? [make("details", {id: "links", open: open.has("links") || !own.rows.length}, make("summary", {}, "Ссылки студентов"),
-      make("ul", {}, ...own.students.map(s => make("li", {}, link(`s/${s.link}/`, s.name), s.group ? `, ${s.group}` : "", s.handed ? " — сдал здесь" : ""))))] : []));
+    ...(own.students.length ? [tools(own, busy)] : []),
+    make("p", {class: "tools", id: "results"}, ...own.files.map(name =>
+      link(`file/${name}`, name, name.endsWith(".html") ? {target: "_blank"} : {download: name}))),
+    ...(own.rows.length ? [gradebook(own)] : []),
+    ...(own.students.length ? [links(own, !closed)] : []));
   if (busy) timer = setTimeout(look, 1000);
 }
 
-function table(own) {
-  return make("div", {class: "box"}, make("table", {}, make("caption", {}, "Ведомость"),
-    make("thead", {}, make("tr", {}, ...["Студент", "Состояние", "Баллы", "Примечание", "Решение"].map(t => make("th", {scope: "col"}, t)))),
-    make("tbody", {}, ...own.rows.map(row => make("tr", {class: row.manual ? "odd" : ""},
-      make("td", {}, row.page && row.number ? link(`${door()}/page/${row.number}`, row.student, {target: "_blank"}) : row.student),
-      make("td", {}, row.status), make("td", {class: "n"}, row.points === null ? (row.provisional === null ? "" : `(${printed(row.provisional)})`) : printed(row.points)),
-      make("td", {}, row.remark), make("td", {}, row.number && row.page ? decision(row, own.unknown[row.number] || []) : ""))))));
+const tools = (own, busy) => make("p", {class: "tools"},
+  link("file/issued.zip", "Рабочие книги .zip", {class: "button", download: "issued.zip"}),
+  picker("Загрузить архив работ .zip", ".zip", "works"), picker("Ведомость Moodle .csv", ".csv", "worksheet"),
+  make("button", {disabled: busy, id: "grade", onclick: () => act("grade", {})}, "Проверить"),
+  make("label", {}, make("input", {type: "checkbox", id: "open", checked: own.open,
+    onchange: e => act("open", {open: e.target.checked})}), " студенты видят свои страницы"));
+
+const links = (own, open) => make("details", {id: "links", open}, make("summary", {}, "Ссылки студентов"),
+  make("ul", {}, ...own.students.map(s => make("li", {}, make("a", {href: `s/${s.link}/`}, s.name),
+    s.group ? `, ${s.group}` : "", s.handed ? " — сдал здесь" : ""))));
+
+function gradebook(own) {
+  const head = ["Студент", "Состояние", "Баллы", "Примечание", "Решение"].map(t => make("th", {scope: "col"}, t));
+  return table("Ведомость", own.rows.map(each => {
+    const points = each.points ?? each.provisional, judged = each.number && each.page;
+    const name = judged ? link(`page/${each.number}`, each.student, {target: "_blank"}) : each.student;
+    return dressed(row([[name], [each.status], [each.points === null && points !== null ? `(${printed(points)})` : printed(points), "n"],
+      [each.remark], [judged ? decision(each, own.unknown[each.number] || []) : ""]]), {class: each.manual ? "odd" : false}, []);
+  }), make("thead", {}, make("tr", {}, ...head)));
 }
 
-function decision(row, items) {
-  const what = make("select", {"aria-label": `Что решить: ${row.student}`}, make("option", {value: "всё"}, "вся работа"),
-    ...items.map(item => make("option", {value: item}, item)));
-  const points = make("input", {"aria-label": `Баллы: ${row.student}`, size: 5, placeholder: "баллы, + или -", required: true});
-  const remark = make("input", {"aria-label": `Примечание: ${row.student}`, placeholder: "примечание", maxlength: 300});
-  return make("form", {class: "decide", onsubmit: async event => {
+// What waits for a person stands open; the rest is a click away.
+function decision(each, items) {
+  const what = make("select", {"aria-label": `Что решить: ${each.student}`},
+    ...options([["всё", "вся работа"], ...items.map(item => [item, item])]));
+  const points = make("input", {"aria-label": `Баллы: ${each.student}`, size: 5, placeholder: "баллы, + или -", required: true});
+  const remark = make("input", {"aria-label": `Примечание: ${each.student}`, placeholder: "примечание", maxlength: 300});
+  const decide = event => {
     event.preventDefault();
     document.activeElement.blur();
-    if (told(await ask(`${door()}/decide`, {who: String(row.number), what: what.value, points: points.value, remark: remark.value}))) look("Решение принято.");
-  }}, what, points, remark, make("button", {}, "Решить"));
+    act("decide", {who: String(each.number), what: what.value, points: points.value, remark: remark.value}, "Решение принято.");
+  };
+  return make("details", {open: each.manual}, make("summary", {"aria-label": `Решить: ${each.student}`}, "Решить"),
+    make("form", {class: "decide", onsubmit: decide}, what, points, remark, make("button", {}, "Решить")));
 }
 
 addEventListener("DOMContentLoaded", async () => {
@@ -90,8 +106,9 @@ addEventListener("DOMContentLoaded", async () => {
   });
   $("issue").addEventListener("submit", async event => {
     event.preventDefault();
-    const answer = await ask("api/teacher", {title: $("title").value, base: await text($("base").files[0]), roster: await text($("roster").files[0]),
-      rubric: await text($("rubric").files[0]), seed: Number($("seed").value)});
+    const files = {};
+    for (const name of ["base", "roster", "rubric"]) files[name] = await text($(name).files[0]);
+    const answer = await ask("api/teacher", {title: $("title").value, seed: Number($("seed").value), ...files});
     if (told(answer)) { chosen = answer.name; event.target.reset(); enter(); }
   });
   $("classes").addEventListener("change", () => { chosen = $("classes").value; look(); });

@@ -8,6 +8,7 @@ from kshm.arrays import Array, Columns, Results, Scalars
 from kshm.engine.engine import Engine
 from kshm.mechanics import continuous_beam, journals
 from kshm.results.case import Case
+from kshm.results.extremes import UNLOADED
 
 
 def _applies(engine: Engine) -> bool:
@@ -38,11 +39,16 @@ def continuous_results(case: Case) -> Results:
         scalars |= {
             f"Rc{k}_mean": mean,
             f"Rc{k}_max": most,
-            f"dRc{k}_mean": mean / float(split[:-1].mean()) - 1,
-            f"dRc{k}_max": most / float(split.max()) - 1,
+            f"dRc{k}_mean": _over(mean, float(split[:-1].mean())),
+            f"dRc{k}_max": _over(most, float(split.max())),
             f"qc{k}_max": most * area / projected,
         }
     return {"continuous": table}, scalars
+
+
+def _over(load: float, split: float) -> float:
+    """How much a load is over that of the split scheme [-]; none over a journal without load."""
+    return load / split - 1 if split > UNLOADED else 0.0
 
 
 def _reactions(case: Case) -> tuple[Array, Array]:

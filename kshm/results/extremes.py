@@ -9,6 +9,7 @@ from kshm.mechanics.wear import ray_angles
 
 # Values this close to the extreme count as equal: the first angle or number is reported.
 TIE = 1e-9
+UNLOADED = 1e-3  # Pa: specific forces below are rounding noise of zero
 
 
 def first_extremes(
@@ -72,6 +73,6 @@ def least_loaded(sums: Array) -> tuple[Array, Array]:
     for ``sums`` of shape (..., rays).
     """
     count = sums.shape[-1]
-    ray = first_extremes(sums, np.arange(1.0, count + 1), largest=False)[1]
+    ray = first_extremes(sums, np.arange(1.0, count + 1), largest=False, floor=1e6)[1]
     place = np.mod(ray_angles(count)[ray.astype(int) - 1] + np.pi, 2 * np.pi)
     return ray, place

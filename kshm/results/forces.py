@@ -15,6 +15,7 @@ from kshm.mechanics.journals import in_throw_frame
 from kshm.mechanics.wear import ray_angles
 from kshm.nomenclature.quantity import ray_key
 from kshm.results.case import Case
+from kshm.results.extremes import UNLOADED
 from kshm.results.layout import (
     has_single_rods,
     pin_table,
@@ -183,8 +184,7 @@ def direction(side: Array, along: Array) -> Array:
     Components below 1e-9 MPa are rounding noise of zero and count as zero, else
     the angle would jump between −180° and 180°.
     """
-    clean = np.where(np.abs(side) < 1e-3, 0.0, side)
-    return np.arctan2(clean, along)
+    return np.arctan2(*(np.where(np.abs(part) < UNLOADED, 0.0, part) for part in (side, along)))
 
 
 def wear_sums(case: Case) -> Tables:

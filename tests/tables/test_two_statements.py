@@ -7,7 +7,9 @@ import pytest
 
 from kshm import solve
 from reports.inputs.fields import to_mapping
-from reports.inputs.load import load_mapping
+from reports.inputs.load import load_mapping, load_text
+from reports.inputs.own_engine import own_engine
+from reports.inputs.own_file import file_text
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.spec.blocks import Model, TableSpec
@@ -97,6 +99,19 @@ def test_any_number_of_cylinders(cylinders: int) -> None:
     shaft["webs"] = [dict(shaft["webs"][0]) for _ in range(2 * cylinders)]
     shaft["arms"] = [dict(shaft["arms"][0]) for _ in range(cylinders)]
     assert_agree(load_mapping(raw, source="cylinders").model)
+
+
+@pytest.mark.parametrize(("cylinders", "layout"), [(2, "opposed"), (4, "opposed"), (10, "v")])
+def test_journals_without_load(cylinders: int, layout: str) -> None:
+    """Two strokes, pistons that fire together: between their throws there is rounding noise."""
+    text = file_text(own_engine(cylinders, layout=layout, strokes=2, kind="petrol"))
+    data = load_text(text.replace("step_deg = 10", "step_deg = 30"), source="own.toml").model
+    assert_agree(data)
+    scalars = solve(*engine_and_cycle(data)).scalars
+    unlike = {abs(value) for key, value in scalars.items() if key.startswith("dRc")}
+    assert unlike and max(unlike) < 100
+    idle = [key for key in scalars if key.startswith("Rmain") and scalars[key] < 1e-3]
+    assert bool(idle) == (layout == "opposed")
 
 
 @pytest.mark.parametrize("method", ["textbook", "exact"])

@@ -230,7 +230,12 @@ def _compared(shape: Shape) -> Grid:
         rows += [
             row(f"Rsplit_{kind}", f"Rmain{{k}}_{kind}", "разрезная схема"),
             row(f"Rc_{kind}", f"col_{kind}(continuous.Rc{{k}}_MPa)", "Гоц (54)"),
-            row(f"dRc_{kind}", f"(Rc{{k}}_{kind}/Rmain{{k}}_{kind} - 1)*100", "сравнение"),
+            row(
+                f"dRc_{kind}",
+                f"0 if round(Rmain{{k}}_{kind}, 9) == 0 else"
+                f" (Rc{{k}}_{kind}/Rmain{{k}}_{kind} - 1)*100",
+                "сравнение",
+            ),
         ]
     rows.append(row("qc_max", f"Rc{{k}}_max*F_piston/{projected}", "Гоц, 2.6"))
     labels = tuple(f"опора {k}" for k in numbers)

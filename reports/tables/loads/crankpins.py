@@ -142,7 +142,8 @@ def angle(side: str, along: str) -> str:
     """Angle of a vector from its second component [deg], steady where the first vanishes."""
     return (
         # Rounding noise of zero would turn an angle round.
-        f"(0 if {along} >= 0 else 180) if round({side}, 9) == 0 else deg(atan2({side}, {along}))"
+        f"(0 if round({along}, 9) >= 0 else 180) if round({side}, 9) == 0"
+        f" else deg(atan2({side}, {along}))"
     )
 
 

@@ -267,7 +267,7 @@ def _table(html: str, style: Style) -> Block:
     titles = max((_row_lines(row, widths, em) for row in rows[:heads]), default=1)
     # The line of titles, that of the columns' numbers; the rules are drawn between them.
     head = (titles * 1.2 + 0.85 * 1.2) * em + 5.5 * _PT
-    height = caption + head + 10 * _PT
+    height = caption + head
     lines = html.find('<tr class="lines">')
     if lines > 0:
         height += html.count("\n", lines) * 1.37 * em
@@ -275,7 +275,7 @@ def _table(html: str, style: Style) -> Block:
         for row in rows[heads:]:
             height += _row_lines(row, widths, em) * em * 1.2 + 2.05 * _PT
     kind: Kind = "float" if re.search(r'class="data[^"]* keep', html) else "table"
-    return Block(html, kind, height, 10 * _PT, head=head + 1.5 * style.em_px)
+    return Block(html, kind, height, 10 * _PT, 10 * _PT, head=head + 1.5 * style.em_px)
 
 
 def _row_lines(row: str, widths: Sequence[float], em: float) -> int:

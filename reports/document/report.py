@@ -8,6 +8,7 @@ numbers known (see :mod:`reports.document.page.writer`).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, cast
 
@@ -198,6 +199,23 @@ def _page(model: Model, values: Values, env: Environment, further: Further) -> s
     numbering.check()
     store.store().save()
     return texts.unbroken_initials(texts.spaces_inside(_whole(env, chapter, body)))
+
+
+def with_figures(
+    model: Model, values: Values, *, source: Path, style: Path | None = None, further: Further = ()
+) -> Model:
+    """The model with the number of each chart in its report, for other documents."""
+    report = model.input.report
+    folder = overrides.find(report.templates, source.parent)
+    look = find_style(report, source.parent, style)
+    env = environment(folder, media="print", style=look)
+    draft = Draft(by_chapter=look.numbering == "chapter")
+    with overrides.told(folder):
+        chapter = Chapter(Terms(model, values), Writer(env, draft), env)
+        _write(chapter, chosen(report), further)
+    numbers = {name: draft.label("figure", key).number for name, key in chapter.figures.items()}
+    charts = (replace(chart, number=numbers.get(chart.id, "")) for chart in model.charts)
+    return replace(model, charts=tuple(charts))
 
 
 def _run_on(chapter: Chapter, style: Style) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, partial
 from pathlib import Path
@@ -166,10 +166,8 @@ class _Making:
 
     def workbook(self, *, beside: bool) -> Callable[[], bytes]:
         """What gives the workbook; a report takes longer, so both are made at the same time."""
-        from reports.workbook.write import workbook_bytes
-
         self.progress.step("Книга Excel")
-        make = partial(workbook_bytes, self.model, self.values)
+        make = partial(_workbook, self.model, self.values, self._how())
         return cache(aside(make) if beside else make)
 
     def pdf(self, book: Callable[[], bytes]) -> None:
@@ -199,6 +197,14 @@ class _Making:
 
     def _how(self) -> dict[str, Any]:
         return {"source": self.path, "style": self.style, "further": self.further}
+
+
+def _workbook(model: Model, values: Values, how: Mapping[str, Any]) -> bytes:
+    """The workbook, whose charts have the numbers of the report's figures."""
+    from reports.document.report import with_figures
+    from reports.workbook.write import workbook_bytes
+
+    return workbook_bytes(with_figures(model, values, **how), values)
 
 
 def remarks_of(loaded: Loaded) -> tuple[str, ...]:

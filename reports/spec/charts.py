@@ -45,6 +45,7 @@ class ChartSpec:
             expression of the ordinate.
         group: what the report says of this chart and the others that share a figure with it.
         panel: what it says of this one.
+        number: number of the figure in the report, where one is written.
     """
 
     id: str
@@ -68,6 +69,13 @@ class ChartSpec:
     poles: tuple[tuple[str, str], ...] = ()
     group: str = ""
     panel: str = ""
+    number: str = ""
+
+    @property
+    def heading(self) -> str:
+        """Title of the workbook's chart: the report's number, the textbook's in brackets."""
+        own = f"Рис. {self.number}. " if self.number else ""
+        return f"{own}{self.title} [рис. {self.figure}]" if self.figure else f"{own}{self.title}"
 
     @property
     def equal_axes(self) -> bool:

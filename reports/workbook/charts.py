@@ -57,8 +57,7 @@ def make_chart(
 
     It comes without numbers: openpyxl takes long for each, see ``ranges_of``.
     """
-    title = f"{spec.title} (рис. {spec.figure})" if spec.figure else spec.title
-    chart = _empty(title)
+    chart = _empty(spec.heading)
     curves = spec.drawn_by("workbook")
     for number, series in enumerate(curves):
         chart.series.append(_series(series, number, layout, smooth=is_smooth(spec)))

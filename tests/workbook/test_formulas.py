@@ -12,9 +12,14 @@ from openpyxl import load_workbook
 from reports.formula.excel import compile_formula, is_array
 from reports.formula.numeric import evaluate
 from reports.formula.parse import FormulaError, names, parse
+from reports.inputs.fields import to_mapping
+from reports.inputs.load import load_mapping
+from reports.tables.registry import build_model
 from reports.workbook import what_if
 from reports.workbook.layout import INPUT_SHEET, Layout
-from tests.workbook.lint import MAIN, formula_problems, literals
+from reports.workbook.write import workbook_bytes
+from tests.conftest import sample
+from tests.workbook.lint import LONGEST, MAIN, formula_problems, literals
 from tests.workbook.made import book, model, parts
 
 
@@ -172,3 +177,19 @@ def test_anything_else_is_refused(text: str) -> None:
 
 def test_names_of_an_expression() -> None:
     assert names("a*sin(t.b) + pi*col_max(c)") == {"a", "t.b", "c"}
+
+
+def test_a_stiffness_estimated_from_sizes_is_calculated_in_steps() -> None:
+    """An empty section: every size of the cranked shaft is read or estimated."""
+    raw = to_mapping(sample("gots-diesel")) | {"torsion": {}}
+    model = build_model(load_mapping(raw, source="x").model)
+    cells = [
+        cell.value
+        for sheet in load_workbook(io.BytesIO(workbook_bytes(model))).worksheets
+        if sheet.title.startswith("Крутильн")
+        for line in sheet.iter_rows()
+        for cell in line
+        if isinstance(cell.value, str) and cell.value.startswith("=")
+    ]
+    assert len(cells) > 100
+    assert max(map(len, cells)) <= LONGEST

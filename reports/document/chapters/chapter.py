@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, cast
 
@@ -34,6 +34,7 @@ class Chapter:
     terms: Terms
     writer: Writer
     environment: Environment
+    figures: dict[str, str] = field(default_factory=dict)  # chart → key of its figure, in a draft
 
     @property
     def model(self) -> Model:
@@ -153,6 +154,7 @@ class Chapter:
     ) -> Markup:
         """A chart of the specifications as a figure; see :func:`chart_figure`."""
         if self.writer.draft:
+            self.figures.setdefault(name, key or name)
             return self.writer.figure(key or name, None)
         plan = chart_figure(self.terms, self.model.charts_by_id[name], size, **more)
         return self.writer.figure(key or name, plan)
@@ -165,7 +167,9 @@ class Chapter:
         **more: Any,  # noqa: ANN401
     ) -> Markup:
         """Charts of one group in one figure, one above the other."""
+        names = tuple(names)
         if self.writer.draft:
+            self.figures.update((name, self.figures.get(name, key)) for name in names)
             return self.writer.figure(key, None)
         charts = [self.model.charts_by_id[name] for name in names]
         return self.writer.figure(key, panels_figure(self.terms, charts, size, **more))

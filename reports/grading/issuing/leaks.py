@@ -156,10 +156,11 @@ def _short(value: float) -> bool:
 
 
 def _known(assignment: Assignment) -> set[str]:
-    """Digits of the input data and the angles: they stand in the book by right."""
+    """Digits of the input data, the angles and their sines: they stand in the book by right."""
     numbers = [float(f.value) for f in assignment.model.inputs if isinstance(f.value, (int, float))]
     for table in assignment.model.tables.values():
-        numbers += table.rows
+        angles = np.radians(table.rows)
+        numbers += [*table.rows, *np.sin(angles).tolist(), *np.cos(angles).tolist()]
     return _digits(numbers, _DIGITS) | _digits(numbers, 5) | _digits(numbers, _EXACT)
 
 

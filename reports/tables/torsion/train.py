@@ -220,14 +220,14 @@ def _scheme(train: Train, shape: Shape, section: TorsionSection) -> Grid:
 def _compliances(shape: Shape, section: TorsionSection) -> Grid:
     """Twist of every throw under a unit torque by the three formulas."""
     numbers = range(1, shape.throws + 1)
+    sizes = [_sizes(k, section) for k in numbers]
     rows = [
-        grid_row(
-            f"tor_e_{key}",
-            (f"({_LENGTHS[key](_sizes(k, section))})/(of_MPa(torsion_shear_modulus_mpa)*pi/32)"
-             for k in numbers),
-            f"{name}, {MEMORY}",
-            f"tore_{key}_{{n}}",
-        )
+        grid_row(f"tor_{key}", (size[key] for size in sizes), source, f"tor{key}{{n}}")
+        for key, source in _SIZES.items()
+    ]
+    rows += [
+        grid_row(f"tor_e_{key}", (_LENGTHS[key].format(k=k) for k in numbers),
+                 f"{name}, {MEMORY}", f"tore_{key}_{{n}}")
         for key, name in FORMULAS.items()
     ]  # fmt: skip
     chosen = (
@@ -248,57 +248,54 @@ def _compliances(shape: Shape, section: TorsionSection) -> Grid:
     )
 
 
+_SIZES = {
+    "Dj": "среднее соседних шеек", "Lj": "среднее соседних шеек", "Dp": GIVEN, "Lp": GIVEN,
+    "hw": "задано или доля диаметра цилиндра", "bw": "задано или доля диаметра цилиндра",
+    "Ij": "сопротивление материалов", "Ip": "сопротивление материалов",
+    "Iw": "сопротивление материалов",
+}  # fmt: skip
+
+
 def _sizes(k: int, section: TorsionSection) -> dict[str, str]:
-    """Sizes of a throw [m] as expressions."""
+    """Sizes of a throw [m] and what they resist to a twist [m⁴] as expressions."""
     left, right = f"throw_{k}_left_web_mm", f"throw_{k}_right_web_mm"
     thickness = "of_mm(torsion_web_thickness_mm)"
     if section.web_thickness_mm is None:
         thickness = (
-            f"(of_mm(({left} + {right})/2) if {left} + {right} > 0"
-            f" else balance_web_thickness_share*{_BORE})"
+            f"of_mm(({left} + {right})/2) if {left} + {right} > 0"
+            f" else balance_web_thickness_share*{_BORE}"
         )
     width = "of_mm(torsion_web_width_mm)"
     if section.web_width_mm is None:
-        width = f"(balance_web_width_share*{_BORE})"
+        width = f"balance_web_width_share*{_BORE}"
     return {
         "Dj": f"of_mm((main_diameter_{k}_mm + main_diameter_{k + 1}_mm)/2)",
-        "dj": "of_mm(torsion_main_bore_mm)",
         "Lj": f"of_mm((main_length_{k}_mm + main_length_{k + 1}_mm)/2)",
         "Dp": f"of_mm(pin_diameter_{k}_mm)",
-        "dp": "of_mm(torsion_pin_bore_mm)",
         "Lp": f"of_mm(pin_length_{k}_mm)",
-        "h": thickness,
-        "b": width,
+        "hw": thickness,
+        "bw": width,
+        "Ij": f"torDj{k}**4 - of_mm(torsion_main_bore_mm)**4",
+        "Ip": f"torDp{k}**4 - of_mm(torsion_pin_bore_mm)**4",
+        "Iw": f"torhw{k}*torbw{k}**3",
     }
 
 
-def _wilson(s: dict[str, str]) -> str:
-    return (
-        f"({s['Lj']} + 0.4*{s['Dj']})/({s['Dj']}**4 - {s['dj']}**4)"
-        f" + ({s['Lp']} + 0.4*{s['Dp']})/({s['Dp']}**4 - {s['dp']}**4)"
-        f" + (r_crank - 0.2*({s['Dj']} + {s['Dp']}))/({s['h']}*{s['b']}**3)"
-    )
-
-
-def _carter(s: dict[str, str]) -> str:
-    return (
-        f"({s['Lj']} + 0.8*{s['h']})/({s['Dj']}**4 - {s['dj']}**4)"
-        f" + 0.75*{s['Lp']}/({s['Dp']}**4 - {s['dp']}**4)"
-        f" + 1.5*r_crank/({s['h']}*{s['b']}**3)"
-    )
-
-
-def _zimanenko(s: dict[str, str]) -> str:
-    main = f"({s['Dj']}**4 - {s['dj']}**4)"
-    return (
-        f"({s['Lj']} + 0.6*{s['h']}*{s['Dj']}/{s['Lj']}"
-        f" + (0.8*{s['Lp']} + 0.2*{s['b']}*{s['Dj']}/r_crank)*{main}"
-        f"/({s['Dp']}**4 - {s['dp']}**4)"
-        f" + r_crank*sqrt(r_crank/{s['Dp']})*{main}/({s['h']}*{s['b']}**3))/{main}"
-    )
-
-
-_LENGTHS = {"wilson": _wilson, "carter": _carter, "zimanenko": _zimanenko}
+_WHOLE = "({})/(of_MPa(torsion_shear_modulus_mpa)*pi/32)"
+_LENGTHS = {
+    "wilson": _WHOLE.format(
+        "(torLj{k} + 0.4*torDj{k})/torIj{k} + (torLp{k} + 0.4*torDp{k})/torIp{k}"
+        " + (r_crank - 0.2*(torDj{k} + torDp{k}))/torIw{k}"
+    ),
+    "carter": _WHOLE.format(
+        "(torLj{k} + 0.8*torhw{k})/torIj{k} + 0.75*torLp{k}/torIp{k} + 1.5*r_crank/torIw{k}"
+    ),
+    "zimanenko": _WHOLE.format(
+        "(torLj{k} + 0.6*torhw{k}*torDj{k}/torLj{k})/torIj{k}"
+        " + (0.8*torLp{k} + 0.2*torbw{k}*torDj{k}/r_crank)/torIp{k}"
+        " + r_crank*sqrt(r_crank/torDp{k})/torIw{k}"
+    ),
+}
 
 
 def _list(train: Train, section: TorsionSection, scope: Scope) -> ScalarTable:

@@ -1,0 +1,21 @@
+"""The workbook and the report call a diagram by the same number."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from reports.document import report
+from tests.document.report_samples import html_page, terms
+
+
+def test_the_workbook_s_charts_have_the_numbers_of_the_report_s_figures():
+    made = terms("one")
+    charts = report.with_figures(made.model, made.values, source=Path("t.toml")).charts
+    page = re.sub(r"<[^>]+>|&nbsp;", " ", html_page("one"))
+    found = {n: c.strip() for n, c in re.findall(r"Рисунок\s+([\d.]+)\s+—\s+([^\n]{10,80})", page)}
+    numbered = [chart for chart in charts if chart.number]
+    assert len(numbered) > 10
+    alike = [c for c in numbered if found[c.number].startswith(c.words[:12])]
+    assert len(alike) > len(numbered) / 2  # the others share a figure, which has words of its own
+    assert all(chart.heading.startswith(f"Рис. {chart.number}. {chart.title}") for chart in alike)

@@ -72,6 +72,7 @@ async def run(arguments: Sequence[str], folder: Path, timeout_s: float = TIMEOUT
     kept = {key: os.environ[key] for key in _SYSTEM if key in os.environ}
     home = [str(Path(__file__).resolve().parents[2]), kept.get("PYTHONPATH", "")]
     kept |= {"PYTHONPATH": os.pathsep.join(filter(None, home)), "PYTHONIOENCODING": "utf-8"}
+    kept |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # as many jobs as processors
     process = await asyncio.create_subprocess_exec(
         sys.executable, "-c", _KSHM, *arguments, cwd=folder, env=kept, start_new_session=True,
         stdin=asyncio.subprocess.DEVNULL, stdout=asyncio.subprocess.DEVNULL,

@@ -2,28 +2,54 @@
 
 from __future__ import annotations
 
+import io
+import re
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+from openpyxl import load_workbook
 
 from kshm import solve
+from kshm.results.solution import Solution
 from reports.inputs.load import load_mapping
 from reports.inputs.to_si.engine import engine_and_cycle
 from tests.web import axe
 from tests.web.conftest import Served, opened, photo, until
 
+# What a chart on the page holds: the numbers that are drawn, not what the server sent.
+CURVES = """id => Chart.getChart(document.querySelector(`#chart-${id} canvas`)).data.datasets
+    .map(d => [d.data.map(p => p.x), d.data.map(p => p.y)])"""
+
+
+@pytest.fixture(scope="module")
+def page(browser: Any, served: Served) -> Any:
+    """A wide page with the textbook's engine, for the tests that need no own one."""
+    found = opened(browser, served.page)
+    found.wait_for_selector("#checks table")
+    yield found
+    assert not found.faults
+    found.context.close()
+
+
+def solved(page: Any) -> Solution:
+    return solve(*engine_and_cycle(load_mapping(page.evaluate("kshm.raw"), source="").model))
+
+
+def settle(page: Any) -> None:
+    until(page, "!running")
+
 
 @pytest.mark.parametrize(("width", "scheme"), [(1280, "light"), (390, "dark")])
 def test_the_page_fits_and_shows_the_solvers_numbers(
-    browser: Any, served: Served, width: int, scheme: str, tmp_path: Path
+    browser: Any, served: Served, width: int, scheme: str
 ) -> None:
     page = opened(browser, served.page, width, scheme)
     page.wait_for_selector("#chart-fig46 output")
     page.wait_for_selector("#checks table")
     assert page.evaluate("document.documentElement.scrollWidth") <= width
-    raw = page.evaluate("kshm.raw")
-    solution = solve(*engine_and_cycle(load_mapping(raw, source="").model))
+    solution = solved(page)
     shown = page.inner_text("tr[data-key=M_mean] td:nth-child(3)")
     assert float(shown.replace(",", ".")) == pytest.approx(solution.scalars["M_mean"], abs=0.06)
     page.evaluate("document.getElementById('phi').value = 370; turn()")
@@ -31,56 +57,194 @@ def test_the_page_fits_and_shows_the_solvers_numbers(
     wanted = dict(zip(solution.columns["P4_1"]["phi_deg"], solution.columns["P4_1"]["Pg_MPa"],
                       strict=True))[370]  # fmt: skip
     assert float(value) == pytest.approx(wanted, rel=1e-4)
+    assert axe.faults(page) == []
     assert not page.faults
-    assert axe.faults(page, (scheme,)) == []
-    photo(page, "engine")
+    photo(page, f"engine-{width}")
     page.context.close()
 
 
-def test_an_own_engine_by_the_keyboard_to_workbook_and_pdf(
+DRAWN = {
+    "П3.1": {"fig41": ("P3_1", ("s_mm",))},
+    "П4.1": {"fig46": ("P4_1", ("Pg_MPa", "Pj_MPa", "Ps_MPa")), "fig47": ("P4_1", ("N_MPa",))},
+    "П4.2": {"fig49": ("P4_2", ("Msum_Nm",))},
+    "П4.3 (2)": {"fig55_2": ("P4_3_2", ("R_MPa",))},
+}
+
+
+def test_what_the_charts_draw_is_what_the_solver_says(page: Any) -> None:
+    columns = solved(page).columns
+    for sheet, charts in DRAWN.items():
+        page.select_option("#sheet", sheet)
+        settle(page)
+        for chart, (table, keys) in charts.items():
+            curves = page.evaluate(CURVES, chart)
+            for key in keys:
+                wanted = columns[table][key]
+                near = [np.array(y) for x, y in curves if len(y) == len(wanted)]
+                worst = min(np.max(np.abs(y - wanted)) for y in near)
+                assert worst <= 1e-7 * np.max(np.abs(wanted)), (chart, key)
+    page.select_option("#sheet", "П4.1")
+
+
+def test_every_fields_error_is_shown_at_the_field(page: Any) -> None:
+    silent = page.evaluate(r"""async () => {
+        const silent = [];
+        const inputs = [...document.querySelectorAll("#fields .field input[inputmode]")]
+            .filter(({id}) => !/[[](?!1[\]])/.test(id)); // of lists the first entry
+        for (const {id} of inputs) {
+            const input = () => document.getElementById(id), was = input().value;
+            const type = async text => {
+                input().value = text;
+                input().dispatchEvent(new Event("input"));
+                do await new Promise(done => setTimeout(done, 5)); while (running);
+            };
+            await type("abc");
+            const error = document.getElementById(id.replace("f-", "e-")).querySelector(".error");
+            const marked = input().getAttribute("aria-invalid") === "true";
+            if (!error?.textContent || !marked) silent.push(id);
+            type(was);
+        }
+        await new Promise(done => setTimeout(done, 300));
+        return [inputs.length, silent];
+    }""")
+    assert silent[0] > 60 and silent[1] == []
+    assert not page.locator(".error").count()
+
+
+def test_entries_of_lists_come_and_go(page: Any) -> None:
+    page.evaluate("fresh(ask('api/new', {sample: 'mwm-6'}))")
+    until(page, "kshm.raw.torsion?.masses?.length > 3")
+    for key in ("torsion.masses", "crankshaft.webs", "gas.points"):
+        section, name = key.split(".")
+        size = f"kshm.raw.{section}.{name}.length"
+        before = page.evaluate(size)
+        group = page.locator(f"details[data-key='{key}']")
+        group.evaluate("group => { group.open = true; }")
+        group.get_by_role("button", name="Добавить").click()
+        until(page, f"{size} === {before + 1} && !running")
+        fields = page.locator(f"[id^='f-{key}[{before + 1}]']")
+        assert fields.count() >= 2 and fields.first.is_visible()
+        group.get_by_role("button", name=f"Убрать {before + 1}", exact=True).click()
+        until(page, f"{size} === {before} && !running")
+    assert not page.locator(".error").count()
+    page.click("#undo")
+    until(page, f"{size} === {before + 1} && !running")
+    page.evaluate("fresh(ask('api/new', {sample: 'gots-diesel'}))")
+    until(page, "!kshm.raw.torsion && !running")
+
+
+def test_two_engines_over_each_other_and_another_cylinder(page: Any) -> None:
+    curves = len(page.evaluate(CURVES, "fig46"))
+    mean = page.inner_text("tr[data-key=M_mean] td:nth-child(3)")
+    page.click("#keep")
+    page.fill("[id='f-geometry.bore_mm']", "95,5")
+    until(page, f"Chart.getChart(document.querySelector('#chart-fig46 canvas'))"
+                f".data.datasets.length === {2 * curves} && !running")  # fmt: skip
+    both = [page.inner_text(f"tr[data-key=M_mean] td:nth-child({i})") for i in (3, 4)]
+    assert both[1] == mean != both[0]
+    page.click("#drop")
+    page.click("#undo")
+    until(page, "kshm.raw.geometry.bore_mm === 88 && !running")
+    first = page.inner_html("#mechanism")
+    page.select_option("#cylinder", index=2)
+    settle(page)
+    assert page.inner_html("#mechanism") != first
+    wanted = solved(page).columns["cylinder_3"]["Ps_MPa"]
+    shown = page.evaluate("kshm.last.moves.forces.Ps_MPa.values")
+    np.testing.assert_allclose(shown, wanted, atol=1e-6)
+    page.select_option("#cylinder", index=0)
+
+
+def tab_to(page: Any, selector: str) -> None:
+    """Go on by the Tab key alone; every stop on the way is seen and has its outline."""
+    for _ in range(400):
+        page.keyboard.press("Tab")
+        stop = page.evaluate("""selector => {
+            const e = document.activeElement, held = e.closest(".button") || e;
+            const seen = held.getBoundingClientRect().width > 0 &&
+                [e, held].some(each => getComputedStyle(each).outlineStyle !== "none");
+            return [e.matches(selector), seen || e === document.body, e.outerHTML.slice(0, 120)];
+        }""", selector)  # fmt: skip
+        assert stop[1], stop[2]
+        if stop[0]:
+            return
+    raise AssertionError(selector)
+
+
+def typed(page: Any, text: str) -> None:
+    page.keyboard.press("Control+A")
+    page.keyboard.type(text)
+
+
+def taken(page: Any, kind: str, name: str) -> bytes:
+    """A file ordered and downloaded by the keyboard."""
+    tab_to(page, f"[data-kind={kind}]")
+    before = page.locator("#jobs li").count()
+    page.keyboard.press("Enter")
+    until(page, f"document.querySelectorAll('#jobs li').length === {before + 1}")
+    page.wait_for_selector(f"#jobs li:first-child a[download='{name}']", timeout=120_000)
+    tab_to(page, f"#jobs li:first-child a[download='{name}']")
+    with page.expect_download() as download:
+        page.keyboard.press("Enter")
+    return Path(download.value.path()).read_bytes()
+
+
+def test_an_own_engine_by_the_keyboard_alone_to_workbook_and_pdf(
     browser: Any, served: Served, tmp_path: Path
 ) -> None:
-    page = opened(browser, served.page)
+    page = opened(browser, served.page, 800)  # narrow: all groups are closed at first
     page.wait_for_selector("#chart-fig46 output")
-    page.focus("#cylinders")
-    page.keyboard.press("Control+A")
-    page.keyboard.type("4")
+    tab_to(page, ".skip")
+    tab_to(page, "#cylinders")
+    typed(page, "4")
     page.keyboard.press("Enter")  # the form's own button
     until(page, "kshm.raw?.engine.cylinders === 4 && kshm.last?.moves.throws.length === 4")
-    bore = page.locator("[id='f-geometry.bore_mm']")
-    before = page.evaluate("kshm.raw.geometry.bore_mm")
-    bore.focus()
-    page.keyboard.press("Control+A")
-    page.keyboard.type("9999")
+    page.evaluate("document.activeElement.blur()")
+    tab_to(page, "[data-key=geometry] summary")
+    page.keyboard.press("Enter")
+    tab_to(page, "[id='f-geometry.bore_mm']")
+    typed(page, "9999")
     page.wait_for_selector("[data-key='geometry.bore_mm'] .error")
     assert "1500" in page.inner_text("[data-key='geometry.bore_mm'] .error")
-    page.keyboard.press("Control+A")
-    page.keyboard.type("84,5")
+    typed(page, "84,5")
     until(page, "!document.querySelector('.error') && kshm.raw.geometry.bore_mm === 84.5")
-    for kind in ("xlsx", "pdf"):
-        page.focus(f"[data-kind={kind}]")
-        page.keyboard.press("Enter")
-    for name in ("engine.xlsx", "engine.pdf"):
-        page.wait_for_selector(f"#jobs a[download='{name}']", timeout=90_000)
-    with page.expect_download() as download:
-        page.click("#jobs a[download='engine.xlsx']")
-    book = tmp_path / "engine.xlsx"
-    download.value.save_as(book)
-    page.click("#undo")
-    until(page, f"kshm.raw.geometry.bore_mm === {before}")
-    page.set_input_files("#upload", book)
-    until(page, "kshm.raw.geometry.bore_mm === 84.5")
+    tab_to(page, "[data-key='geometry.bore_mm'] [type=range]")
+    page.keyboard.press("ArrowRight")
+    until(page, "kshm.raw.geometry.bore_mm > 84.5 && !running")
+    tab_to(page, "[data-key=report] summary")
+    page.keyboard.press("Enter")
+    tab_to(page, "[id='f-report.detail']")
+    page.keyboard.press("End")  # the short report: less to wait for
+    until(page, "kshm.raw.report.detail === 'short' && !running")
+    book, pdf = taken(page, "xlsx", "engine.xlsx"), taken(page, "pdf", "engine.pdf")
+    assert pdf.startswith(b"%PDF")
+
+    # The workbook is edited elsewhere, comes back, and makes another report.
+    edited = load_workbook(io.BytesIO(book))
+    ((sheet, cell),) = edited.defined_names["geometry_bore_mm"].destinations
+    edited[sheet][cell.replace("$", "")].value = 91.25
+    edited.save(tmp_path / "edited.xlsx")
+    page.evaluate("scrollTo(0, 0); document.activeElement.blur()")
+    tab_to(page, "#new summary")
+    page.keyboard.press("Enter")
+    tab_to(page, "#upload")
+    with page.expect_file_chooser() as chooser:
+        page.keyboard.press("Space")
+    chooser.value.set_files(tmp_path / "edited.xlsx")
+    until(page, "kshm.raw.geometry.bore_mm === 91.25 && !running")
+    assert taken(page, "pdf", "engine.pdf") != pdf
+    tab_to(page, "#undo")
+    page.keyboard.press("Enter")
+    until(page, "kshm.raw.geometry.bore_mm < 90 && !running")
     assert not page.faults
     page.context.close()
 
 
-def test_every_control_has_a_name(browser: Any, served: Served) -> None:
-    page = opened(browser, served.page)
-    page.wait_for_selector("#chart-fig46 output")
-    nameless = page.evaluate("""[...document.querySelectorAll('input,select,button,a,svg[role]')]
+def test_every_control_has_a_name(page: Any) -> None:
+    nameless = page.evaluate("""[...document.querySelectorAll('input,select,button,a,[role=img]')]
         .filter(e => !(e.getAttribute('aria-label') || e.labels?.length || e.textContent.trim()))
         .map(e => e.outerHTML.slice(0, 100))""")
     assert nameless == []
-    assert page.evaluate("new Set([...document.querySelectorAll('[id]')].map(e => e.id)).size "
-                         "=== document.querySelectorAll('[id]').length")  # fmt: skip
-    page.context.close()
+    ids = page.evaluate("[...document.querySelectorAll('[id]')].map(e => e.id)")
+    assert len(ids) == len(set(ids))
+    assert not re.search(r"undefined|NaN|\[object", page.inner_text("body"))

@@ -25,7 +25,8 @@ function figure(spec) {
   const axis = (title, reverse, angle) => ({
     type: "linear", reverse, display: ["line", "polar"].includes(spec.kind), grid: {color: css("faint")},
     title: {display: Boolean(title), text: title, color: css("fg")},
-    ticks: {color: css("fg"), stepSize: angle ? 60 : undefined, maxTicksLimit: 8},
+    ticks: {color: css("fg"), stepSize: angle ? 60 : undefined, maxTicksLimit: 8, includeBounds: false,
+      callback: value => printed(value)},
   });
   let drawn = null, now = spec, phi = 0;
   drawn = new Chart(canvas, {
@@ -55,12 +56,12 @@ function figure(spec) {
       [x.min, x.max, y.min, y.max] = [(left + right) / 2 - half, (left + right) / 2 + half,
         (low + high) / 2 - half, (low + high) / 2 + half];
     } else if (spec.angle) [x.min, x.max] = [left, right];
-    drawn.update("none");
     legend.replaceChildren(...curves.map(({name}, i) => make("li", {},
-      make("i", {style: `border-color:${css(`c${i % count % 6}`)}`, class: i < count ? "" : "other"}),
+      make("i", {style: `color:${css(`c${i % count % 6}`)}`, class: i >= count ? "other" : i ? "dashed" : ""}),
       ...symbol(name || ""), i < count ? " " : " (второй) ", make("output"))));
     marks.replaceChildren(make("i", {class: "line"}), ...curves.map((_, i) =>
       make("i", {class: "dot", style: `background:${css(`c${i % count % 6}`)}`})));
+    drawn.update("none");
   }
 
   function place() { // the cursor and a point of each curve, over the drawing

@@ -14,7 +14,7 @@ const make = (tag, attributes = {}, ...children) => dressed(document.createEleme
 const draw = (tag, attributes = {}, ...children) =>
   dressed(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
 const options = (list, chosen) => list.map(([value, label, title]) =>
-  make("option", {value, title, selected: String(chosen) === value}, label));
+  make("option", {value, title, selected: String(chosen) === String(value)}, label));
 const row = cells => make("tr", {}, ...cells.map(([text, name]) => make("td", {class: name}, ...[text].flat())));
 const table = (caption, rows, head) => make("div", {class: "box", tabindex: 0, role: "region", "aria-label": caption},
   make("table", {}, make("caption", {}, caption), head || "", make("tbody", {}, ...rows)));

@@ -39,10 +39,11 @@ function put(raw, path, value) {
   else delete part[last];
 }
 
-function edited(change) { // the mapping with a change that alters its shape
+async function edited(change, key) { // a change that alters the shape, and back to where it was made
   const raw = copy(state.raw);
   change(raw);
-  open(raw);
+  await open(raw);
+  [...document.querySelectorAll(`[data-key="${key}"] summary, [data-key="${key}"] legend button`)].at(-1)?.focus();
 }
 
 function fill({groups, sheets, absent, raw}) {
@@ -58,7 +59,7 @@ function fill({groups, sheets, absent, raw}) {
   if (sheets.length && !sheets.some(s => s.id === state.sheet)) state.sheet = sheets[0].id;
   if (sheets.length) $("sheet").replaceChildren(...options(sheets.map(s => [s.id, s.title, s.hint]), state.sheet));
   $("absent").replaceChildren(absent.length ? "Добавить раздел: " : "", ...absent.map(({id, title}) =>
-    make("button", {onclick: () => edited(next => { next[id] = {}; })}, title)));
+    make("button", {onclick: () => edited(next => { next[id] = {}; }, id)}, title)));
   find();
 }
 
@@ -72,7 +73,7 @@ function section({title, key, path, fields, entries, blank, drawing}, open) {
       for (const [i, each] of path.entries()) part = part[each] ??= i === path.length - 1 ? [] : {};
       return part;
     };
-    const button = (label, change) => make("button", {class: "small", onclick: () => edited(change)}, label);
+    const button = (label, change) => make("button", {class: "small", onclick: () => edited(change, key)}, label);
     entries.forEach((entry, i) => node.append(make("fieldset", {}, make("legend", {}, `${title}, ${i + 1} `,
       button(`Убрать ${i + 1}`, raw => list(raw).splice(i, 1))), ...entry.map(field))));
     node.append(make("p", {}, button("Добавить", raw => list(raw).push(copy(list(raw).at(-1) ?? blank)))));
@@ -86,17 +87,19 @@ function field(f) {
   if (f.number && f.min !== null) help.push(`от ${printed(f.min, 9)} до ${printed(f.max, 9)} ${f.unit}`);
   if (f.optional) help.push("можно не задавать");
   const told = {id, "aria-describedby": `h-${f.key} e-${f.key}`};
+  let drag = null;
   const input = f.choices
     ? make("select", {...told, onchange: () => { remember(); change(f, input.value, true); }},
       ...options([...(f.optional || f.value === null ? [["", "—"]] : []), ...Object.entries(f.choices)], f.value ?? ""))
     : make("input", {...told, value: shown(f.value), inputmode: f.number ? "decimal" : false, autocomplete: "off",
-      maxlength: 300, oninput: () => change(f, input.value.trim())});
+      maxlength: 300,
+      oninput: () => { change(f, input.value.trim()); if (drag) drag.value = input.value.replace(",", "."); }});
   const row = make("div", {class: f.number || f.choices ? "field" : "field wide", "data-key": f.key,
     "data-text": `${f.title} ${f.key} ${f.symbol}`.toLowerCase()}, make("label", {for: id}, ...title), input,
   make("span", {}, f.unit));
   if (f.number && typeof f.value === "number" && f.value && !f.key.includes("[")) {
     const span = Math.abs(f.value) * .4, step = 10 ** Math.floor(Math.log10(span / 50)), tidy = v => Math.round(v / step) * step;
-    const drag = make("input", {type: "range", "aria-label": `${f.title}: подвинуть`, step,
+    drag = make("input", {type: "range", "aria-label": `${f.title}: подвинуть`, step,
       min: tidy(Math.max(f.min ?? -Infinity, f.value - span)), max: tidy(Math.min(f.max ?? Infinity, f.value + span)),
       oninput: () => { input.value = shown(+Number(drag.value).toPrecision(8)); change(f, input.value); }});
     drag.value = f.value;
@@ -183,14 +186,15 @@ function show(own, other) {
   $("scene").hidden = false;
   $("phi").max = own.moves.phi.at(-1);
   const numbers = Array.from({length: own.moves.cylinders}, (_, i) => [i, i + 1]);
-  $("cylinder").replaceChildren(...options(numbers, own.moves.cylinder));
+  if ($("cylinder").length !== numbers.length) // else a person's choice on its way would be lost
+    $("cylinder").replaceChildren(...options(numbers, own.moves.cylinder));
   const second = new Map((other?.results || []).flatMap(t => t.rows.map(r => [r.key, r.text])));
   const closed = new Set([...document.querySelectorAll("#summary details:not([open])")].map(d => d.dataset.id));
   const begin = !$("summary").children.length;
   $("summary").replaceChildren(...own.results.map(({id, title, rows}) => make("details",
     {"data-id": id, open: begin ? /^(summary_torque|geometry)/.test(id) : !closed.has(id)}, make("summary", {}, title),
-    table(title, rows.map(r => dressed(row([[r.title], [symbol(r.symbol)], [r.text, "n"], [second.get(r.key) ?? "", "n"],
-      [r.unit]]), {"data-key": r.key}, []))))));
+    table(title, rows.map(r => dressed(row([[r.title], [symbol(r.symbol), "s"], [r.text, "n"],
+      [second.get(r.key) ?? "", "n"], [r.unit, "s"]]), {"data-key": r.key}, []))))));
   turn();
 }
 
@@ -202,7 +206,7 @@ function turn() {
   star($("star"), moves, phi);
   for (const each of state.figures) each.at(phi);
   $("values").replaceChildren(...Object.values(moves.forces).map(f =>
-    row([[symbol(f.symbol)], [printed(between(moves.phi, f.values, phi), 4), "n"], [f.unit]])));
+    row([[symbol(f.symbol)], [printed(between(moves.phi, f.values, phi), 4), "n"], [f.unit, "s"]])));
 }
 
 function play() {

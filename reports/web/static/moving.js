@@ -35,7 +35,7 @@ function arrows(moves, phi, pin, piston, turn, bore) {
     const [x2, y2] = [x + dx * k, y + dy * k], at = {x: x2 + bore / 16, y: y2};
     return [draw("line", {x1: x, y1: y, x2, y2, class: "force", stroke: `var(--${colour})`}),
       draw("circle", {cx: x2, cy: y2, r: bore / 28, fill: `var(--${colour})`}),
-      draw("text", {...at, "font-size": bore / 7, transform: `rotate(${-moves.axis} ${at.x} ${at.y})`}, name)];
+      draw("text", {...at, "font-size": bore / 5, transform: `rotate(${-moves.axis} ${at.x} ${at.y})`}, name)];
   });
 }
 

@@ -131,10 +131,16 @@ def _loads(
     columns = [Column(symbol_head(tex, unit)) for _, tex, unit in wanted[:-1]]
     _, tex, unit = wanted[-1]
     rows = [
-        [str(number), *(terms.num(key.format(name)) for key, _, _ in wanted)]
+        [str(number), *(_load(terms, key, name) for key, _, _ in wanted)]
         for number, name in enumerate(names, 1)
     ]
     return table_block([Column("Шейка", 0.8), *columns, Column(symbol_head(tex, unit), last)], rows)
+
+
+def _load(terms: Terms, key: str, name: str) -> str:
+    """A number, but for the angles of a journal that bears nothing: rounding noise has none."""
+    idle = round(float(terms.value(f"R{name}_max")), 9) == 0
+    return "—" if idle and key.endswith("_deg") else terms.num(key.format(name))
 
 
 def _sums(terms: Terms, numbers: Sequence[int], rays: int) -> TablePlan:

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from reports.comparison.engines import Row
-from reports.shared.russian import fixed, written
+from reports.shared.russian import NBSP, fixed, written
 
 SAME = 0.01  # share within which values count as equal
 STILL = 1e-3  # of the greatest: what is smaller is nought
 _NOUGHT = 1e-6  # kN, N·m: rounding
+_TIMES = 2.0  # from here on "so many times" is said
 
 # Key of the result, what is said of the greatest of it.
 _GREATEST = (
@@ -56,14 +57,21 @@ def _greatest(names: Sequence[str], rows: Mapping[str, Row]) -> Iterator[str]:
         if row is None or values is None or min(values) <= 0:
             continue
         big, small = values.index(max(values)), values.index(min(values))
-        text = f"{written(values[big], row.about.digits)} {row.unit}".rstrip()
+        text = f"{written(values[big], row.about.digits)} {row.unit}".rstrip().replace(" ", NBSP)
         if spread(values) <= SAME:
             what = words.removeprefix("Наибольшая ").removeprefix("Наибольший ")
             what = what.removeprefix("Самый тяжёлый ")
-            yield f"Одинаковы с точностью 1 %: {what}, {text}."
+            yield f"Одинаковы с точностью 1{NBSP}%: {what}, {text}."
         else:
-            more = fixed((values[big] / values[small] - 1) * 100, 1)
-            yield f"{words} — {names[big]}: {text}, на {more} % больше, чем {names[small]}."
+            more = _more(values[big] / values[small])
+            yield f"{words} — {names[big]}: {text}, {more} больше, чем у {names[small]}."
+
+
+def _more(ratio: float) -> str:
+    """By how much something is larger: nobody reads 1800 %."""
+    if ratio < _TIMES:
+        return f"на {fixed((ratio - 1) * 100, 1)}{NBSP}%"
+    return f"в {fixed(ratio, 1)}{NBSP}раза"
 
 
 def _unevenness(names: Sequence[str], rows: Mapping[str, Row]) -> Iterator[str]:

@@ -66,7 +66,9 @@ def test_other_published_bearings_are_met(width: float) -> None:
         )
         found = oil_film.steady_eccentricity(load, np.array(width))
         assert found == pytest.approx(e, abs=0.01)
-        assert np.degrees(oil_film.attitude(found, np.array(width))) == pytest.approx(turn, abs=2.4)
+        assert np.degrees(oil_film.attitude(np.array(e), np.array(width))) == pytest.approx(
+            turn, abs=2.4
+        )
 
 
 def test_the_short_bearing_alone_would_be_wrong_near_contact() -> None:

@@ -4,9 +4,12 @@ import tomllib
 
 import pytest
 
+from kshm.engine.torsion import Torsion
+from kshm.mechanics.torsional_train import throw_inertias, train_of
 from reports.inputs.checks.bands import BANDS, RELATIONS
 from reports.inputs.load import load_mapping, load_toml
 from reports.inputs.template import list_samples
+from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.resources import samples_dir
 from tests.inputs.slips import (
     FACTORS,
@@ -26,11 +29,9 @@ TOLERABLE = {
     "crankshaft.nose_angle_deg": "a counterweight may stand at any angle",
     "crankshaft.rear_angle_deg": "a counterweight may stand at any angle",
     "cycle.charge_heating_k": "between none and little heating nothing changes",
-    "torsion.damping_nms_rad": "damping is known by its order at best",
     "torsion.masses.inertia_kg_m2": "the first mass may be a small pulley or a heavy damper",
-    "torsion.masses.stiffness_nm_rad": "what joins masses may be a shaft or a soft coupling",
+    "torsion.masses.stiffness_nm_rad": "what joins a pulley may be a shaft or a soft coupling",
     "torsion.other_flywheel_kg_m2": "any other flywheel may be tried",
-    "torsion.peaks.speed_rpm": "the curve of pressures may begin at any speed",
     "reference.angle_deg": "a scheme may show any angle",
 }
 # Told at what follows from them: the sizes found for a power, the lists of a shaft.
@@ -64,6 +65,37 @@ def test_every_factor_of_ten_is_named(engine):
             found = set(told(changed(engine, (path, value * factor)))) - before
             assert found, f"{plain(path)} × {factor} is not named"
             assert any(f"f: {path[0]}" in line for line in found) or plain(path) in ELSEWHERE, found
+
+
+@pytest.mark.parametrize("factor", FACTORS)
+@pytest.mark.parametrize("place", range(2, 8))
+def test_every_throw_of_a_given_train_is_named(place, factor):
+    raw = sample("mwm-6")
+    keys = ["inertia_kg_m2", *(["stiffness_nm_rad"] if place < 7 else [])]
+    for key in keys:
+        path = ("torsion", "masses", place, key)
+        found = told(changed(raw, (path, factor * at(raw, path))))
+        assert any(f"torsion.masses[{place + 1}].{key}" in line for line in found), (key, found)
+
+
+@pytest.mark.parametrize("factor", FACTORS)
+@pytest.mark.parametrize("name", ["gots-diesel", "yamz-236", "two-stroke", "vw-1600"])
+def test_every_throw_of_a_train_that_is_given_in_lists_is_named(name, factor):
+    raw = sample(name)
+    engine = engine_and_cycle(load_mapping(raw, source="f").model)[0]
+    inertias = throw_inertias(engine).tolist()
+    springs = train_of(engine, Torsion(), 1.0).stiffnesses.tolist()
+    raw["torsion"] = {
+        "throws_kg_m2": inertias, "throws_nm_rad": springs[1:-1], "nose_nm_rad": springs[0],
+        "rear_nm_rad": springs[-1],
+    }  # fmt: skip
+    if len(inertias) == 1:
+        del raw["torsion"]["throws_nm_rad"]
+    assert not [line for line in told(raw) if "torsion" in line]
+    for key, given in list(raw["torsion"].items()):
+        path = ("torsion", key, 0) if isinstance(given, list) else ("torsion", key)
+        found = told(changed(raw, (path, factor * at(raw, path))))
+        assert any(f"torsion.{key}" in line for line in found), (key, found)
 
 
 def test_heating_by_hundreds_of_kelvin_is_named():

@@ -170,6 +170,7 @@ BANDS: tuple[Band, ...] = (
     Band("bearings.supply_mpa", "", "давление масла", 0.12, 0.95, unit="МПа"),
     Band("bearings.hole_mm", "D", "d_м/D", 0.015, 0.14),
     Band("bearings.supply_c", "", "температура масла", 40, 120, unit="°C"),
+    Band("torsion.peaks.speed_rpm", "n", "n/n_ном", 0.16, 1.55),
     Band("torsion.peaks.pressure_mpa", "", "наибольшее давление", 2.6, 25, unit="МПа"),
 )
 
@@ -191,9 +192,13 @@ MEAN_PRESSURE = Band("gas.max_pressure_mpa", "", "p_i диаграммы", 0.2, 
 MEAN_PRESSURE_OF_POWER = Band("regime.indicated_power_kw", "", "p_i по N_i", 0.3, 2.9, unit="МПа")
 POINTS = Band("gas.points", "", "наибольшее давление", 1.2, 25, unit="МПа")
 LEAST_POINT = Band("gas.points", "", "наименьшее давление", 0.02, 0.4, unit="МПа")
+THROW_INERTIA = Band("torsion.throws_kg_m2", "", "J/(F_п r²) на шатун", 200, 1950, unit="кг/м²")
+THROW_STIFFNESS = Band("torsion.throws_nm_rad", "", "c к гладкому валу коренных шеек", 0.26, 2.5)
+DAMPING = Band("torsion.damping_nms_rad", "", "b/(F_п r²)", 12, 118, unit="кН·с/м³")
 RELATIONS = (
     SIZES, LARGE_SIZES, SPEED, LOWER_SPEED, PIN_LENGTH, MAIN_LENGTH, MAIN_TO_PIN, REDUCED_WEB,
     EFFICIENCY, RESIDUAL, RISE, POWER, MEAN_PRESSURE_OF_POWER,
+    THROW_INERTIA, THROW_STIFFNESS, DAMPING,
 )  # fmt: skip
 # A point of the diagram stands out from both its neighbours by these factors: from near
 # ones and from those further than so many degrees.

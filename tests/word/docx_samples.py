@@ -40,6 +40,11 @@ def page_of(name: str, **style: object) -> str:
 
 @lru_cache(maxsize=4)
 def docx_of(name: str) -> bytes:
+    """The file that ``report_docx`` makes, of the page that is there already."""
+    return styled(name)
+
+
+def made_anew(name: str) -> bytes:
     return report_docx(*model_of(name), source=Path(f"{name}.toml"))
 
 

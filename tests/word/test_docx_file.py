@@ -8,14 +8,12 @@ import zipfile
 
 import pytest
 from click.testing import CliRunner
-from docx_samples import W, docx_of, page_of, part, styled, text_of
+from docx_samples import W, docx_of, made_anew, part, styled, text_of
 from lxml import etree
 
 from reports.cli import main
-from reports.document.page.style import Style
 from reports.shared.resources import samples_dir
 from reports.word.markup import bookmark_name
-from reports.word.write import from_page
 from tests.workbook.test_schema import validated
 
 NAME = "gots-diesel"
@@ -72,7 +70,7 @@ def test_figures_are_svg_with_a_png_and_words():
 
 
 def test_the_same_bytes():
-    assert from_page(page_of(NAME), Style(tagged_tables=True)) == docx_of(NAME)
+    assert made_anew(NAME) == docx_of(NAME)
 
 
 def test_a_style_file_changes_named_styles_and_not_the_text():

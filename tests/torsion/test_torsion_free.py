@@ -34,6 +34,22 @@ def test_two_masses_by_the_closed_formula(first: float, second: float, spring: f
     assert torsion.modes_of(train).omega == pytest.approx([wanted], rel=1e-12)
 
 
+@pytest.mark.parametrize("masses", [2, 3, 5, 9, 20])
+def test_equal_masses_on_equal_shafts_by_the_closed_formulas(masses: int) -> None:
+    """ω = 2√(c/J) sin(...) of a chain with free ends, with one end grounded, with both."""
+    j, c = 0.37, 4.2e5
+    inertias, shafts = np.full(masses, j), np.full(masses - 1, c)
+    k, most = np.arange(1, masses + 1), 2 * np.sqrt(c / j)
+    cases = (
+        (Train(inertias, shafts), np.sin(k[:-1] * np.pi / (2 * masses))),
+        (Train(inertias, shafts, left=c), np.sin((2 * k - 1) * np.pi / (4 * masses + 2))),
+        (Train(inertias, shafts, right=c), np.sin((2 * k - 1) * np.pi / (4 * masses + 2))),
+        (Train(inertias, shafts, left=c, right=c), np.sin(k * np.pi / (2 * masses + 2))),
+    )
+    for train, wanted in cases:
+        assert torsion.modes_of(train).omega == pytest.approx(most * wanted, rel=1e-12)
+
+
 @given(trains())
 def test_forms_are_orthogonal_in_both_matrices(train: Train) -> None:
     modes = torsion.modes_of(train)

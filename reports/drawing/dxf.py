@@ -52,8 +52,11 @@ def dxf_bytes(items: Iterable[Item]) -> bytes:
             else:
                 _text(space, item, aligns[item.align], looks)
         left, low, right, high = bounds(shown)
-        document.header["$EXTMIN"], document.header["$EXTMAX"] = (left, low, 0), (right, high, 0)
-        document.header["$LIMMIN"], document.header["$LIMMAX"] = (left, low), (right, high)
+        corners = (left, low, 0), (right, high, 0)
+        space.reset_extents(*corners)
+        # What begins at the origin is not carried over to the header by writing.
+        document.header["$EXTMIN"], document.header["$EXTMAX"] = corners
+        space.reset_limits((left, low), (right, high))
         centre = ((left + right) / 2, (low + high) / 2)
         document.set_modelspace_vport(1.05 * (high - low), centre)  # the whole of it is seen
         stream = io.StringIO()

@@ -155,6 +155,9 @@ def test_layers_texts_and_closed_lines():
     closed = [line for line in space.query("LWPOLYLINE") if line.closed]
     assert len(closed) > 10
     assert {e.dxf.layer for e in space} <= {layer.name for layer in LAYERS}
+    # Programs that open a drawing by its extents would show a point in place of the sheet.
+    corners = [tuple(document.header[key])[:2] for key in ("$EXTMIN", "$EXTMAX", "$LIMMAX")]
+    assert corners == [(0, 0), (841, 594), (841, 594)]
 
 
 def test_parts_are_true_to_size():

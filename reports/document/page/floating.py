@@ -61,7 +61,8 @@ class Block:
     below: float = 0.0
     figure: float = 0.0  # of it the picture, which may be reduced
     head: float = 0.0  # of it what a table repeats on each page that it goes on to
-    line: float = 0.0  # of a paragraph or a table, and of what a heading must have below it
+    rows: tuple[float, ...] = ()
+    line: float = 0.0  # of a paragraph, and of what a heading must have below it
     least: int = 2  # lines of a paragraph that stand together
 
 
@@ -168,18 +169,21 @@ def _after(block: Block, spot: Spot, room: float) -> Spot:
 
 def _over(block: Block, begin: float, room: float) -> float:
     """Height on its last page of a block that goes on over the page's end."""
-    over, page = begin + block.height - room, room - block.head
     if block.kind == "table":
-        if room - begin < block.head + _ROWS:
-            over = block.height - block.head
-        over, page = -(-over // block.line) * block.line, page // block.line * block.line
-    elif block.line:  # no line of a paragraph stands alone
+        end = block.height - sum(block.rows)
+        if room - begin >= block.head + _ROWS:
+            end += begin
+        for row in block.rows:
+            end = (end if end + row <= room else block.head) + row
+        return end
+    over = begin + block.height - room
+    if block.line:  # no line of a paragraph stands alone
         free = int((room - begin) / block.line)
         lines = round(block.height / block.line)
         if block.least > 1:
             free = 0 if free < block.least or lines < 2 * block.least else free
         over = (lines - min(free, max(lines - block.least, 0))) * block.line
-    return over % page + block.head
+    return over % room
 
 
 def _reduced(block: Block, share: float) -> str:
@@ -280,15 +284,13 @@ def _table(html: str, style: Style) -> Block:
     height = caption + head
     lines = html.find('<tr class="lines">')
     if lines > 0:
-        row = 1.37 * em
-        height += html.count("\n", lines) * row
+        each = [1.37 * em] * html.count("\n", lines)
     else:
         each = [_row_lines(row, widths, em) * em * 1.2 + 2.05 * _PT for row in rows[heads:]]
-        row = sum(each) / len(each) if each else em
-        height += sum(each)
+    height += sum(each)
     kind: Kind = "float" if re.search(r'class="data[^"]* keep', html) else "table"
     more = head + 1.5 * style.em_px
-    return Block(html, kind, height, 10 * _PT, 10 * _PT, head=more, line=row)
+    return Block(html, kind, height, 10 * _PT, 10 * _PT, head=more, rows=tuple(each))
 
 
 def _row_lines(row: str, widths: Sequence[float], em: float) -> int:

@@ -21,6 +21,7 @@ from reports.document.text.fonts import text_em
 Kind = Literal["chapter", "heading", "text", "tied", "float", "table", "other"]
 
 _TAG = re.compile(r"<(/?)(p|h[1-3]|div|figure|ul|ol|nav|section)\b([^>]*)>")
+_HEADING = re.compile(r"<h[1-3]")
 _WIDTH = re.compile(r'<(?:svg|img) class="fig"[^>]*?style="width:([\d.]+)mm')
 _BOX = re.compile(r'data-size="([\d.]+)/([\d.]+)"')
 _EM = re.compile(r"height:([\d.]+)em")
@@ -41,10 +42,14 @@ _DOUBT = 10.0  # px kept free below what would miss the page by a hair
 
 
 class Spot(NamedTuple):
-    """Where on a page the last block ends and the margin that it asks for below [px]."""
+    """Where on a page the last block ends and the margin that it asks for below [px].
+
+    ``page`` counts the pages of the body from one.
+    """
 
     used: float
     margin: float = 0.0
+    page: int = 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +82,7 @@ def arranged(body: str, style: Style, *, run_on: float = 1.0) -> str:
     room = (297 - style.margins.top - style.margins.bottom) * 96 / 25.4 - _SLACK
     out: list[str] = []
     chapter: list[Block] = []
-    spot = Spot(room)
+    spot = Spot(room, page=0)
     for block in _blocks(str(body), style):  # no Markup: nothing is escaped here
         if block.kind == "chapter":
             placed, spot = _filled(chapter, spot, room)
@@ -90,9 +95,10 @@ def arranged(body: str, style: Style, *, run_on: float = 1.0) -> str:
                 html = block.html.replace('class="', 'class="runon ', 1)
                 block = replace(block, html=html, above=18 * _PT)  # noqa: PLW2901
             else:
-                spot = Spot(0.0)
+                spot = Spot(0.0, page=spot.page + 1)
         chapter.append(block)
-    return "\n".join([*out, *_filled(chapter, spot, room)[0]])
+    placed, spot = _filled(chapter, spot, room)
+    return "\n".join([*out, *placed, f'<div data-page="{spot.page}"></div>'])
 
 
 def _number(chapter: Block) -> str:
@@ -118,10 +124,18 @@ def _filled(blocks: Sequence[Block], spot: Spot, room: float) -> tuple[list[str]
                 spot, placed, waiting = _placed(waiting, spot, room)
                 out += placed
             continue
-        out.append(block.html)
         spot = _after(block, spot, room)
+        out.append(_paged(block, spot.page))
     spot, placed = _all_placed(waiting, spot, room)
     return [*out, *placed], spot
+
+
+def _paged(block: Block, page: int) -> str:
+    """A heading told its page as estimated: contents that nobody has renewed show it."""
+    heading = block.kind in ("chapter", "heading")
+    return (
+        _HEADING.sub(rf'\g<0> data-page="{page}"', block.html, count=1) if heading else block.html
+    )
 
 
 def _all_placed(waiting: list[Block], spot: Spot, room: float) -> tuple[Spot, list[str]]:
@@ -147,7 +161,7 @@ def _placed(waiting: list[Block], spot: Spot, room: float) -> tuple[Spot, list[s
             spot = _after(block, spot, room)
         elif block.figure and rest >= block.height - (1 - _LEAST) * block.figure:
             placed.append(_reduced(block, 1 - (block.height - rest) / block.figure))
-            spot = Spot(room)
+            spot = Spot(room, page=spot.page)
         else:
             break
         waiting = waiting[1:]
@@ -161,21 +175,23 @@ def _after(block: Block, spot: Spot, room: float) -> Spot:
     # What follows a heading stands below it: two lines at least.
     tail = block.below + 2 * block.line if block.kind == "heading" else 0.0
     if total + tail <= room:
-        return Spot(total, block.below)
+        return Spot(total, block.below, spot.page)
     if block.kind in ("text", "table") or (block.kind == "tied" and block.line):
-        return Spot(_over(block, begin, room), block.below)
-    return Spot(min(block.above + block.height, room), block.below)
+        end, pages = _over(block, begin, room)
+        return Spot(end, block.below, spot.page + pages)
+    return Spot(min(block.above + block.height, room), block.below, spot.page + 1)
 
 
-def _over(block: Block, begin: float, room: float) -> float:
-    """Height on its last page of a block that goes on over the page's end."""
+def _over(block: Block, begin: float, room: float) -> tuple[float, int]:
+    """Height on its last page of a block that goes on over the page's end, and further pages."""
     if block.kind == "table":
-        end = block.height - sum(block.rows)
+        end, pages = block.height - sum(block.rows), 1
         if room - begin >= block.head + _ROWS:
-            end += begin
+            end, pages = end + begin, 0
         for row in block.rows:
-            end = (end if end + row <= room else block.head) + row
-        return end
+            full = end + row > room
+            end, pages = (block.head if full else end) + row, pages + full
+        return end, pages
     over = begin + block.height - room
     if block.line:  # no line of a paragraph stands alone
         free = int((room - begin) / block.line)
@@ -183,7 +199,7 @@ def _over(block: Block, begin: float, room: float) -> float:
         if block.least > 1:
             free = 0 if free < block.least or lines < 2 * block.least else free
         over = (lines - min(free, max(lines - block.least, 0))) * block.line
-    return over % room
+    return over % room, 1 + int(over // room)
 
 
 def _reduced(block: Block, share: float) -> str:

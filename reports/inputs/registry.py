@@ -81,7 +81,7 @@ _ALL = (
         },
     ),
     Section("engine", "Двигатель", EngineSection),
-    Section("calculation", "Расчет", Calculation, optional=True),
+    Section("calculation", "Расчёт", Calculation, optional=True),
     Section("geometry", "Геометрия", GeometrySection),
     Section("regime", "Режим", Regime),
     Section(

@@ -185,7 +185,8 @@ class Blocks:
             yield paragraph("Where", [*lead, *self.lines.runs(item)])
 
     def _contents(self, element: HtmlElement) -> Iterator[Element]:
-        """Contents as a field; page numbers come when Word or LibreOffice renews it."""
+        """Contents as a field with the pages as estimated, until Word or LibreOffice renews it."""
+        page_of = {h.get("id"): h.get("data-page") for h in element.xpath("//*[@data-page]")}
         title = element.find("h1")
         if title is not None:
             yield paragraph("FrontHeading", self.lines.runs(title))
@@ -193,9 +194,10 @@ class Blocks:
         begin, words, separate, _, end = field('TOC \\o "1-3" \\h \\z \\u', "")
         for place, item in enumerate(items):
             link = item.find("a")
-            target = bookmark_name(link.get("href", "")[1:])
+            anchor = link.get("href", "")[1:]
+            target = bookmark_name(anchor)
             line = [run("".join(link.itertext())), run("\t"),
-                    *field(f"PAGEREF {target} \\h", "")]  # fmt: skip
+                    *field(f"PAGEREF {target} \\h", page_of.get(anchor, ""))]  # fmt: skip
             content = [w("hyperlink", *line, anchor=target, history=1)]
             if not place:
                 content = [begin, words, separate, *content]

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from reports.shared.russian import NBSP
-from reports.word import omml
-from reports.word.markup import Bookmarks, Element, W, bookmark_name, run
+from reports.word import omml, totals
+from reports.word.markup import SEQUENCES, Bookmarks, Element, W, bookmark_name, run
 from reports.word.markup import field as word_field
 
 if TYPE_CHECKING:
@@ -19,9 +19,7 @@ Looks = frozenset[str]
 _TEXTS = (f"{{{W}}}t", f"{{{omml.NAMESPACE}}}t")
 _BLANKS = re.compile("[ \t\r\n\f]+")
 _FACES = {"i": "i", "em": "i", "b": "b", "strong": "b", "sub": "sub", "sup": "sup", "u": "u"}
-# Anchors of the page begin with a word for the kind; a kind's numbers are one sequence.
-SEQUENCES = {"ris": "Рисунок", "tab": "Таблица", "eq": "Формула", "src": "Источник"}
-_INK = {"ink": 30, "ink day": 6, "ink month": 18}  # no-break spaces on a line to write on
+_INK = {"ink": 30, "ink wide": 70, "ink day": 6, "ink month": 18}  # no-break spaces on a line to write on
 _NUMBER = re.compile(r"(?:([А-Я]|\d+)\.)?(\d+)")
 
 
@@ -31,6 +29,7 @@ class Lines:
 
     bookmarks: Bookmarks = field(default_factory=Bookmarks)
     letters: set[str] = field(default_factory=set)  # of appendices, each a bookmark
+    pages: int = 0  # of the whole file as estimated
 
     def runs(self, element: HtmlElement, looks: Looks = frozenset()) -> list[Element]:
         """The content of an element as runs, without blanks at its ends."""
@@ -61,7 +60,7 @@ class Lines:
         if child.tag == "br":
             return [run("\n")]
         if child.tag == "a" and target == "#report-end":
-            return word_field(f"PAGEREF {bookmark_name(target[1:])} \\h", "", looks)
+            return word_field("NUMPAGES", str(self.pages or ""), looks)
         if child.tag == "a" and target.startswith("#"):
             words = "".join(child.itertext())
             shown = words.lstrip(f" {NBSP}")  # the page moves a blank before a link into it
@@ -82,8 +81,14 @@ class Lines:
             return [run(NBSP * _INK[name], looks | {"u"})]
         if name == "num":
             return self.number(child, looks)
-        if name in ("sheet-no", "sheets"):
-            return word_field("PAGE" if name == "sheet-no" else "NUMPAGES", "1", looks)
+        if name == "sheet-no":
+            return word_field("PAGE", "1", looks)
+        if name == "sheets":
+            return word_field("NUMPAGES", str(self.pages or 1), looks)
+        if name == "count":
+            made = self._inside(child, looks)
+            made[0].set(totals.MARK, child.get("data-kind", ""))
+            return made
         if name == "bar":
             return [omml.barred("".join(child.itertext()))]
         if name == "g":

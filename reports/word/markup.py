@@ -11,6 +11,8 @@ from lxml import etree
 
 W = "http://schemas.openxmlformats.org/wordprocessingml/2006/main"
 _SPACE = "{http://www.w3.org/XML/1998/namespace}space"
+# Anchors of the page begin with a word for the kind; a kind's numbers are one sequence.
+SEQUENCES = {"ris": "Рисунок", "tab": "Таблица", "eq": "Формула", "src": "Источник"}
 _LONGEST = 40  # letters of a bookmark's name
 TWIPS_MM = 1440 / 25.4
 Element: TypeAlias = etree._Element

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 from lxml import etree
 
+from reports.document.text import texcases
 from reports.document.text.symbols import SIGNS
 from reports.document.text.tex import FRACTIONS, GREEK, Node, tree
 from reports.shared.russian import MINUS
@@ -46,7 +47,19 @@ def omath(tex: str) -> etree._Element:
         TexError: the TeX is not well formed.
         ValueError: a command has no equation.
     """
-    return _element("oMath", *_sequence(tree(tex)))
+    if not texcases.is_cases(tex):
+        return _element("oMath", *_sequence(tree(tex)))
+    lead, rows = texcases.parts(tex)
+    lines = [_element("e", *_sequence(tree(r"\quad ".join(row)))) for row in rows]
+    return _element("oMath", *_sequence(tree(lead)), _braced(lines))
+
+
+def _braced(lines: Math) -> etree._Element:
+    """Lines one above another behind a brace."""
+    signs = [_element("begChr"), _element("endChr")]
+    for sign, char in zip(signs, ("{", ""), strict=True):
+        sign.set(f"{{{NAMESPACE}}}val", char)
+    return _element("d", _element("dPr", *signs), _element("e", _element("eqArr", *lines)))
 
 
 def displayed(tex: str, end: str = "") -> etree._Element:

@@ -17,7 +17,7 @@ from reports.document.page.style import Style
 from reports.document.report import Further, find_style, report_page
 from reports.spec.blocks import Model
 from reports.spec.evaluation import Values
-from reports.word import sheets
+from reports.word import sheets, totals
 from reports.word.blocks import Blocks
 from reports.word.inline import Lines
 from reports.word.pictures import Pictures
@@ -68,11 +68,27 @@ def from_page(page: str, style: Style) -> bytes:
     dress(document, style)
     lines = Lines()
     blocks = Blocks(lines, Pictures(document), style)
+    lines.pages = _number_pages(root, style)
     _fill(document, root, blocks)
+    totals.count(document.element.body, lines.bookmarks)
     _describe(document, root)
     stream = io.BytesIO()
     document.save(stream)
     return _timeless(stream.getvalue())
+
+
+def _number_pages(root: HtmlElement, style: Style) -> int:
+    """Turn the estimated pages of headings into pages of the file; how many there are."""
+    fronts = root.xpath("//section[contains(concat(' ', @class, ' '), ' sheet ')"
+                        " or contains(concat(' ', @class, ' '), ' brief ')]")  # fmt: skip
+    height = (297 - style.margins.top - style.margins.bottom) * 96 / 25.4
+    entries = len(root.xpath("//nav//li"))
+    before = len(fronts) + -(-int((entries + 2) * 1.3 * style.em_px) // int(height))
+    page = before
+    for heading in root.xpath("//*[@data-page]"):
+        page = before + int(heading.get("data-page"))
+        heading.set("data-page", str(page))
+    return page
 
 
 def _fill(document: Document, root: HtmlElement, blocks: Blocks) -> None:

@@ -120,3 +120,18 @@ def test_parts_too_wide_are_named_and_follow():
     tex = rf"\varepsilon = \dfrac{{{SUMS[5]}}}{{3}} = 7"
     first, second, *_ = formula_lines(tex, 28.0)
     assert r"\mathrm{Ч}}{3} = 7" in first.tex and second.tex.startswith(r"\mathrm{где}")
+
+
+CASES = r"p = \begin{cases} a, & x \leq 1 \\ \dfrac{b}{c}, & x > 1 \end{cases}"
+
+
+def test_branches_stand_behind_one_brace():
+    (line,) = formula_lines(CASES, 28.0)
+    assert line.svg.count("<path") == 1
+    assert plain(CASES) == "p = a, x ≤ 1; p = (b)/(c), x > 1"
+    assert line.height_em > formula_lines(r"\dfrac{b}{c}", 28.0)[0].height_em
+
+
+def test_branches_too_wide_for_a_brace_stand_in_lines():
+    lines = formula_lines(CASES, 6.0)
+    assert len(lines) == 2 and all("<path" not in line.svg for line in lines)

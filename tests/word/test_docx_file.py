@@ -39,6 +39,22 @@ def test_numbers_references_and_contents_are_fields():
     assert kinds.count("begin") == kinds.count("separate") == kinds.count("end") == len(fields)
 
 
+def test_counts_of_the_abstract_are_fields_and_pages_stand_in_the_contents():
+    data = docx_of(NAME)
+    fields, document = instructions(data), part(data)
+    marks = {e.get(f"{W}name"): e.getparent() for e in document.iter(f"{W}bookmarkStart")}
+    (tables,) = [f for f in fields if f.startswith("= ")]
+    counting = ["last_ris0", "last_src0", *tables.removeprefix("= ").split(" + ")]
+    assert set(counting) <= set(marks) and len(counting) == 5
+    assert {"REF last_ris0 \\h", "REF last_src0 \\h", "NUMPAGES"} <= set(fields)
+    pages = []
+    for paragraph in document.iter(f"{W}p"):
+        words = "".join(e.text or "" for e in paragraph.iter(f"{W}instrText"))
+        if "PAGEREF" in words:
+            pages.append(int([e.text for e in paragraph.iter(f"{W}t")][-1]))
+    assert len(pages) > 20 and pages == sorted(pages) and pages[0] > 4
+
+
 def test_what_fields_show_is_what_they_will_count():
     counted: dict[str, int] = {}
     shown: list[tuple[str, str]] = []

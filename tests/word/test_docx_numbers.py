@@ -36,6 +36,10 @@ def numbers_of_docx(data: bytes) -> list[str]:
     for entry in body.xpath("./*[local-name()='p'][.//*[local-name()='pStyle'"
                             " and starts-with(@*, 'TOC')]]"):  # fmt: skip
         body.remove(entry)
+    for words in body.iter(f"{W}instrText"):  # a count that the PDF's page leaves to the layout
+        if "NUMPAGES" in words.text:
+            shown = words.getparent().getnext().getnext()
+            shown.getparent().remove(shown)
     found = []
     for paragraph in body.iter(f"{W}p"):
         words = ""

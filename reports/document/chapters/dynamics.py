@@ -13,6 +13,7 @@ from reports.document.page.blocks import Column, TableBlock, table_block
 from reports.document.page.charts import Row
 from reports.document.page.writer import TablePlan
 from reports.document.text.terms import Terms
+from reports.document.text.texcases import cases
 from reports.inputs.sections.gas import RoundedGasSection, TableGasSection
 from reports.shared.russian import fixed
 from reports.spec.blocks import ScalarTable
@@ -115,22 +116,21 @@ def _processes(terms: Terms) -> dict[str, str]:
 
 def _pressure_tex(terms: Terms) -> str:
     """All branches of the pressure with the ranges of angles in which they hold."""
-    lines, low, processes = [], "", _processes(terms)
+    branches, low, processes = [], "", _processes(terms)
     for outer in terms.branches(_PRESSURE):
         process = processes.get(outer.formula)
         inner = terms.branches(process) if process else [outer]
         for piece in inner:
-            left = rf"{terms.tex(_PRESSURE)} = {piece.formula},\quad "
             condition = piece.condition or outer.condition
             if condition is None:
-                lines.append(rf"{left}\varphi > {low}")
+                branches.append((piece.formula, rf"\varphi > {low}."))
                 continue
             limit = condition.split(r"\leq ")[1]
             limit += r"^{\circ}" if limit.isdigit() and limit != "0" else ""
             span = rf"{low} < \varphi \leq {limit}" if low else rf"\varphi = {limit}"
-            lines.append(left + span)
+            branches.append((piece.formula, span))
             low = limit
-    return r" \\ ".join(lines)
+    return cases(f"{terms.tex(_PRESSURE)} =", branches)
 
 
 def _pressure_at(terms: Terms, at: float) -> str:

@@ -21,18 +21,20 @@ from reports.document.text.fonts import text_em
 Kind = Literal["chapter", "heading", "text", "tied", "float", "table", "other"]
 
 _TAG = re.compile(r"<(/?)(p|h[1-3]|div|figure|ul|ol|nav|section)\b([^>]*)>")
+_HEADING = re.compile(r"<h[1-3]")
 _WIDTH = re.compile(r'<(?:svg|img) class="fig"[^>]*?style="width:([\d.]+)mm')
 _BOX = re.compile(r'data-size="([\d.]+)/([\d.]+)"')
 _EM = re.compile(r"height:([\d.]+)em")
 _NUMBERED = re.compile(r'<span class="hn">(\d+)')
 _ROW = re.compile(r"<tr.*?</tr>", re.DOTALL)
-_CELL = re.compile(r"<t[dh][^>]*>(.*?)</t[dh]>", re.DOTALL)
+_CELL = re.compile(r"<t[dh]([^>]*)>(.*?)</t[dh]>", re.DOTALL)
 _SHARE = re.compile(r'<col style="width:([\d.]+)%')
 _SMALL = re.compile(r"<su[bp]>(.*?)</su[bp]>", re.DOTALL)
+_TAGS = re.compile(r"<(?!/?su[bp]\b)[^>]*>")  # all but those of indices
 _PT = 96 / 72  # CSS pixels in a point
 _FULL = 0.97  # of a line that words fill on the average
 _LEAST = 0.7  # to which a figure may be reduced to fit the foot of a page
-_SLACK = 4.0  # px kept free on every page: estimates are no measures
+_SLACK = 0.5  # px kept free on every page: estimates are no measures
 _HOLE = 0.12  # of a page that may stay blank, so that figures stand in their own section
 _ROWS = 60.0  # px of a table's margin and first rows, which stand with its head
 _NEARLY = 0.07  # of a page: too little for a heading and what must follow it
@@ -40,10 +42,14 @@ _DOUBT = 10.0  # px kept free below what would miss the page by a hair
 
 
 class Spot(NamedTuple):
-    """Where on a page the last block ends and the margin that it asks for below [px]."""
+    """Where on a page the last block ends and the margin that it asks for below [px].
+
+    ``page`` counts the pages of the body from one.
+    """
 
     used: float
     margin: float = 0.0
+    page: int = 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +66,9 @@ class Block:
     below: float = 0.0
     figure: float = 0.0  # of it the picture, which may be reduced
     head: float = 0.0  # of it what a table repeats on each page that it goes on to
+    rows: tuple[float, ...] = ()
     line: float = 0.0  # of a paragraph, and of what a heading must have below it
+    least: int = 2  # lines of a paragraph that stand together
 
 
 def arranged(body: str, style: Style, *, run_on: float = 1.0) -> str:
@@ -74,7 +82,7 @@ def arranged(body: str, style: Style, *, run_on: float = 1.0) -> str:
     room = (297 - style.margins.top - style.margins.bottom) * 96 / 25.4 - _SLACK
     out: list[str] = []
     chapter: list[Block] = []
-    spot = Spot(room)
+    spot = Spot(room, page=0)
     for block in _blocks(str(body), style):  # no Markup: nothing is escaped here
         if block.kind == "chapter":
             placed, spot = _filled(chapter, spot, room)
@@ -87,9 +95,10 @@ def arranged(body: str, style: Style, *, run_on: float = 1.0) -> str:
                 html = block.html.replace('class="', 'class="runon ', 1)
                 block = replace(block, html=html, above=18 * _PT)  # noqa: PLW2901
             else:
-                spot = Spot(0.0)
+                spot = Spot(0.0, page=spot.page + 1)
         chapter.append(block)
-    return "\n".join([*out, *_filled(chapter, spot, room)[0]])
+    placed, spot = _filled(chapter, spot, room)
+    return "\n".join([*out, *placed, f'<div data-page="{spot.page}"></div>'])
 
 
 def _number(chapter: Block) -> str:
@@ -115,10 +124,18 @@ def _filled(blocks: Sequence[Block], spot: Spot, room: float) -> tuple[list[str]
                 spot, placed, waiting = _placed(waiting, spot, room)
                 out += placed
             continue
-        out.append(block.html)
         spot = _after(block, spot, room)
+        out.append(_paged(block, spot.page))
     spot, placed = _all_placed(waiting, spot, room)
     return [*out, *placed], spot
+
+
+def _paged(block: Block, page: int) -> str:
+    """A heading told its page as estimated: contents that nobody has renewed show it."""
+    heading = block.kind in ("chapter", "heading")
+    return (
+        _HEADING.sub(rf'\g<0> data-page="{page}"', block.html, count=1) if heading else block.html
+    )
 
 
 def _all_placed(waiting: list[Block], spot: Spot, room: float) -> tuple[Spot, list[str]]:
@@ -144,7 +161,7 @@ def _placed(waiting: list[Block], spot: Spot, room: float) -> tuple[Spot, list[s
             spot = _after(block, spot, room)
         elif block.figure and rest >= block.height - (1 - _LEAST) * block.figure:
             placed.append(_reduced(block, 1 - (block.height - rest) / block.figure))
-            spot = Spot(room)
+            spot = Spot(room, page=spot.page)
         else:
             break
         waiting = waiting[1:]
@@ -158,18 +175,31 @@ def _after(block: Block, spot: Spot, room: float) -> Spot:
     # What follows a heading stands below it: two lines at least.
     tail = block.below + 2 * block.line if block.kind == "heading" else 0.0
     if total + tail <= room:
-        return Spot(total, block.below)
-    if block.kind in ("text", "table"):  # goes on over the page's end
-        over = total - room
-        if block.line:  # no line of a paragraph stands alone
-            free = int((room - begin) / block.line)
-            lines = round(block.height / block.line)
-            free = 0 if free < 2 or lines < 4 else min(free, lines - 2)
-            over = (lines - free) * block.line
-        elif room - begin < block.head + _ROWS:
-            over = block.height - block.head
-        return Spot(over % (room - block.head) + block.head, block.below)
-    return Spot(min(block.above + block.height, room), block.below)
+        return Spot(total, block.below, spot.page)
+    if block.kind in ("text", "table") or (block.kind == "tied" and block.line):
+        end, pages = _over(block, begin, room)
+        return Spot(end, block.below, spot.page + pages)
+    return Spot(min(block.above + block.height, room), block.below, spot.page + 1)
+
+
+def _over(block: Block, begin: float, room: float) -> tuple[float, int]:
+    """Height on its last page of a block that goes on over the page's end, and further pages."""
+    if block.kind == "table":
+        end, pages = block.height - sum(block.rows), 1
+        if room - begin >= block.head + _ROWS:
+            end, pages = end + begin, 0
+        for row in block.rows:
+            full = end + row > room
+            end, pages = (block.head if full else end) + row, pages + full
+        return end, pages
+    over = begin + block.height - room
+    if block.line:  # no line of a paragraph stands alone
+        free = int((room - begin) / block.line)
+        lines = round(block.height / block.line)
+        if block.least > 1:
+            free = 0 if free < block.least or lines < 2 * block.least else free
+        over = (lines - min(free, max(lines - block.least, 0))) * block.line
+    return over % room, 1 + int(over // room)
 
 
 def _reduced(block: Block, share: float) -> str:
@@ -240,7 +270,7 @@ def _block(html: str, tag: str, attributes: str, style: Style) -> Block:
     if 'class="where"' in attributes:
         parts = re.findall(r"<p>.*?</p>", html, re.DOTALL)
         height = sum(_lines(part, style, em, indent=False) for part in parts) * line
-        return Block(html, "tied", height, 0.0, 6 * _PT)
+        return Block(html, "tied", height, 0.0, 6 * _PT, line=line, least=1)
     if tag in ("ul", "ol"):
         items = re.findall(r"<li.*?</li>", html, re.DOTALL)
         return Block(html, "text", sum(_lines(item, style, em) for item in items) * line)
@@ -270,33 +300,35 @@ def _table(html: str, style: Style) -> Block:
     height = caption + head
     lines = html.find('<tr class="lines">')
     if lines > 0:
-        height += html.count("\n", lines) * 1.37 * em
+        each = [1.37 * em] * html.count("\n", lines)
     else:
-        for row in rows[heads:]:
-            height += _row_lines(row, widths, em) * em * 1.2 + 2.05 * _PT
+        each = [_row_lines(row, widths, em) * em * 1.2 + 2.05 * _PT for row in rows[heads:]]
+    height += sum(each)
     kind: Kind = "float" if re.search(r'class="data[^"]* keep', html) else "table"
-    return Block(html, kind, height, 10 * _PT, 10 * _PT, head=head + 1.5 * style.em_px)
+    more = head + 1.5 * style.em_px
+    return Block(html, kind, height, 10 * _PT, 10 * _PT, head=more, rows=tuple(each))
 
 
 def _row_lines(row: str, widths: Sequence[float], em: float) -> int:
-    """Lines of the highest cell of a row."""
-    cells = _CELL.findall(row)
-    return (
-        max(
-            (
-                -int(-text_em(Markup(cell).striptags()) * em // width)
-                for cell, width in zip(cells, widths, strict=False)
-                if width > 0
-            ),
-            default=1,
-        )
-        or 1
-    )
+    """Lines of the highest cell of a row; only cells of running text divide their words."""
+    most = 1
+    for (look, cell), width in zip(_CELL.findall(row), widths, strict=False):
+        if width > 0:
+            text = Markup(cell).striptags()
+            lines = -int(-text_em(text) * em // width)
+            most = max(most, lines if 'class="t"' in look else min(lines, text.count(" ") + 1))
+    return most
 
 
 def _title_lines(html: str, style: Style, em: float) -> int:
-    """Lines of a heading or a caption, ragged and without indent."""
-    return max(1, -int(-_width_em(html) * em // style.width_px))
+    """Lines of a heading or a caption, ragged, without indent, its words whole."""
+    lines, rest = 1, style.width_px / em
+    for word in _TAGS.sub("", html).split(" "):
+        width = _width_em(word)
+        if width > rest:
+            lines, rest = lines + 1, style.width_px / em
+        rest -= width + text_em(" ")
+    return lines
 
 
 def _lines(html: str, style: Style, em: float, *, indent: bool = True) -> int:

@@ -23,6 +23,7 @@ from typing import Any
 from markupsafe import Markup
 
 from reports.document import store
+from reports.document.text import texcases
 from reports.document.text.complaints import complaints
 from reports.document.text.symbols import SIGNS
 from reports.document.text.tex import (
@@ -41,6 +42,10 @@ from reports.shared.russian import MINUS, NBSP
 
 _UNITS = 1000.0  # size at which mathtext sets the formula; one em of the result
 _PAD = 0.04  # em added left and right: slanted letters reach out of their boxes
+
+# Of a brace, in units of a formula's size: its width, the room before conditions and between
+# the branches, the height of a relation sign above the baseline.
+_BRACE, _BETWEEN, _LEADING, _AXIS = 450.0, 900.0, 350.0, 250.0
 
 _PRIME = 0x2032
 _PRIME_DROP = 0.5
@@ -98,8 +103,14 @@ def _set(tex: str) -> tuple[str, float, float, float]:
     """SVG, width, height and depth [em] of one line."""
     width, height, depth, glyphs, rects = _parse(tex)
     baseline = height - depth
+    return _svg(tex, width, height, depth, [*_texts(glyphs, baseline), *_rules(rects, baseline)])
+
+
+def _svg(
+    tex: str, width: float, height: float, depth: float, body: Iterable[str]
+) -> tuple[str, float, float, float]:
+    """SVG around what is drawn, with its width, height and depth [em]."""
     pad = _PAD * _UNITS
-    body = [*_texts(glyphs, baseline), *_rules(rects, baseline)]
     width_em = (width + 2 * pad) / _UNITS
     height_em, depth_em = height / _UNITS, depth / _UNITS
     style = (
@@ -112,6 +123,45 @@ def _set(tex: str) -> tuple[str, float, float, float]:
         f"<title>{escape_html(plain(tex), quote=False)}</title>{''.join(body)}</svg>"
     )
     return svg, width_em, height_em, depth_em
+
+
+def _cases(tex: str) -> Formula:
+    """Branches of a value, each with its condition, behind one brace."""
+    lead, branches = texcases.parts(tex)
+    cells = [[_parse(cell) for cell in branch] for branch in branches]
+    column = max(branch[0][0] for branch in cells) + _BETWEEN
+    name_width, _, _, *name = _parse(lead)
+    left = name_width + _BRACE + 0.1 * _UNITS
+    body, top = [], 0.0
+    for branch in cells:
+        up = max(height - depth for _, height, depth, *_ in branch)
+        for x, (_, _, _, glyphs, rects) in zip((left, left + column), branch, strict=False):
+            body.append(_moved(x, top, _texts(glyphs, up), _rules(rects, up)))
+        top += up + max(depth for _, _, depth, *_ in branch) + _LEADING
+    height = top - _LEADING
+    baseline = height / 2 + _AXIS
+    body.append(_moved(0.0, 0.0, _texts(name[0], baseline), _rules(name[1], baseline)))
+    body.append(_brace(name_width, height))
+    width = left + max(column + branch[-1][0] for branch in cells)
+    return Formula(*_svg(tex, width, height, height - baseline, body), tex)
+
+
+def _moved(x: float, y: float, *parts: Iterable[str]) -> str:
+    inner = "".join(piece for part in parts for piece in part)
+    return f'<g transform="translate({x:.0f} {y:.0f})">{inner}</g>'
+
+
+def _brace(x: float, height: float) -> str:
+    """A brace as high as what stands behind it."""
+    tip, spine, end = (x + share * _BRACE for share in (0.15, 0.55, 0.95))
+    middle, bend = height / 2, 0.35 * _UNITS
+    path = (
+        f"M{end:.0f} 0Q{spine:.0f} 0 {spine:.0f} {bend:.0f}V{middle - bend:.0f}"
+        f"Q{spine:.0f} {middle:.0f} {tip:.0f} {middle:.0f}"
+        f"Q{spine:.0f} {middle:.0f} {spine:.0f} {middle + bend:.0f}V{height - bend:.0f}"
+        f"Q{spine:.0f} {height:.0f} {end:.0f} {height:.0f}"
+    )
+    return f'<path d="{path}" fill="none" stroke="#000" stroke-width="50"/>'
 
 
 @functools.lru_cache(maxsize=4096)
@@ -144,7 +194,11 @@ def lines_of(tex: str, max_em: float) -> bytes:
 
 def _lines(tex: str, max_em: float) -> str:
     lines: list[Formula] = []
-    for forced in tex.split(r"\\"):
+    if texcases.is_cases(tex):
+        lines = [_cases(tex)]
+        if lines[0].width_em > max_em:
+            lines, tex = [], texcases.apart(tex)
+    for forced in tex.split(r"\\") if not lines else ():
         lines.extend(_fit(forced.strip(), max_em))
     return json.dumps([[x.svg, x.width_em, x.height_em, x.depth_em, x.tex] for x in lines])
 
@@ -287,7 +341,9 @@ def _number(value: float) -> str:
 
 def plain(tex: str) -> str:
     """A readable text of a formula for people who hear the page or copy it."""
-    tex = _INVISIBLE.sub("", tex.replace("{,}", ","))
+    if texcases.is_cases(tex):
+        tex = texcases.apart(tex)
+    tex = _INVISIBLE.sub("", tex.replace("{,}", ",").replace(r" \\", ";"))
     return re.sub(r"\s+", " ", "".join(map(_said, tree(tex)))).strip()
 
 

@@ -133,7 +133,7 @@ class RoundedGasSection(_Ignition, _Pressures, _Kind):
 
     source: Annotated[Literal["rounded"], _ROUNDED]
     max_pressure_mpa: Annotated[
-        float, number("Расчетное давление конца сгорания в точке z", "p_z", MPA, 0.2, 60)
+        float, number("Расчётное давление конца сгорания в точке z", "p_z", MPA, 0.2, 60)
     ]
     preexpansion_ratio: Annotated[
         float, number("Степень предварительного расширения", "ρ", NONE, 1, 6)

@@ -67,7 +67,7 @@ class Report(Strictly):
     year: Annotated[int, number("Год", "", NONE, 1950, 2150)] = Field(default_factory=_this_year)
     city: Annotated[str, text("Город")] = ""
     title: Annotated[str, text("Тема работы")] = (
-        "Расчет кинематики и динамики кривошипно-шатунного механизма"
+        "Расчёт кинематики и динамики кривошипно-шатунного механизма"
     )
     compare: Annotated[str, text("Сравнить с двигателями: файлы через точку с запятой")] = ""
     discipline: Annotated[str, text("Дисциплина")] = ""

@@ -89,9 +89,11 @@ def gradebook_xlsx(rows: Sequence[dict[str, Any]], maximum: float) -> bytes:
         if row["manual"]:
             sheet.cell(sheet.max_row, 6).fill = PatternFill("solid", fgColor="F8CBAD")
     for cell in sheet[1]:
-        cell.font = Font(bold=True)
+        cell.font = Font(name="Calibri", bold=True)
         cell.alignment = wrapped
-    widths = (9, 28, 11, 9, 7, 17, 58, 10, 26, *(10 for _ in blocks), 30)
+        cell.fill = PatternFill("solid", fgColor="D9E2F3")
+    sheet.row_dimensions[1].height = 76  # points: titles of tables in five lines
+    widths = (9, 28, 11, 9, 7, 17, 46, 10, 26, *(11 for _ in blocks), 30)
     for cell, width in zip(sheet[1], widths, strict=True):
         sheet.column_dimensions[cell.column_letter].width = width
     sheet.freeze_panes = sheet.cell(2, 3)
@@ -99,6 +101,7 @@ def gradebook_xlsx(rows: Sequence[dict[str, Any]], maximum: float) -> bytes:
     sheet.page_setup.orientation, sheet.page_setup.paperSize = "landscape", sheet.PAPERSIZE_A4
     sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight = 2, 0
     sheet.sheet_properties.pageSetUpPr.fitToPage = True
+    sheet.print_options.gridLines = True
     sheet.print_title_rows, sheet.print_title_cols = "1:1", "A:B"
     sheet.col_breaks = ColBreak()
     sheet.col_breaks.append(Break(id=len(head)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from datetime import datetime
 from statistics import mean, median
 from typing import Any
 
@@ -116,6 +117,11 @@ def _remarks(result: dict[str, Any] | None, copies: int, count: str) -> list[str
     return found
 
 
+def _moment(text: str) -> str:
+    """A time as people write it: 05.12.2026 10:00."""
+    return datetime.fromisoformat(text).strftime("%d.%m.%Y %H:%M")
+
+
 def summarise(register: Register, results: Sequence[dict[str, Any]]) -> dict[str, Any]:
     """Everything that the page of the class shows."""
     rows = table_rows(register, results)
@@ -132,8 +138,8 @@ def summarise(register: Register, results: Sequence[dict[str, Any]]) -> dict[str
         "maximum": register.rubric.maximum,
         "mean": mean(marks) if marks else 0.0,
         "median": median(marks) if marks else 0.0,
-        "first_time": times[0].replace("T", " ") if times else "",
-        "last_time": times[-1].replace("T", " ") if times else "",
+        "first_time": _moment(times[0]) if times else "",
+        "last_time": _moment(times[-1]) if times else "",
         "late": sum(result.get("late", 1) < 1 for result in graded),
         "distribution": _distribution(marks, register.rubric.maximum),
         "hardest": _hardest(graded),

@@ -30,12 +30,13 @@ def groups(raw: Mapping[str, Any]) -> Iterator[Data]:
 
 
 def absent(raw: Mapping[str, Any]) -> list[Data]:
-    """Sections that may be added."""
-    return [
+    """Sections that may be added; of regimes another one."""
+    sections = [
         {"id": name, "title": section.title}
         for name, section in SECTIONS.items()
         if section.absent and name not in raw
     ]
+    return [*sections, {"id": "regimes", "title": "Ещё один режим"}]
 
 
 def without_foreign(raw: Mapping[str, Any]) -> Data:
@@ -61,8 +62,10 @@ def _section(
     model = model or (_gas_model(part) if name == "gas" else home.model)
     lists = {key: about for key, about in home.lists.items() if key in hints(model)}
     fields = list(_record(part, model, path, left_out=lists))
-    if fields:
-        yield {"title": title, "key": key_text(path), "fields": fields}
+    may_go = path[0] == "regimes" if name in ("regime", "gas") else home.absent
+    whole = list(path[:2]) if may_go else None
+    if fields or may_go:
+        yield {"title": title, "key": key_text(path), "fields": fields, "whole": whole}
     for key, about in lists.items():
         drawing = _DRAWINGS.get(key, "")
         if key == "arms" and "bank_angle_deg" in part:

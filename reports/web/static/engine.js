@@ -50,9 +50,11 @@ function add(raw, id) { // a section, or a regime that begins as the main one
 }
 
 async function edited(change, key) { // a change that alters the shape, and back to where it was made
-  const raw = copy(state.raw);
+  const raw = copy(state.raw), groups = () => [...document.querySelectorAll("#fields details")];
+  const before = new Set(groups().map(group => group.dataset.key));
   change(raw);
   await open(raw);
+  for (const group of groups()) group.open ||= !before.has(group.dataset.key);
   [...document.querySelectorAll(`[data-key="${key}"] summary, [data-key="${key}"] legend button`)].at(-1)?.focus();
 }
 
@@ -79,7 +81,7 @@ function section({title, key, path, fields, entries, blank, drawing, whole}, ope
   const button = (label, change) => make("button", {class: "small", onclick: () => edited(change, key)}, label);
   if (!entries) node.append(...fields.map(field));
   else {
-    entries.forEach((entry, i) => node.append(make("fieldset", {}, make("legend", {}, `${title}, ${i + 1} `,
+    entries.forEach((entry, i) => node.append(make("fieldset", {}, make("legend", {}, `№ ${i + 1} `,
       button(`Убрать ${i + 1}`, raw => remove(raw, [...path, i]))), ...entry.map(field))));
     node.append(make("p", {}, button("Добавить", raw => {
       const part = path.slice(0, -1).reduce((inner, each) => inner[each] ??= {}, raw), list = part[path.at(-1)] ??= [];
@@ -168,7 +170,7 @@ async function solve() {
       state.other && ask("api/solve", {raw: state.other, ...asked})]);
     problems(own.errors, own.warnings);
     $("results").classList.toggle("late", own.errors.length > 0);
-    if (!own.errors.length) { state.last = own; show(own, other); }
+    if (!own.errors.length) show(own, other);
   }
   running = false;
   clearTimeout(later);
@@ -185,6 +187,7 @@ async function check() {
 }
 
 function show(own, other) {
+  Object.assign(state, {last: own, second: other});
   const ids = own.charts.map(spec => spec.id).join();
   if (ids !== state.figures.map(f => f.id).join()) {
     state.figures.forEach(f => f.drop());
@@ -330,11 +333,11 @@ async function begin() {
   $("sheet").addEventListener("change", () => { state.sheet = $("sheet").value; solve(); });
   $("cylinder").addEventListener("change", solve);
   $("phi").addEventListener("input", turn);
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { // colours are drawn in
-    state.figures.forEach(f => f.drop());
-    state.figures = [];
-    solve();
-  });
+  for (const media of ["(prefers-color-scheme: dark)", "print"])
+    matchMedia(media).addEventListener("change", () => { // colours are drawn in
+      state.figures.splice(0).forEach(f => f.drop());
+      show(state.last, state.second);
+    });
   let kept = null;
   try {
     const hash = location.hash.slice(1);

@@ -8,12 +8,14 @@ from typing import Any
 from pydantic import BaseModel
 
 from reports.inputs.fields import key_text
+from reports.inputs.load_regimes import MOST_REGIMES
 from reports.inputs.meta import Meta, find_meta, hints, leaf_types, submodel
 from reports.inputs.registry import GAS_MODELS, SECTIONS
 from reports.inputs.sections.input_file import RegimeValues
 
 Data = dict[str, Any]
 Path = tuple[str | int, ...]
+_MOST_ENTRIES = 1500  # of a list are shown: an answer stays bounded, whatever was asked
 _DRAWINGS = {"throw_angles_deg": "phases", "webs": "signs", "arms": "arms"}  # of these lists
 
 
@@ -23,7 +25,7 @@ def groups(raw: Mapping[str, Any]) -> Iterator[Data]:
         if name in raw or not section.absent:
             yield from _section(name, (name,), section.title, raw.get(name))
     regimes = raw.get("regimes")
-    for index, regime in enumerate(regimes if isinstance(regimes, list) else ()):
+    for index, regime in enumerate(regimes[:MOST_REGIMES] if isinstance(regimes, list) else ()):
         place, gas = ("regimes", index), _mapping(regime).get("gas")
         yield from _section("regime", place, f"Режим {index + 2}", regime, RegimeValues)
         yield from _section("gas", (*place, "gas"), f"Газы режима {index + 2}", gas)
@@ -97,7 +99,8 @@ def _list(part: Mapping[str, Any], model: type[BaseModel], path: Path) -> Data:
     annotation, given = hints(model)[key], part.get(key)
     inner, metas = submodel(annotation), find_meta(annotation)
     entries: list[list[Data]] = []
-    for index, item in enumerate(given if isinstance(given, list | tuple) else ()):
+    shown = given[:_MOST_ENTRIES] if isinstance(given, list | tuple) else ()
+    for index, item in enumerate(shown):
         here, number = (*path, index), index + 1
         if inner is not None:
             entries.append(list(_record(_mapping(item), inner, here, number)))

@@ -38,6 +38,8 @@ _KSHM = """
 import ctypes, os, sys
 if sys.platform == "linux":
     ctypes.CDLL(None).prctl(1, 9)
+if os.getppid() != int(sys.argv.pop(1)):
+    sys.exit("server is gone")
 from reports.grading.batch.worker import limit_memory
 from reports.__main__ import start
 limit_memory(3 * 2**30)
@@ -77,9 +79,9 @@ async def run(arguments: Sequence[str], folder: Path, timeout_s: float = TIMEOUT
     kept |= {"PYTHONPATH": os.pathsep.join(filter(None, home)), "PYTHONIOENCODING": "utf-8"}
     kept |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # as many jobs as processors
     process = await asyncio.create_subprocess_exec(
-        sys.executable, "-c", _KSHM, *arguments, cwd=folder, env=kept, start_new_session=True,
-        stdin=asyncio.subprocess.DEVNULL, stdout=asyncio.subprocess.DEVNULL,
-        stderr=asyncio.subprocess.PIPE,
+        sys.executable, "-c", _KSHM, str(os.getpid()), *arguments, cwd=folder, env=kept,
+        start_new_session=True, stdin=asyncio.subprocess.DEVNULL,
+        stdout=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.PIPE,
     )  # fmt: skip
     try:
         _, said = await asyncio.wait_for(process.communicate(), timeout_s)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import functools
 import json
 import os
 import signal
@@ -20,6 +21,7 @@ from reports.shared.errors import InputError
 from reports.web import jobs as room
 from reports.web.app import Settings, create_app
 from reports.web.jobs import MOST_OWN, Jobs, Said
+from reports.web.pool import Busy
 from tests.web.conftest import MARK, Page, serving
 from tests.web.test_files import made
 
@@ -78,6 +80,11 @@ def test_a_killed_solver_and_a_killed_job_cost_one_answer(tmp_path: Path) -> Non
             if "spawn_main" in " ".join(process.cmdline()):
                 process.kill()
         time.sleep(0.2)
+        assert not page.post("/api/solve", {"raw": raw, "sheet": "П4.1"})["errors"]
+
+        hung = functools.partial(state.pool.ask, time.sleep, 60, seconds=0.5)
+        with pytest.raises(Busy):
+            client.portal.call(hung)  # type: ignore[union-attr]
         assert not page.post("/api/solve", {"raw": raw, "sheet": "П4.1"})["errors"]
 
         job = page.post("/api/files", {"raw": raw, "kind": "xlsx"})["id"]

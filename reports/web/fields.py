@@ -65,15 +65,16 @@ def _section(
     lists = {key: about for key, about in home.lists.items() if key in hints(model)}
     fields = list(_record(part, model, path, left_out=lists))
     may_go = path[0] == "regimes" if name in ("regime", "gas") else home.absent
-    whole = list(path[:2]) if may_go else None
-    if fields or may_go:
+    whole = list(path[:2]) if may_go else None  # told once, with the first group
+    if fields:
         yield {"title": title, "key": key_text(path), "fields": fields, "whole": whole}
     for key, about in lists.items():
         drawing = _DRAWINGS.get(key, "")
         if key == "arms" and "bank_angle_deg" in part:
             drawing = "arms-v"
         own = about.title if name == path[0] else f"{title}: {about.title.lower()}"
-        yield {"title": own, "drawing": drawing, **_list(part, model, (*path, key))}
+        whole = None if fields else whole
+        yield {"title": own, "drawing": drawing, "whole": whole, **_list(part, model, (*path, key))}
 
 
 def _record(

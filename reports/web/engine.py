@@ -42,6 +42,7 @@ _DIGITS = 8  # of the greatest number of a curve: what no screen shows
 _PATHS = ("style", "templates", "compare")  # keys of [report] that name files of the machine
 _MODELS: dict[object, Model] = {}
 _MOST_MODELS = 24
+_MOST_ENTRIES = 10_000  # of a list: longer ones only hold a process up
 
 
 def answered(function: Callable[..., Data], *arguments: Any) -> Data:  # noqa: ANN401
@@ -106,12 +107,23 @@ def loaded_of(raw: Mapping[str, Any]) -> Loaded:
     Raises:
         InputError: everything that is wrong, files of this machine that it names among it.
     """
-    loaded = load_mapping(raw, source="")
+    loaded = load_mapping(_bounded(raw), source="")
     named = [key for key in _PATHS if getattr(loaded.model.report, key)]
     if named:
         what, hint = "страница не читает файлов с диска", "уберите ключ; команде kshm он доступен"
         raise InputError([Problem(f"report.{key}", what, hint) for key in named])
     return loaded
+
+
+def _bounded(raw: Mapping[str, Any]) -> Mapping[str, Any]:
+    """The same mapping, refused before anything counts the entries of an endless list."""
+    for name, part in raw.items():
+        for key, value in part.items() if isinstance(part, dict) else [("", part)]:
+            if isinstance(value, list | tuple) and len(value) > _MOST_ENTRIES:
+                what = f"в списке {len(value)} строк"
+                place = f"{name}.{key}".rstrip(".")
+                raise InputError(Problem(place, what, f"допустимо не больше {_MOST_ENTRIES}"))
+    return raw
 
 
 def _model_for(model: InputFile) -> Model:
@@ -131,8 +143,11 @@ def start(raw: Mapping[str, Any]) -> Data:
     """Fields of an input in groups, its charts by sheets, and the input as it was understood.
 
     What is wrong with its values stands among the errors; the fields are shown all the same.
+
+    Raises:
+        InputError: a list is too long to be shown.
     """
-    plain = without_foreign(understood(raw))
+    plain = without_foreign(understood(_bounded(raw)))
     found: Data = {"sheets": [], "errors": []}
     try:
         model = loaded_of(plain).model
@@ -259,7 +274,7 @@ def moving(solution: Solution, cylinder: int = 0) -> Data:
     the cylinder, its axis upwards, over its own angle ``turn``; forces stand over the engine's.
     """
     engine, chain = solution.engine, solution.chain_tables
-    number = cylinder if 0 <= cylinder < engine.cylinders else 0
+    number = cylinder if cylinder in range(engine.cylinders) else 0
     place, geometry = engine.arrangement[number], engine.geometry
     table = f"cylinder_{number + 1}" if number else "P4_1"
     phi = _column(solution, table, "phi_deg")

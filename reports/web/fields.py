@@ -8,12 +8,14 @@ from typing import Any
 from pydantic import BaseModel
 
 from reports.inputs.fields import key_text
+from reports.inputs.load_regimes import MOST_REGIMES
 from reports.inputs.meta import Meta, find_meta, hints, leaf_types, submodel
 from reports.inputs.registry import GAS_MODELS, SECTIONS
 from reports.inputs.sections.input_file import RegimeValues
 
 Data = dict[str, Any]
 Path = tuple[str | int, ...]
+_MOST_ENTRIES = 1500  # of a list are shown: an answer stays bounded, whatever was asked
 _DRAWINGS = {"throw_angles_deg": "phases", "webs": "signs", "arms": "arms"}  # of these lists
 
 
@@ -23,19 +25,20 @@ def groups(raw: Mapping[str, Any]) -> Iterator[Data]:
         if name in raw or not section.absent:
             yield from _section(name, (name,), section.title, raw.get(name))
     regimes = raw.get("regimes")
-    for index, regime in enumerate(regimes if isinstance(regimes, list) else ()):
+    for index, regime in enumerate(regimes[:MOST_REGIMES] if isinstance(regimes, list) else ()):
         place, gas = ("regimes", index), _mapping(regime).get("gas")
         yield from _section("regime", place, f"Режим {index + 2}", regime, RegimeValues)
         yield from _section("gas", (*place, "gas"), f"Газы режима {index + 2}", gas)
 
 
 def absent(raw: Mapping[str, Any]) -> list[Data]:
-    """Sections that may be added."""
-    return [
+    """Sections that may be added; of regimes another one."""
+    sections = [
         {"id": name, "title": section.title}
         for name, section in SECTIONS.items()
         if section.absent and name not in raw
     ]
+    return [*sections, {"id": "regimes", "title": "Ещё один режим"}]
 
 
 def without_foreign(raw: Mapping[str, Any]) -> Data:
@@ -61,14 +64,17 @@ def _section(
     model = model or (_gas_model(part) if name == "gas" else home.model)
     lists = {key: about for key, about in home.lists.items() if key in hints(model)}
     fields = list(_record(part, model, path, left_out=lists))
+    may_go = path[0] == "regimes" if name in ("regime", "gas") else home.absent
+    whole = list(path[:2]) if may_go else None  # told once, with the first group
     if fields:
-        yield {"title": title, "key": key_text(path), "fields": fields}
+        yield {"title": title, "key": key_text(path), "fields": fields, "whole": whole}
     for key, about in lists.items():
         drawing = _DRAWINGS.get(key, "")
         if key == "arms" and "bank_angle_deg" in part:
             drawing = "arms-v"
         own = about.title if name == path[0] else f"{title}: {about.title.lower()}"
-        yield {"title": own, "drawing": drawing, **_list(part, model, (*path, key))}
+        whole = None if fields else whole
+        yield {"title": own, "drawing": drawing, "whole": whole, **_list(part, model, (*path, key))}
 
 
 def _record(
@@ -94,7 +100,8 @@ def _list(part: Mapping[str, Any], model: type[BaseModel], path: Path) -> Data:
     annotation, given = hints(model)[key], part.get(key)
     inner, metas = submodel(annotation), find_meta(annotation)
     entries: list[list[Data]] = []
-    for index, item in enumerate(given if isinstance(given, list | tuple) else ()):
+    shown = given[:_MOST_ENTRIES] if isinstance(given, list | tuple) else ()
+    for index, item in enumerate(shown):
         here, number = (*path, index), index + 1
         if inner is not None:
             entries.append(list(_record(_mapping(item), inner, here, number)))

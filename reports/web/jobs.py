@@ -32,9 +32,14 @@ MOST_WAITING, MOST_OWN = 500, 6
 MOST_BYTES = 2 * 10**9  # of all files kept
 KEEP_S = 14 * 86400.0
 _LINES = 40  # of what a command said
-# The command with little memory; who waits for a number comes before who waits for a file.
+# The command with little memory, which ends with a server that is killed; who waits for a number
+# comes before who waits for a file.
 _KSHM = """
-import os
+import ctypes, os, sys
+if sys.platform == "linux":
+    ctypes.CDLL(None).prctl(1, 9)
+if os.getppid() != int(sys.argv.pop(1)):
+    sys.exit("server is gone")
 from reports.grading.batch.worker import limit_memory
 from reports.__main__ import start
 limit_memory(3 * 2**30)
@@ -74,9 +79,9 @@ async def run(arguments: Sequence[str], folder: Path, timeout_s: float = TIMEOUT
     kept |= {"PYTHONPATH": os.pathsep.join(filter(None, home)), "PYTHONIOENCODING": "utf-8"}
     kept |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # as many jobs as processors
     process = await asyncio.create_subprocess_exec(
-        sys.executable, "-c", _KSHM, *arguments, cwd=folder, env=kept, start_new_session=True,
-        stdin=asyncio.subprocess.DEVNULL, stdout=asyncio.subprocess.DEVNULL,
-        stderr=asyncio.subprocess.PIPE,
+        sys.executable, "-c", _KSHM, str(os.getpid()), *arguments, cwd=folder, env=kept,
+        start_new_session=True, stdin=asyncio.subprocess.DEVNULL,
+        stdout=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.PIPE,
     )  # fmt: skip
     try:
         _, said = await asyncio.wait_for(process.communicate(), timeout_s)

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -57,20 +58,20 @@ def page(client: TestClient) -> Page:
 
 @dataclass(frozen=True)
 class Served:
-    """A server as the command starts it: its two printed addresses and its folder."""
+    """A server as the command starts it: its two printed addresses, its folder, its process."""
 
     page: str
     teacher: str
     data: Path
+    process: subprocess.Popen[str]
 
 
-@pytest.fixture(scope="session")
-def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
-    """One server for all that a real browser does."""
+@contextmanager
+def serving(data: Path) -> Iterator[Served]:
+    """The command ``serve`` until the block ends, or is ended within."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
-    data = tmp_path_factory.mktemp("served")
     command = [sys.executable, "-m", "reports", "serve", "--port", str(port), "--data", str(data)]
     home = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path])}
     process = subprocess.Popen(
@@ -83,9 +84,17 @@ def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
             if probe.connect_ex(("127.0.0.1", port)) == 0:
                 break
         time.sleep(0.1)
-    yield Served(page, teacher, data)
-    process.send_signal(signal.SIGINT)
-    assert process.wait(20) in (0, -signal.SIGINT, 2)
+    yield Served(page, teacher, data, process)
+    if process.poll() is None:
+        process.send_signal(signal.SIGINT)
+        assert process.wait(20) in (0, -signal.SIGINT, 2)
+
+
+@pytest.fixture(scope="session")
+def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
+    """One server for all that a real browser does."""
+    with serving(tmp_path_factory.mktemp("served")) as found:
+        yield found
 
 
 @pytest.fixture(scope="session")

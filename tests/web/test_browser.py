@@ -129,8 +129,16 @@ def test_entries_of_lists_come_and_go(page: Any) -> None:
     assert not page.locator(".error").count()
     page.click("#undo")
     until(page, f"{size} === {before + 1} && !running")
-    page.evaluate("fresh(ask('api/new', {sample: 'gots-diesel'}))")
+    # A whole section, and a further regime, go and come alike.
+    page.locator("details[data-key=torsion]").evaluate("group => { group.open = true; }")
+    page.locator("details[data-key=torsion]").get_by_role("button", name="Убрать раздел").click()
     until(page, "!kshm.raw.torsion && !running")
+    page.get_by_role("button", name="Ещё один режим").click()
+    until(page, "kshm.raw.regimes?.length === 1 && !running")
+    page.fill("[id='f-regimes[1].speed_rpm']", "777")
+    until(page, "kshm.raw.regimes[0].speed_rpm === 777 && !running")
+    page.evaluate("fresh(ask('api/new', {sample: 'gots-diesel'}))")
+    until(page, "!kshm.raw.regimes?.length && !running")
 
 
 def test_two_engines_over_each_other_and_another_cylinder(page: Any) -> None:
@@ -227,10 +235,8 @@ def test_an_own_engine_by_the_keyboard_alone_to_workbook_and_pdf(
     page.evaluate("scrollTo(0, 0); document.activeElement.blur()")
     tab_to(page, "#new summary")
     page.keyboard.press("Enter")
-    tab_to(page, "#upload")
-    with page.expect_file_chooser() as chooser:
-        page.keyboard.press("Space")
-    chooser.value.set_files(tmp_path / "edited.xlsx")
+    tab_to(page, "#upload")  # its dialog is the browser's own
+    page.set_input_files("#upload", tmp_path / "edited.xlsx")
     until(page, "kshm.raw.geometry.bore_mm === 91.25 && !running")
     assert taken(page, "pdf", "engine.pdf") != pdf
     tab_to(page, "#undo")

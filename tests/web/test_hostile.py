@@ -94,6 +94,32 @@ def test_bodies_that_are_no_engine(client: TestClient, content: bytes) -> None:
     is_refused(client.post(SOLVE, content=content, headers=head), 200, 422)
 
 
+ODD = [
+    {}, {"crankshaft": {"throw_angles_deg": [0] * 500_000}}, {"gas": {"points": [[]] * 300_000}},
+    {"regimes": [{}] * 300_000}, {"regimes": [1, None, {"gas": 5}]}, {"gas": {"source": ["x"]}},
+    {"gas": {"source": "table", "points": "x"}}, {"crankshaft": {"webs": {"0": 1}, "arms": [[]]}},
+    {"engine": [], "geometry": "x", "masses": None, "torsion": 1, "cycle": [None]},
+    {"crankshaft": {"webs": [{"mass_kg": {"$": []}}, None, 3]}, "checks": {"accepted": [[1]]}},
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("raw", ODD, ids=range(len(ODD)))
+def test_fields_are_told_of_whatever_comes_and_stay_few(page: Page, raw: dict[str, Any]) -> None:
+    answer = page.client.post("/api/start", json={"raw": raw}, headers=MARK)
+    found = answer.json()
+    assert answer.status_code == 200 and found["errors"] and "внутренняя" not in answer.text
+    if "не больше 10000" not in answer.text:
+        assert sum(len(group["fields"]) for group in found["groups"]) > 50
+    assert len(answer.content) < 200_000
+
+
+@pytest.mark.parametrize("cylinder", [-1, 99, 1.5, "1", None, [], {}, 1e300])
+def test_no_such_cylinder(page: Page, cylinder: Any) -> None:
+    wanted = {"raw": page.sample("gots-p3"), "sheet": "", "cylinder": cylinder}
+    answer = page.client.post(SOLVE, json=wanted, headers=MARK)
+    assert answer.status_code == 200 and answer.json()["moves"]["cylinder"] in (0, 1)
+
+
 @pytest.mark.parametrize("path", [SOLVE, "/api/new", "/api/read", "/api/files", "/api/login"])
 def test_giant_bodies(client: TestClient, path: str) -> None:
     head = {**MARK, "content-type": "application/json"}

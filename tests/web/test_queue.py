@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import functools
 import json
 import os
 import signal
@@ -11,6 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import httpx2
 import psutil
 import pytest
 from starlette.testclient import TestClient
@@ -19,7 +21,8 @@ from reports.shared.errors import InputError
 from reports.web import jobs as room
 from reports.web.app import Settings, create_app
 from reports.web.jobs import MOST_OWN, Jobs, Said
-from tests.web.conftest import Page
+from reports.web.pool import Busy
+from tests.web.conftest import MARK, Page, serving
 from tests.web.test_files import made
 
 
@@ -79,6 +82,11 @@ def test_a_killed_solver_and_a_killed_job_cost_one_answer(tmp_path: Path) -> Non
         time.sleep(0.2)
         assert not page.post("/api/solve", {"raw": raw, "sheet": "П4.1"})["errors"]
 
+        hung = functools.partial(state.pool.ask, time.sleep, 60, seconds=0.5)
+        with pytest.raises(Busy):
+            client.portal.call(hung)  # type: ignore[union-attr]
+        assert not page.post("/api/solve", {"raw": raw, "sheet": "П4.1"})["errors"]
+
         job = page.post("/api/files", {"raw": raw, "kind": "xlsx"})["id"]
         until(lambda: state.jobs.running)
         until(lambda: _children(job) or None)
@@ -104,19 +112,21 @@ def _children(job: str) -> list[int]:
 
 
 def test_a_killed_server_makes_its_job_again(tmp_path: Path) -> None:
-    settings = Settings(tmp_path, per_s=1e6, workers=1)
-    with TestClient(create_app(settings), base_url="http://localhost") as client:
-        page = Page(client)
-        raw = page.sample()
-        job = page.post("/api/files", {"raw": raw, "kind": "json"})["id"]
-        state = client.app.app.state  # type: ignore[attr-defined]
-        until(lambda: state.jobs.running)
+    with serving(tmp_path) as served, httpx2.Client(headers=MARK, trust_env=False) as web:
+        raw = web.post(f"{served.page}api/new", json={"sample": "gots-diesel"}).json()["raw"]
+        order = {"raw": raw, "kind": "xlsx"}
+        job = web.post(f"{served.page}api/files", json=order).json()["id"]
+        about = f"api/files/{job}"
+        until(lambda: web.get(served.page + about).json()["state"] == "running")
+        until(lambda: _children(job))
+        served.process.kill()
+        served.process.wait()
+        until(lambda: not _children(job), seconds=3)  # what it made ends with it
     folder = tmp_path / "jobs" / job
     assert (folder / "order.json").exists() and not (folder / "done.json").exists()
-    with TestClient(create_app(settings), base_url="http://localhost") as client:
-        page = Page(client)
-        until(lambda: page.get(f"/api/files/{job}")["state"] == "done")
-        assert page.get(f"/api/files/{job}")["files"][0]["name"] == "engine.json"
+    with serving(tmp_path) as served, httpx2.Client(trust_env=False) as web:
+        until(lambda: web.get(served.page + about).json()["state"] == "done")
+        assert web.get(served.page + about).json()["files"][0]["name"] == "engine.xlsx"
 
 
 def test_a_job_that_takes_too_long_is_ended(tmp_path: Path) -> None:

@@ -39,6 +39,11 @@ const told = answer => { say($("errors"), answer.errors); return !answer.errors?
 
 function printed(value, digits = 4) {
   if (typeof value !== "number") return value ?? "";
+  if (value && (Math.abs(value) < 1e-5 || Math.abs(value) >= 1e9)) {
+    const [mantissa, power] = value.toExponential(digits - 1).split("e");
+    const raised = [...power.replace("+", "")].map(c => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]).join("");
+    return `${printed(Number(mantissa), digits)}·10${raised}`;
+  }
   const text = (value || 0).toLocaleString("ru", {maximumSignificantDigits: digits, useGrouping: false});
   return text.replace("-", "−").replace(/^−0$/, "0");
 }

@@ -39,10 +39,22 @@ function put(raw, path, value) {
   else delete part[last];
 }
 
+function remove(raw, path) {
+  const part = path.slice(0, -1).reduce((inner, key) => inner[key], raw), last = path.at(-1);
+  if (Array.isArray(part)) part.splice(last, 1); else delete part[last];
+}
+
+function add(raw, id) { // a section, or a regime that begins as the main one
+  if (id !== "regimes") raw[id] = {};
+  else (raw.regimes ??= []).push({...raw.regime, name: `Режим ${raw.regimes.length + 2}`, gas: copy(raw.gas)});
+}
+
 async function edited(change, key) { // a change that alters the shape, and back to where it was made
-  const raw = copy(state.raw);
+  const raw = copy(state.raw), groups = () => [...document.querySelectorAll("#fields details")];
+  const before = new Set(groups().map(group => group.dataset.key));
   change(raw);
   await open(raw);
+  for (const group of groups()) group.open ||= !before.has(group.dataset.key);
   [...document.querySelectorAll(`[data-key="${key}"] summary, [data-key="${key}"] legend button`)].at(-1)?.focus();
 }
 
@@ -59,25 +71,24 @@ function fill({groups, sheets, absent, raw}) {
   if (sheets.length && !sheets.some(s => s.id === state.sheet)) state.sheet = sheets[0].id;
   if (sheets.length) $("sheet").replaceChildren(...options(sheets.map(s => [s.id, s.title, s.hint]), state.sheet));
   $("absent").replaceChildren(absent.length ? "Добавить раздел: " : "", ...absent.map(({id, title}) =>
-    make("button", {onclick: () => edited(next => { next[id] = {}; }, id)}, title)));
+    make("button", {onclick: () => edited(raw => add(raw, id), id)}, title)));
   find();
 }
 
-function section({title, key, path, fields, entries, blank, drawing}, open) {
+function section({title, key, path, fields, entries, blank, drawing, whole}, open) {
   const node = make("details", {"data-key": key, open}, make("summary", {}, title), make("span", {class: "said"}));
   if (drawing) node.append(make("img", {src: `images/${drawing}.svg`, alt: `${title}: что есть что`, loading: "lazy"}));
+  const button = (label, change) => make("button", {class: "small", onclick: () => edited(change, key)}, label);
   if (!entries) node.append(...fields.map(field));
   else {
-    const list = raw => {
-      let part = raw;
-      for (const [i, each] of path.entries()) part = part[each] ??= i === path.length - 1 ? [] : {};
-      return part;
-    };
-    const button = (label, change) => make("button", {class: "small", onclick: () => edited(change, key)}, label);
-    entries.forEach((entry, i) => node.append(make("fieldset", {}, make("legend", {}, `${title}, ${i + 1} `,
-      button(`Убрать ${i + 1}`, raw => list(raw).splice(i, 1))), ...entry.map(field))));
-    node.append(make("p", {}, button("Добавить", raw => list(raw).push(copy(list(raw).at(-1) ?? blank)))));
+    entries.forEach((entry, i) => node.append(make("fieldset", {}, make("legend", {}, `№ ${i + 1} `,
+      button(`Убрать ${i + 1}`, raw => remove(raw, [...path, i]))), ...entry.map(field))));
+    node.append(make("p", {}, button("Добавить", raw => {
+      const part = path.slice(0, -1).reduce((inner, each) => inner[each] ??= {}, raw), list = part[path.at(-1)] ??= [];
+      list.push(copy(list.at(-1) ?? blank));
+    })));
   }
+  if (whole) node.append(make("p", {}, button("Убрать раздел", raw => remove(raw, whole))));
   return node;
 }
 
@@ -159,7 +170,7 @@ async function solve() {
       state.other && ask("api/solve", {raw: state.other, ...asked})]);
     problems(own.errors, own.warnings);
     $("results").classList.toggle("late", own.errors.length > 0);
-    if (!own.errors.length) { state.last = own; show(own, other); }
+    if (!own.errors.length) show(own, other);
   }
   running = false;
   clearTimeout(later);
@@ -176,6 +187,7 @@ async function check() {
 }
 
 function show(own, other) {
+  Object.assign(state, {last: own, second: other});
   const ids = own.charts.map(spec => spec.id).join();
   if (ids !== state.figures.map(f => f.id).join()) {
     state.figures.forEach(f => f.drop());
@@ -321,11 +333,11 @@ async function begin() {
   $("sheet").addEventListener("change", () => { state.sheet = $("sheet").value; solve(); });
   $("cylinder").addEventListener("change", solve);
   $("phi").addEventListener("input", turn);
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { // colours are drawn in
-    state.figures.forEach(f => f.drop());
-    state.figures = [];
-    solve();
-  });
+  for (const media of ["(prefers-color-scheme: dark)", "print"])
+    matchMedia(media).addEventListener("change", () => { // colours are drawn in
+      state.figures.splice(0).forEach(f => f.drop());
+      show(state.last, state.second);
+    });
   let kept = null;
   try {
     const hash = location.hash.slice(1);

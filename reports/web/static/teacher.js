@@ -88,7 +88,7 @@ function gradebook(own) {
 function decision(each, items) {
   const what = make("select", {"aria-label": `Что решить: ${each.student}`},
     ...options([["всё", "вся работа"], ...items.map(item => [item, item])]));
-  const points = make("input", {"aria-label": `Баллы: ${each.student}`, size: 5, placeholder: "баллы, + или -", required: true});
+  const points = make("input", {"aria-label": `Баллы: ${each.student}`, size: 12, placeholder: "баллы, + или -", required: true});
   const remark = make("input", {"aria-label": `Примечание: ${each.student}`, placeholder: "примечание", maxlength: 300});
   const decide = event => {
     event.preventDefault();

@@ -182,6 +182,7 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     student.wait_for_selector("#page:not([hidden])")
     assert "баллы: 100" in student.inner_text("#state")
     assert axe.faults(student) == []
+    photo(student, "student")
     answer = ask.get(f"{served.page}{links[2].replace('s/', 'api/student/')}page")
     assert "Сидорова" in answer.text() and "Петров" not in answer.text()
     assert answer.headers["content-security-policy"].startswith("sandbox")

@@ -54,7 +54,7 @@ def arms(*, v_engine: bool = False) -> str:
     body.append(_text(places[1] + web / 2, top - 20, "щека 1"))
     body.append(_text(places[-3] + web / 2, top - 20, "щека 2"))
     body.append(_text(end + 36, axis + 5, "коренная шейка", "l"))
-    return _svg(end + 160, level + 24, body)
+    return _svg(end + 180, level + 24, body)
 
 
 def signs() -> str:

@@ -19,12 +19,8 @@ Looks = frozenset[str]
 _TEXTS = (f"{{{W}}}t", f"{{{omml.NAMESPACE}}}t")
 _BLANKS = re.compile("[ \t\r\n\f]+")
 _FACES = {"i": "i", "em": "i", "b": "b", "strong": "b", "sub": "sub", "sup": "sup", "u": "u"}
-_INK = {
-    "ink": 30,
-    "ink wide": 70,
-    "ink day": 6,
-    "ink month": 18,
-}  # no-break spaces on a line to write on
+# No-break spaces on a line to write on.
+_INK = {"ink": 30, "ink wide": 70, "ink day": 6, "ink month": 18}
 _NUMBER = re.compile(r"(?:([А-Я]|\d+)\.)?(\d+)")
 
 

@@ -262,11 +262,14 @@ class Terms:
 
     def _number(self, name: str, at: float | None) -> float | str:
         value = self.value(name, at)
-        unit = "" if name in self.model.fields else self.quantity(name).unit
-        if unit == "rad":
+        if name in self.model.fields:
+            return formulas.Raw(_number_tex(value))
+        about = self.quantity(name)
+        if about.unit == "rad":
             text = numbers.to_tex(fixed(float(np.degrees(value)), 3))
             return formulas.Raw(text + r"^{\circ}")
-        return formulas.Raw(_number_tex(value))
+        noise = about.digits.kind == "fixed" and abs(value) < 10.0 ** -(about.digits.decimals + 9)
+        return formulas.Raw(_number_tex(0.0 if noise else value))
 
 
 def _number_tex(value: float) -> str:

@@ -14,7 +14,7 @@ from reports.web.guard import MOST_JSON, Rate
 from reports.web.teacher import token_of
 from tests.grading import classroom, hostile
 from tests.grading.fill import filled_book
-from tests.web.conftest import MARK, Page
+from tests.web.conftest import MARK, Page, finished
 
 FILE = {**MARK, "content-type": "application/octet-stream"}
 SOLVE = "/api/solve"
@@ -245,7 +245,7 @@ def test_a_slow_body_is_given_up(tmp_path: Path) -> None:
         "query_string": b"", "client": ("1.2.3.4", 1), "scheme": "http", "root_path": "",
         "headers": [(key.encode(), value.encode()) for key, value in heads.items()],
     }  # fmt: skip
-    asyncio.run(guard(scope, drip, keep))
+    finished(guard(scope, drip, keep))
     assert sent[0]["status"] == 408
 
 

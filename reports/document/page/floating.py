@@ -38,7 +38,9 @@ _SLACK = 0.5  # px kept free on every page: estimates are no measures
 _HOLE = 0.12  # of a page that may stay blank, so that figures stand in their own section
 _ROWS = 60.0  # px of a table's margin and first rows, which stand with its head
 _NEARLY = 0.07  # of a page: too little for a heading and what must follow it
-_DOUBT = 10.0  # px kept free below what would miss the page by a hair
+# px kept free below what would miss the page by a hair, where each chapter begins its page and
+# where chapters run on: there the estimates of all pages before add up.
+_DOUBT, _DOUBT_ON = 10.0, 45.0
 
 
 class Spot(NamedTuple):
@@ -80,12 +82,13 @@ def arranged(body: str, style: Style, *, run_on: float = 1.0) -> str:
         run_on: A numbered chapter follows on the same page if this share of it is free.
     """
     room = (297 - style.margins.top - style.margins.bottom) * 96 / 25.4 - _SLACK
+    doubt = _DOUBT_ON if run_on < 1 else _DOUBT
     out: list[str] = []
     chapter: list[Block] = []
     spot = Spot(room, page=0)
     for block in _blocks(str(body), style):  # no Markup: nothing is escaped here
         if block.kind == "chapter":
-            placed, spot = _filled(chapter, spot, room)
+            placed, spot = _filled(chapter, spot, room, doubt)
             out += placed
             follows = bool(chapter) and not {_number(chapter[0]), _number(block)} & {""}
             chapter = []
@@ -97,7 +100,7 @@ def arranged(body: str, style: Style, *, run_on: float = 1.0) -> str:
             else:
                 spot = Spot(0.0, page=spot.page + 1)
         chapter.append(block)
-    placed, spot = _filled(chapter, spot, room)
+    placed, spot = _filled(chapter, spot, room, doubt)
     return "\n".join([*out, *placed, f'<div data-page="{spot.page}"></div>'])
 
 
@@ -107,26 +110,28 @@ def _number(chapter: Block) -> str:
     return found[1] if found else ""
 
 
-def _filled(blocks: Sequence[Block], spot: Spot, room: float) -> tuple[list[str], Spot]:
+def _filled(
+    blocks: Sequence[Block], spot: Spot, room: float, doubt: float
+) -> tuple[list[str], Spot]:
     """The blocks of one chapter in their new order, and where its last page ends."""
     out: list[str] = []
     waiting: list[Block] = []
     for index, block in enumerate(blocks):
         if waiting and block.kind not in ("tied", "other"):
-            spot, placed, waiting = _placed(waiting, spot, room)
+            spot, placed, waiting = _placed(waiting, spot, room, doubt)
             out += placed
         if waiting and block.kind == "heading" and room - spot.used < _HOLE * room:
-            spot, placed, waiting = *_all_placed(waiting, spot, room), []
+            spot, placed, waiting = *_all_placed(waiting, spot, room, doubt), []
             out += placed
         if block.kind == "float" or (waiting and block.kind == "table"):
             waiting.append(block)
             if not (index + 1 < len(blocks) and blocks[index + 1].kind == "tied"):
-                spot, placed, waiting = _placed(waiting, spot, room)
+                spot, placed, waiting = _placed(waiting, spot, room, doubt)
                 out += placed
             continue
         spot = _after(block, spot, room)
         out.append(_paged(block, spot.page))
-    spot, placed = _all_placed(waiting, spot, room)
+    spot, placed = _all_placed(waiting, spot, room, doubt)
     return [*out, *placed], spot
 
 
@@ -138,24 +143,28 @@ def _paged(block: Block, page: int) -> str:
     )
 
 
-def _all_placed(waiting: list[Block], spot: Spot, room: float) -> tuple[Spot, list[str]]:
+def _all_placed(
+    waiting: list[Block], spot: Spot, room: float, doubt: float
+) -> tuple[Spot, list[str]]:
     """Each of the waiting blocks on the page that comes next, others beside it where they fit."""
     out: list[str] = []
     while waiting:
         out.append(waiting[0].html)
         spot = _after(waiting[0], spot, room)
-        spot, placed, waiting = _placed(waiting[1:], spot, room)
+        spot, placed, waiting = _placed(waiting[1:], spot, room, doubt)
         out += placed
     return spot, out
 
 
-def _placed(waiting: list[Block], spot: Spot, room: float) -> tuple[Spot, list[str], list[Block]]:
+def _placed(
+    waiting: list[Block], spot: Spot, room: float, doubt: float
+) -> tuple[Spot, list[str], list[Block]]:
     """What of the waiting blocks fits on this page, in order; where the page ends then."""
     placed: list[str] = []
     while waiting:
         block = waiting[0]
         begin = spot.used + max(spot.margin, block.above)
-        rest = room - begin - (_DOUBT if spot.used else 0.0)
+        rest = room - begin - (doubt if spot.used else 0.0)
         if block.kind == "table" or block.height <= rest:
             placed.append(block.html)
             spot = _after(block, spot, room)

@@ -39,8 +39,13 @@ def differences_from_caches(book: bytes, recalculated: Book) -> list[str]:
     return wrong
 
 
-def differences_from_solver(model: Model, recalculated: Book) -> tuple[int, list[str]]:
-    """Cells compared with the solver and those that differ by more than the tolerance."""
+def differences_from_solver(
+    model: Model, recalculated: Book, *, edited: bool = False
+) -> tuple[int, list[str]]:
+    """Cells compared with the solver and those that differ by more than the tolerance.
+
+    In an ``edited`` book what follows from values of the build is old, as the book says.
+    """
     solution = solve(*engine_and_cycle(model.input))
     layout = Layout.of(model)
     compared, wrong = 0, []
@@ -66,7 +71,7 @@ def differences_from_solver(model: Model, recalculated: Book) -> tuple[int, list
                     wrong.append(f"{table.id}.{column.key}[{index}]: {got!r}, solver {value!r}")
     graph = Graph(model)
     for key, value in solution.scalars.items():
-        if not computed.isdisjoint(graph.ancestors(key)):
+        if edited and not computed.isdisjoint(graph.ancestors(key)):
             continue
         cell = layout.cells[key]
         compared += 1

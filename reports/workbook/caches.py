@@ -18,6 +18,7 @@ from openpyxl.utils import coordinate_to_tuple, get_column_letter
 from reports.formula.excel import is_array
 from reports.workbook import shared_form
 from reports.workbook.sheets import CacheValues, FilledColumn
+from reports.workbook.styles import FONT
 
 _MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
 _REL = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
@@ -71,7 +72,7 @@ def finish(book: bytes, caches: CacheValues | None = None) -> bytes:
             elif name.endswith(".rels"):
                 data = _written(shared_form.relative(data, name))
             elif name == "xl/styles.xml":
-                data = _order_fonts(data)
+                data = _fonts(data)
             elif name == "docProps/core.xml":
                 data = _fix_times(data)
             target.writestr(zipfile.ZipInfo(name, _EPOCH), data, zipfile.ZIP_DEFLATED, _LEVEL)
@@ -162,8 +163,13 @@ _FONT_ORDER = ("b", "i", "strike", "condense", "extend", "outline", "shadow", "u
                "sz", "color", "name", "family", "charset", "scheme")  # fmt: skip
 
 
-def _order_fonts(data: bytes) -> bytes:
+def _fonts(data: bytes) -> bytes:
     root = etree.fromstring(data)
+    # Columns are as wide as digits of the first font: one whose metrics every system has.
+    first = root.find(f"{{{_MAIN}}}fonts")[0]
+    first.find(f"{{{_MAIN}}}name").set("val", FONT)
+    for other in ("family", "scheme"):
+        first.remove(first.find(f"{{{_MAIN}}}{other}"))
     for font in root.iter(f"{{{_MAIN}}}font"):
         font[:] = sorted(font, key=lambda part: _FONT_ORDER.index(etree.QName(part).localname))
     return _written(root)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
 from openpyxl.chart import ScatterChart
 from openpyxl.chart.data_source import AxDataSource, NumData, NumDataSource, NumRef, NumVal
 from openpyxl.chart.label import DataLabel, DataLabelList
@@ -32,13 +33,15 @@ from reports.workbook.chapters import chapter_of
 from reports.workbook.layout import FIRST_ROW, Layout, column_range, quoted
 
 WIDE, HIGH = 408, 290  # px: several beside a table
-ROOMY = 500  # px: width of three in a row on a sheet of their own
+ROOMY = 480  # px: width of three in a row on a sheet of their own
 STUDY = (16.0, 7.6)  # cm
 _LINE, _DEEP = 19050, 57150  # EMU: 1.5 pt, 4.5 pt
 # Told apart without colour too: solid, dashed, dotted.
 _DASHES = ("solid", "dash", "sysDot", "dashDot")
 _ZERO = 1e-9  # what rounding leaves of nothing
 _EDGE = 1.2  # of a drawing in a unit square, with room for numbers around it
+_ANGLE, _MOST_NAMES = 30, 8  # degrees, and how many of a polar diagram's points have a name
+_NAME = (0.35, 0.14)  # room of such a name, of the greatest radius: across and down
 _COLOURS = ("1F3864", "C00000", "2E7D32", "7F6000")
 
 
@@ -65,7 +68,7 @@ def make_chart(
         for line in _rays(spec, layout):
             chart.series.append(_ray(len(chart.series), line))
     if spec.kind == "polar":
-        for mark in _marks(spec, layout):
+        for mark in _marks(spec, layout, values):
             chart.series.append(_mark(len(chart.series), mark))
         chart.series.append(_pole(len(chart.series)))
     _axes(chart, spec, values, oblong)
@@ -95,22 +98,32 @@ def _ray(number: int, line: Curve) -> XYSeries:
     return made
 
 
-def _marks(spec: ChartSpec, layout: Layout) -> list[Curve]:
-    """Points of a polar diagram at round angles, called by them."""
+def _marks(spec: ChartSpec, layout: Layout, values: Values) -> list[Curve]:
+    """Points of a polar diagram at round angles, called by them: no name upon another."""
     path = spec.drawn_by("workbook")[0]
     if path.y not in layout.columns:
         return []
     table = layout.columns[path.y][0]
     angles = table.rows[:-1]
-    wanted = 90 if angles[-1] > 360 else 60
     first = layout.rows_of(table)[0]
+    xs, ys = (values.columns[table.id][key.split(".")[1]] for key in (path.x, path.y))
+    radius = max((np.hypot(x, y) for x, y in zip(xs, ys, strict=True)), default=0.0)
+    round_ones = (place for place, angle in enumerate(angles) if angle % _ANGLE == 0)
+    kept: list[int] = []
+    for place in sorted(round_ones, key=lambda place: (angles[place] % (3 * _ANGLE), place)):
+        apart = all(
+            abs(xs[place] - xs[other]) > _NAME[0] * radius
+            or abs(ys[place] - ys[other]) > _NAME[1] * radius
+            for other in kept
+        )
+        if apart and len(kept) < _MOST_NAMES:
+            kept.append(place)
     return [
-        Curve(f"{angle:g}°", *(
+        Curve(f"{angles[place]:g}°", *(
             f"{quoted(table.sheet)}!${get_column_letter(layout.column_of(key))}${first + place}"
             for key in (path.x, path.y)
         ))
-        for place, angle in enumerate(angles)
-        if angle % wanted == 0
+        for place in sorted(kept)
     ]  # fmt: skip
 
 
@@ -178,9 +191,12 @@ class Drawn:
 
 def drawing(
     title: str, axes: tuple[str, str], lines: Sequence[Drawn], *,
-    shape: float = 0.0, downwards: bool = False, unit: bool = False,
+    shape: float = 0.0, downwards: bool = False, unit: bool = False, wide: int = WIDE,
 ) -> ScatterChart:  # fmt: skip
-    """Lines over axes; ``shape`` is the width of the plot over its height at one scale."""
+    """Lines over axes; ``shape`` is the width of the plot over its height at one scale.
+
+    ``wide`` is the width of the chart [px].
+    """
     chart = _empty(title)
     for number, line in enumerate(lines):
         look = _look(number)
@@ -197,17 +213,18 @@ def drawing(
     _legend(chart, shown=not shape and len(lines) > 2)
     if downwards:
         chart.y_axis.scaling.orientation = "maxMin"
+        chart.x_axis.tickLblPos = "high"
     if unit:
         for axis in (chart.x_axis, chart.y_axis):
             axis.scaling.min, axis.scaling.max, axis.majorUnit = -1.1, 1.1, 0.55
     if shape:
-        width, height = WIDE, 2 * HIGH if shape < 1 else HIGH
-        high = 0.76
-        wide = shape * high * height / width
+        height = 2 * HIGH if shape < 1 else HIGH
+        high = 0.72
+        across = shape * high * height / wide
         chart.layout = PlotLayout(
             manualLayout=ManualLayout(
                 layoutTarget="inner", xMode="edge", yMode="edge",
-                x=0.53 - wide / 2, y=0.13, w=wide, h=high,
+                x=0.53 - across / 2, y=0.14, w=across, h=high,
             )
         )  # fmt: skip
     return chart
@@ -268,6 +285,9 @@ def _axes(chart: ScatterChart, spec: ChartSpec, values: Values, oblong: float) -
     for axis, is_reversed in ((chart.x_axis, spec.x_reversed), (chart.y_axis, spec.y_reversed)):
         if is_reversed:
             axis.scaling.orientation = "maxMin"
+    # The numbers of an axis stand below or left, where the other's least or greatest value is.
+    chart.x_axis.tickLblPos = "high" if spec.y_reversed else "low"
+    chart.y_axis.tickLblPos = "high" if spec.x_reversed else "low"
     if not spec.equal_axes:
         return
     chart.layout = PlotLayout(
@@ -275,10 +295,10 @@ def _axes(chart: ScatterChart, spec: ChartSpec, values: Values, oblong: float) -
             layoutTarget="inner",
             xMode="edge",
             yMode="edge",
-            x=0.5 - 0.34 / oblong,
-            y=0.15,
-            w=0.74 / oblong,
-            h=0.74,
+            x=0.52 - 0.35 / oblong,
+            y=0.16,
+            w=0.7 / oblong,
+            h=0.7,
         )
     )
     if spec.kind != "polar":  # drawn in a unit square
@@ -350,7 +370,7 @@ def ranges_of(spec: ChartSpec, layout: Layout, values: Values) -> dict[str, list
             for line, depth, edge in zip(_rays(spec, layout), *ends, strict=False):
                 found[getattr(line, axis)] = [depth, edge]
     if spec.kind == "polar":
-        for mark in _marks(spec, layout):
+        for mark in _marks(spec, layout, values):
             row = int(mark.x.rpartition("$")[2]) - FIRST_ROW
             for at, key in ((mark.x, path.x), (mark.y, path.y)):
                 found[at] = [found[layout.range_of(key)][row]]

@@ -20,7 +20,7 @@ from reports.workbook.charts import HIGH, WIDE, make_chart, ranges_of
 from reports.workbook.inputs import shown
 from reports.workbook.layout import Cell, column_range
 from reports.workbook.links import link
-from reports.workbook.places import GAP, Box, anchor, flow, top_of
+from reports.workbook.places import GAP, Box, anchor, flow, raise_row, top_of
 from reports.workbook.sheets import Writer
 
 # Inputs and scalars that say which engine this is, and what came out; those that there are.
@@ -35,9 +35,8 @@ RESULTS = (
     "delta_work", "I_flywheel",
 )  # fmt: skip
 CHARTS = ("p_phi", "fig49", "fig50", "fig52")
-_WIDTHS = {"A": 62, "B": 12, "C": 12, "D": 9, "E": 2}
+_WIDTHS = {"A": 60, "B": 11, "C": 11, "D": 7, "E": 1.5}
 _TOP = 3
-_TITLE_CHARS = 60  # of a line of the first column
 
 
 def write_cockpit(
@@ -103,8 +102,7 @@ def _values(sheet: Worksheet, writer: Writer, row: int, title: str, keys: Sequen
     sheet.cell(row, 1, title).style = styles.SUBTITLE
     for text, symbol, key, value, unit, look in known(writer, keys):
         row += 1
-        if len(text) > _TITLE_CHARS:
-            sheet.row_dimensions[row].height = 30
+        raise_row(sheet, row, {text: _WIDTHS["A"]})
         for column, words in ((1, text), (2, symbol), (4, unit)):
             sheet.cell(row, column, words or None).style = styles.TEXT
         writer.formula(sheet, row, 3, f"={key}", value)

@@ -22,7 +22,7 @@ from reports.spec.blocks import Model
 from reports.spec.shape import Shape
 from reports.tables.loads.cylinder import cylinder_table_id
 from reports.workbook import styles
-from reports.workbook.charts import HIGH, WIDE, Drawn, drawing
+from reports.workbook.charts import HIGH, Drawn, drawing
 from reports.workbook.layout import NOTE_ROW, Cell, Layout, RowReferences, column_range, quoted
 from reports.workbook.places import GAP, Box, anchor
 from reports.workbook.sheets import Writer
@@ -33,7 +33,9 @@ _FORCES = {"P": "Ps_MPa", "N": "N_MPa", "S": "S_MPa", "T": "T_MPa", "K": "K_MPa"
 _TABLES = ("P4_1", "P4_2", "gas", "crankpin")
 _BOX = "crankpin_box.box"  # limits of the pin's diagram
 _POINTS = 54  # row of the first point: below the charts
-_LEFT = 282  # px of the columns beside the charts
+_WIDTHS = {"A": 24, "B": 9, "C": 8}
+_LEFT = 287  # px of these columns, beside the charts
+WIDE = 384  # px: three to a row
 _START = 30.0  # deg
 SHAPE = 0.68  # width of the drawing over its height
 
@@ -85,7 +87,7 @@ def write_motion(book: Workbook, model: Model, writer: Writer) -> list[Box]:
     view = _View(writer.layout, inputs)
     shape = Shape.of(model.input)
     own = [i for i in range(1, shape.cylinders + 1) if not shape.is_hung(i)]
-    for letter, width in zip("ABC", (22, 10, 8), strict=True):
+    for letter, width in _WIDTHS.items():
         sheet.column_dimensions[letter].width = width
     _choices(book, sheet, model, view, own)
     _by_cylinder(sheet, writer, view, own, shape)
@@ -311,7 +313,7 @@ def _charts(
     charts = (
         drawing("Механизм и силы", ("мм", "мм"), [
             *(of[n] for n in ("цилиндр", "противовес", "кривошип", "шатун", "поршень", *_FORCES)),
-            frame], shape=SHAPE),
+            frame], shape=SHAPE, wide=WIDE),
         drawing("Индикаторная диаграмма", ("V, дм³", "p, МПа"),
                 [curve("p", "gas.volume_dm3", "gas.p_MPa"), of["p–V"]]),
         drawing("Удельные силы", ("ψ, °", "МПа"),
@@ -322,9 +324,9 @@ def _charts(
                 [curve("ΣM", "P4_2.phi_deg", "P4_2.Msum_Nm"), of["момент"]]),
         drawing("Нагрузка шатунной шейки 1", ("T, МПа", "K − Kr ш, МПа"),
                 [curve("R", "crankpin.T_MPa", "crankpin.Krod_MPa"), of["шейка"],
-                 Drawn("оси", limits, limits, hidden=True)], shape=1.0, downwards=True),
+                 Drawn("оси", limits, limits, hidden=True)], shape=1.0, downwards=True, wide=WIDE),
         drawing("Звезда кривошипов с носка вала", ("", ""),
-                [of["колена"], of["первое колено"]], shape=1.0, unit=True),
+                [of["колена"], of["первое колено"]], shape=1.0, unit=True, wide=WIDE),
     )  # fmt: skip
     top, right = 64, _LEFT + GAP + WIDE + GAP
     boxes = [

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import floor
+from math import ceil, floor
 
 import numpy as np
 from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
 
-from reports.spec.blocks import Model, ScalarTable, TableSpec
+from reports.spec.blocks import Grid, Model, ScalarTable, TableSpec
 from reports.spec.evaluation import Values
 from reports.tables.gas.cycle_names import SHEET as CYCLE_SHEET
 from reports.tables.gas.cycle_speed import RANGE_SHEET
@@ -23,16 +23,19 @@ from reports.workbook.layout import (
     Layout,
     area,
 )
-from reports.workbook.places import Box, extent, last_cell
+from reports.workbook.places import Box, extent, last_cell, room_of
+from reports.workbook.sheets import SOURCE_WIDTH, SYMBOL_WIDTH, TITLE_WIDTH
 
 _COLUMN = 9.5  # characters of a column of a table
-_LIST = {1: 58, 2: 14, VALUE_COLUMN: 14, 4: 11, SOURCE_COLUMN: 24, 6: 30}
-_BESIDE = (34, 10, 11, 8, 20)  # of a list beside a table
+_LIST = {
+    1: TITLE_WIDTH, 2: SYMBOL_WIDTH, VALUE_COLUMN: 14, 4: 11, SOURCE_COLUMN: SOURCE_WIDTH, 6: 30,
+}  # fmt: skip
+_BESIDE, _WIDEST = (34, 10, 11, 8, 20), 64  # of a list beside a table
 _CYCLE_WIDTHS = {2: 20, 4: 17, SOURCE_COLUMN: 28, 6: 17, 7: 17, 8: 17}
 _RANGE_WIDTHS = {1: 76, 2: 4, 4: 16, SOURCE_COLUMN: 42}
 UPRIGHT = 1290  # px: wider sheets lie
 _PAPER = {"portrait": (690, 1010), "landscape": (1030, 670)}  # px: A4 less its margins
-_LEAST = 0.47  # scale below which a sheet rather takes more pages
+_LEAST = 0.45  # scale below which a sheet rather takes more pages, down and across
 _SQUEEZED = 0.3  # what is made smaller by less than this saves a page
 
 
@@ -44,7 +47,8 @@ def set_widths(sheet: Worksheet, model: Model, layout: Layout, values: Values) -
     last = sheet.max_column
     if not tables:
         sheet.freeze_panes = Cell(sheet.title, HEADER_ROW, 1).coordinate
-        wide = dict(_LIST)
+        grids = bool(blocks) and all(isinstance(block, Grid) for block in blocks)
+        wide = {i: _LIST[i] for i in (1, 2)} if grids else dict(_LIST)
         if sheet.title in (CYCLE_SHEET, RANGE_SHEET):
             wide |= _CYCLE_WIDTHS if sheet.title == CYCLE_SHEET else _RANGE_WIDTHS
         _widths(sheet, {i: wide.get(i, 12) for i in range(1, last + 1)})
@@ -55,26 +59,48 @@ def set_widths(sheet: Worksheet, model: Model, layout: Layout, values: Values) -
     for block in blocks:
         if isinstance(block, ScalarTable):
             first = layout.places[block.id].column
-            _widths(sheet, {first + i: width for i, width in enumerate(_BESIDE)})
+            _widths(
+                sheet, {first + i: width for i, width in enumerate(_fitting(sheet, layout, block))}
+            )
     sheet.row_dimensions[HEADER_ROW].height = 48
     for table in tables:
         _fold(sheet, table, layout, values)
 
 
+def _fitting(sheet: Worksheet, layout: Layout, block: ScalarTable) -> list[float]:
+    """Widths of a list beside a table, whose rows have one line: as its longest texts ask."""
+    rows = [layout.cells[scalar.key].row for scalar in block.scalars]
+    first = layout.places[block.id].column
+    found: list[float] = []
+    for index, least in enumerate(_BESIDE, first):
+        texts = (sheet.cell(row, index).value for row in rows)
+        longest = max(
+            len(text) for text in ("", *(t for t in texts if isinstance(t, str) and t[0] != "="))
+        )
+        found.append(min(max(least, room_of(longest)), _WIDEST))
+    return found
+
+
 def _fold(sheet: Worksheet, table: TableSpec, layout: Layout, values: Values) -> None:
     """Columns that only serve formulas are folded; what a student fills in stays open."""
     sheet.sheet_properties.outlinePr.summaryRight = False
-    for column in table.columns[1:]:
-        if column.helper and np.isfinite(values.columns[table.id][column.key]).all():
-            letter = get_column_letter(layout.column_of(f"{table.id}.{column.key}"))
-            sheet.column_dimensions[letter].outlineLevel = 1
-            sheet.column_dimensions[letter].hidden = True
+    folded = [
+        column
+        for column in table.columns[1:]
+        if column.helper and np.isfinite(values.columns[table.id][column.key]).all()
+    ]
+    if len(folded) == len(table.columns) - 1:  # of angles alone nobody reads
+        folded.insert(0, table.columns[0])
+    for column in folded:
+        letter = get_column_letter(layout.column_of(f"{table.id}.{column.key}"))
+        sheet.column_dimensions[letter].outlineLevel = 1
+        sheet.column_dimensions[letter].hidden = True
 
 
-def set_page(sheet: Worksheet, boxes: Sequence[Box]) -> None:
-    """One print area with the charts, as few pages as can be read."""
-    last = Cell("", sheet.max_row, sheet.max_column)
-    width, height = extent(sheet)
+def set_page(sheet: Worksheet, boxes: Sequence[Box], *, charts_alone: bool = False) -> None:
+    """One print area with the charts, or of them alone; as few pages as can be read."""
+    last = Cell("", 1, 1) if charts_alone else Cell("", sheet.max_row, sheet.max_column)
+    width, height = (0, 0) if charts_alone else extent(sheet)
     if boxes:
         row, column = last_cell(sheet, boxes)
         last = Cell("", max(row, last.row), max(column, last.column))
@@ -85,15 +111,18 @@ def set_page(sheet: Worksheet, boxes: Sequence[Box]) -> None:
     scales = {name: min(w / width, h / height) for name, (w, h) in _PAPER.items()}
     page.orientation = max(scales, key=lambda name: scales[name])
     pages = int(scales[page.orientation] >= _LEAST)
+    if not pages and width > UPRIGHT:
+        page.orientation = "landscape"
+    w, h = _PAPER[page.orientation]
+    across = ceil(width * _LEAST / w)
     if not pages:
-        if width > UPRIGHT:
-            page.orientation = "landscape"
-        across, down = _PAPER[page.orientation]
-        sheets = height * min(1, across / width) / down
+        sheets = height * min(1, across * w / width) / h
         # A few rows too many go onto the page before, or stand on one of their own.
         spare = floor(sheets) and sheets <= floor(sheets) * (1 + _SQUEEZED)
         pages = floor(sheets) if spare else 0
-    page.fitToWidth, page.fitToHeight = 1, pages
+    if across > 1:
+        sheet.print_title_cols = "A:A"
+    page.fitToWidth, page.fitToHeight = across, pages
     sheet.sheet_properties.pageSetUpPr.fitToPage = True
     sheet.print_area = area(Cell("", 1, 1), last)
     margins = sheet.page_margins

@@ -6,19 +6,23 @@ widths say for the standard font, its rows as high as is written or 15 points.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from math import ceil
+from textwrap import wrap
 
 from openpyxl.drawing.spreadsheet_drawing import AnchorMarker, OneCellAnchor
 from openpyxl.drawing.xdr import XDRPositiveSize2D
 from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
 
-SCREEN = 1540  # px: 1600 less row numbers and the bar
+SCREEN = 1475  # px: 1600 less row numbers, bars, and what other programs' columns are wider
 FOLD = 640  # px: 900 less ribbon, formula bar, tabs
 GAP = 8
+LINE = 15  # pt of height
 _EMU = 9525  # in a pixel
-_DIGIT, _COLUMN, _ROW = 7, 64, 20  # px
+DIGIT, _COLUMN, _ROW = 7, 64, 20  # px
+_LETTERS = 0.93  # letters of a text in the room of a digit
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +51,7 @@ def column_px(sheet: Worksheet, index: int) -> int:
     if letter not in sheet.column_dimensions:
         return _COLUMN
     about = sheet.column_dimensions[letter]
-    return 0 if about.hidden else round(about.width * _DIGIT) if about.width else _COLUMN
+    return 0 if about.hidden else round(about.width * DIGIT) if about.width else _COLUMN
 
 
 def row_px(sheet: Worksheet, index: int) -> int:
@@ -62,6 +66,23 @@ def extent(sheet: Worksheet) -> tuple[int, int]:
         sum(column_px(sheet, i) for i in range(1, sheet.max_column + 1)),
         sum(row_px(sheet, i) for i in range(1, sheet.max_row + 1)),
     )
+
+
+def lines_of(text: str, width: float) -> int:
+    """Lines that a text takes in a column: no program measures them before the file is opened."""
+    return len(wrap(text, int(width * _LETTERS))) or 1
+
+
+def room_of(letters: int) -> int:
+    """Width of a column in which so many letters are one line."""
+    return ceil(letters / _LETTERS) + 1
+
+
+def raise_row(sheet: Worksheet, row: int, texts: Mapping[str, float]) -> None:
+    """Room for texts that wrap, with the widths of their columns."""
+    lines = max(lines_of(text, width) for text, width in texts.items())
+    if lines > 1:
+        sheet.row_dimensions[row].height = LINE * lines
 
 
 def top_of(sheet: Worksheet, row: int) -> int:
@@ -100,7 +121,7 @@ def keep_columns(sheet: Worksheet, boxes: Sequence[Box]) -> None:
     for index in range(1, last_cell(sheet, boxes)[1] + 1 if boxes else 0):
         letter = get_column_letter(index)
         if letter not in sheet.column_dimensions:
-            sheet.column_dimensions[letter].width = _COLUMN / _DIGIT
+            sheet.column_dimensions[letter].width = _COLUMN / DIGIT
 
 
 def last_cell(sheet: Worksheet, boxes: Sequence[Box]) -> tuple[int, int]:

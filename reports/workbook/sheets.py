@@ -29,9 +29,10 @@ from reports.workbook.layout import (
     RowReferences,
     at_row,
 )
+from reports.workbook.places import raise_row
 
-# Characters of a line in the columns of titles and sources, height of a line [pt].
-_TITLE_CHARS, _SOURCE_CHARS, _LINE_HEIGHT = 58, 24, 15
+# Widths of the columns of titles, symbols and sources in a list.
+TITLE_WIDTH, SYMBOL_WIDTH, SOURCE_WIDTH = 58, 14, 24
 _NOTE_CHARS, _LONGEST_NOTE = 38, 240  # of a line of a comment, of a formula in it
 
 
@@ -183,7 +184,10 @@ class Writer:
                 for column, text in texts.items():
                     sheet.cell(row, shift + column, text or None).style = styles.TEXT
                 if place.column == 1:  # beside a table the rows keep their height
-                    _raise_row(sheet, row, texts[TITLE_COLUMN], texts[SOURCE_COLUMN])
+                    raise_row(sheet, row, {
+                        texts[TITLE_COLUMN]: TITLE_WIDTH, texts[SYMBOL_COLUMN]: SYMBOL_WIDTH,
+                        texts[SOURCE_COLUMN]: SOURCE_WIDTH,
+                    })  # fmt: skip
             self.scalar(sheet, scalar)
 
     def grid(self, sheet: Worksheet, block: Grid) -> None:
@@ -208,17 +212,12 @@ class Writer:
             label.comment = note(quantity, first_cell.source, formula)
             if wide:
                 sheet.cell(at, 2, quantity.header).style = styles.TEXT
-                _raise_row(sheet, at, quantity.title)
+                raise_row(sheet, at, {
+                    capital(quantity.title): TITLE_WIDTH, quantity.header: SYMBOL_WIDTH,
+                })  # fmt: skip
             for scalar in row.cells:
                 if scalar is not None:
                     self.scalar(sheet, scalar)
-
-
-def _raise_row(sheet: Worksheet, row: int, title: str, source: str = "") -> None:
-    """Room for texts that wrap: no program measures them before the file is opened."""
-    lines = max(ceil(len(title) / _TITLE_CHARS), ceil(len(source) / _SOURCE_CHARS))
-    if lines > 1:
-        sheet.row_dimensions[row].height = _LINE_HEIGHT * lines
 
 
 def note(quantity: Quantity, source: str, formula: str = "") -> Comment:

@@ -72,11 +72,11 @@ def add_styles(book: Workbook) -> None:
         book.add_named_style(made)
 
     unlocked = Protection(locked=False)
-    style(INPUT, border=frame, protection=unlocked)
-    style(STRUCTURE, border=frame, protection=unlocked)
-    style(ANSWER, border=frame, protection=unlocked)
-    style(FORMULA, border=frame)
-    style(HELPER, border=frame, font=Font(name=FONT, size=11, color="595959"))
+    middle = Alignment(vertical="center")  # of a row that its title makes higher
+    for name in (INPUT, STRUCTURE, ANSWER):
+        style(name, border=frame, alignment=middle, protection=unlocked)
+    style(FORMULA, border=frame, alignment=middle)
+    style(HELPER, border=frame, alignment=middle, font=Font(name=FONT, size=11, color="595959"))
     dark_bold = Font(name=FONT, size=11, bold=True, color="000000")
     style(HEADER, border=frame, alignment=centre, font=dark_bold)
     style(NUMBER, border=frame, alignment=centre, font=Font(name=FONT, size=9, italic=True))

@@ -15,6 +15,7 @@ from reports.spec.blocks import Model
 from reports.workbook import styles
 from reports.workbook.cockpit import RESULTS, known
 from reports.workbook.layout import HEADER_ROW, NOTE_ROW, Cell
+from reports.workbook.places import raise_row
 from reports.workbook.sheets import Writer
 
 SHEET = "Что если"
@@ -55,6 +56,7 @@ def _part(
         if isinstance(value, str):
             continue
         row += 1
+        raise_row(sheet, row, {text: _WIDTHS["A"]})
         for column, words in ((1, text), (2, symbol), (6, unit)):
             sheet.cell(row, column, words or None).style = styles.TEXT
         was, now = (Cell(SHEET, row, column).coordinate for column in (3, 4))

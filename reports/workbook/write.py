@@ -7,7 +7,6 @@ import io
 import zipfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from math import ceil
 
 from lxml.etree import SerialisationError
 from openpyxl import Workbook
@@ -34,6 +33,7 @@ from reports.workbook.layout import (
     HEADER_ROW,
     INPUT_SHEET,
     NOTE_ROW,
+    SOURCE_COLUMN,
     TITLE_ROW,
     UNIT_COLUMN,
     Cell,
@@ -44,21 +44,24 @@ from reports.workbook.layout import (
 from reports.workbook.links import link
 from reports.workbook.paper import UPRIGHT, set_page, set_widths
 from reports.workbook.places import (
+    DIGIT,
     FOLD,
     GAP,
     SCREEN,
     Box,
     anchor,
+    column_px,
     extent,
     flow,
     keep_columns,
-    last_cell,
+    raise_row,
     top_of,
 )
 from reports.workbook.sheets import CacheValues, Writer
 
 _MOST_CHECKS = 40
-_REMARK_CHARACTERS = 60  # in a line of the widest column
+NOTE_COLUMN, _NOTE_PX = 3, 560  # where a sheet's note begins, and how wide it is at least
+_REMARK_WIDTH = 115  # of the columns of a list
 _ROWS_PX = 64  # height of the rows above the charts of a sheet of diagrams
 
 
@@ -100,6 +103,9 @@ def assemble(
     for title in model.sheets:
         _blocks(book[title], model, writer)
         set_widths(book[title], model, layout, writer.values)
+        notes = [block.note for block in model.blocks if block.sheet == title and block.note]
+        if notes:
+            _note(book[title], " ".join(dict.fromkeys(notes)))
     boxes = _charts(book, model, writer)
     if motion.can_move(model, writer):
         for title in (what_if.SHEET, motion.SHEET):
@@ -112,11 +118,9 @@ def assemble(
     for sheet in book.worksheets:
         keep_columns(sheet, boxes.get(sheet.title, ()))
         sheet.sheet_properties.tabColor = chapter_of(sheet.title).colour
-        set_page(sheet, boxes.get(sheet.title, ()))
-    if motion.SHEET in boxes:  # of the points under the charts nobody needs a print
-        sheet = book[motion.SHEET]
-        row, column = last_cell(sheet, boxes[motion.SHEET])
-        sheet.print_area = area(Cell("", 1, 1), Cell("", row, column))
+        # Of the points under the charts of the mechanism nobody needs a print.
+        alone = sheet.title == motion.SHEET
+        set_page(sheet, boxes.get(sheet.title, ()), charts_alone=alone)
     for name, address in layout.defined_names().items():
         if name in model.fields or name in model.scalars:
             book.defined_names[name] = DefinedName(name, attr_text=address)
@@ -150,7 +154,6 @@ def _heading(sheet: Worksheet, title: str) -> None:
 def _blocks(sheet: Worksheet, model: Model, writer: Writer) -> None:
     blocks = [block for block in model.blocks if block.sheet == sheet.title]
     _heading(sheet, heading(sheet.title, blocks))
-    notes = [block.note for block in blocks if block.note]
     for block in blocks:
         if isinstance(block, TableSpec):
             writer.table(sheet, block)
@@ -162,8 +165,6 @@ def _blocks(sheet: Worksheet, model: Model, writer: Writer) -> None:
                 _remarks(sheet, model.remarks)
         elif isinstance(block, Grid):
             writer.grid(sheet, block)
-    if notes:
-        _note(sheet, " ".join(dict.fromkeys(notes)))
 
 
 def _colour_verdicts(sheet: Worksheet, good: str, bad: str) -> None:
@@ -188,8 +189,9 @@ def _remarks(sheet: Worksheet, remarks: Sequence[str]) -> None:
     for row, text in enumerate(remarks, first + 1):
         cell = styles.as_text(sheet.cell(row, 1, text))
         cell.style = styles.TEXT
-        cell.alignment = Alignment(wrap_text=True, vertical="top")
-        sheet.row_dimensions[row].height = 15 * ceil(len(text) / _REMARK_CHARACTERS)
+        across = CellRange(min_row=row, min_col=1, max_row=row, max_col=SOURCE_COLUMN)
+        sheet.merged_cells.add(across)
+        raise_row(sheet, row, {text: _REMARK_WIDTH})
 
 
 def _charts(book: Workbook, model: Model, writer: Writer) -> dict[str, list[Box]]:
@@ -222,7 +224,7 @@ def _charts(book: Workbook, model: Model, writer: Writer) -> dict[str, list[Box]
 def _say_blank(sheet: Worksheet, specs: Sequence[ChartSpec]) -> None:
     """Which charts are left out, for all their values are zero."""
     text = f"Не начерчено, все значения равны нулю: {'; '.join(spec.title for spec in specs)}."
-    _note(sheet, f"{sheet.cell(NOTE_ROW, 3).value or ''} {text}".strip())
+    _note(sheet, f"{sheet.cell(NOTE_ROW, NOTE_COLUMN).value or ''} {text}".strip())
 
 
 def _room(sheet: Worksheet, specs: Sequence[ChartSpec], *, frozen: bool) -> list[Box] | None:
@@ -254,13 +256,16 @@ def _index(book: Workbook, title: str) -> int:
 
 
 def _note(sheet: Worksheet, text: str) -> None:
-    """A note across the sheet's columns, as high as its text."""
-    last = max(10, min(sheet.max_column, 16))
-    cell = sheet.cell(NOTE_ROW, 3, text)
+    """A note across the sheet's open columns, as high as its text."""
+    last, width = NOTE_COLUMN, 0
+    while width < _NOTE_PX:
+        width += column_px(sheet, last)
+        last += 1
+    cell = sheet.cell(NOTE_ROW, NOTE_COLUMN, text)
     cell.style = styles.NOTE
     cell.alignment = Alignment(wrap_text=True, vertical="top")
     # Not merge_cells, which compares the borders of cells that have none.
-    area = CellRange(min_row=NOTE_ROW, min_col=3, max_row=NOTE_ROW, max_col=last)
-    sheet.merged_cells.add(area)
-    sheet.cell(NOTE_ROW, last)  # the note's width counts as the sheet's
-    sheet.row_dimensions[NOTE_ROW].height = 14 * ceil(len(text) / ((last - 2) * 13)) + 4
+    across = CellRange(min_row=NOTE_ROW, min_col=NOTE_COLUMN, max_row=NOTE_ROW, max_col=last - 1)
+    sheet.merged_cells.add(across)
+    sheet.cell(NOTE_ROW, last - 1)  # the note's width counts as the sheet's
+    raise_row(sheet, NOTE_ROW, {text: width / DIGIT})

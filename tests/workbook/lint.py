@@ -14,6 +14,7 @@ from reports.spec.blocks import Model, TableSpec, scalars_of
 from reports.workbook.chapters import chapter_of
 from reports.workbook.charts import HIGH, WIDE
 from reports.workbook.motion import SHAPE as MECHANISM
+from reports.workbook.motion import WIDE as MOVING
 
 C = "{http://schemas.openxmlformats.org/drawingml/2006/chart}"
 A = "{http://schemas.openxmlformats.org/drawingml/2006/main}"
@@ -65,7 +66,10 @@ def _axis_problems(root: etree._Element) -> Iterator[str]:
         name = f"axis {_val(axis, 'axId')}"
         if _val(axis, "delete") != "0":
             yield f"{name} is hidden in Excel"
-        if _val(axis, "tickLblPos") != "low":
+        # Below or left of the plot, whichever way the other axis runs.
+        turned = any(_val(a.find(f"{C}scaling"), "orientation") == "maxMin"
+                     for a in axes if a is not axis)  # fmt: skip
+        if _val(axis, "tickLblPos") != ("high" if turned else "low"):
             yield f"{name}: labels are not low"
         numbers = axis.find(f"{C}numFmt")
         if numbers is None or numbers.get("sourceLinked") != "0":
@@ -130,7 +134,7 @@ def _polar_problems(root: etree._Element) -> list[str]:
     found = []
     # In a square chart, or in one of the first sheet's, which are as wide as all others.
     shape = float(_val(layout, "w") or 0) / float(_val(layout, "h") or 1)
-    shapes = (1.0, HIGH / WIDE, MECHANISM * 2 * HIGH / WIDE)
+    shapes = (1.0, HIGH / WIDE, HIGH / MOVING, MECHANISM * 2 * HIGH / MOVING)
     square = any(math.isclose(shape, wanted, rel_tol=1e-9) for wanted in shapes)
     if not square or _val(layout, "layoutTarget") != "inner":
         found.append("the plot area is not square")
@@ -141,7 +145,7 @@ def _polar_problems(root: etree._Element) -> list[str]:
     ]
     limits = [axis.find(f"{C}scaling/{C}max") for axis in root.findall(f".//{C}valAx")]
     # Equal limits are fixed, or a corner series spans the same range on both axes.
-    if math.isclose(shape, shapes[2], rel_tol=1e-9):
+    if math.isclose(shape, shapes[-1], rel_tol=1e-9):
         return found  # its limits follow from a frame of the plot's shape
     if not all(limit is not None for limit in limits) and texts[-1] != texts[-2]:
         found.append("the axes may have different limits")

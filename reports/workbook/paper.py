@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import ceil, floor
+from math import ceil, floor, isfinite
 
 import numpy as np
 from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
 
-from reports.spec.blocks import Grid, Model, ScalarTable, TableSpec
+from kshm.nomenclature.quantity import Quantity
+from reports.shared.russian import written
+from reports.spec.blocks import Block, Grid, Model, ScalarTable, TableSpec, scalars_of
 from reports.spec.evaluation import Values
 from reports.tables.gas.cycle_names import SHEET as CYCLE_SHEET
 from reports.tables.gas.cycle_speed import RANGE_SHEET
@@ -24,9 +26,8 @@ from reports.workbook.layout import (
     area,
 )
 from reports.workbook.places import Box, extent, last_cell, room_of
-from reports.workbook.sheets import SOURCE_WIDTH, SYMBOL_WIDTH, TITLE_WIDTH
+from reports.workbook.sheets import NARROW, SOURCE_WIDTH, SYMBOL_WIDTH, TITLE_WIDTH
 
-_COLUMN = 9.5  # characters of a column of a table
 _LIST = {
     1: TITLE_WIDTH, 2: SYMBOL_WIDTH, VALUE_COLUMN: 14, 4: 11, SOURCE_COLUMN: SOURCE_WIDTH, 6: 30,
 }  # fmt: skip
@@ -52,16 +53,18 @@ def set_widths(sheet: Worksheet, model: Model, layout: Layout, values: Values) -
         if sheet.title in (CYCLE_SHEET, RANGE_SHEET):
             wide |= _CYCLE_WIDTHS if sheet.title == CYCLE_SHEET else _RANGE_WIDTHS
         _widths(sheet, {i: wide.get(i, 12) for i in range(1, last + 1)})
+        _widen(sheet, blocks, layout, values)
         return
     sheet.freeze_panes = Cell(sheet.title, FIRST_ROW, 2).coordinate
     sheet.print_title_rows = f"{HEADER_ROW - 1}:{NUMBER_ROW}"
-    _widths(sheet, dict.fromkeys(range(1, last + 1), _COLUMN))
+    _widths(sheet, dict.fromkeys(range(1, last + 1), NARROW))
     for block in blocks:
         if isinstance(block, ScalarTable):
             first = layout.places[block.id].column
             _widths(
                 sheet, {first + i: width for i, width in enumerate(_fitting(sheet, layout, block))}
             )
+    _widen(sheet, blocks, layout, values)
     sheet.row_dimensions[HEADER_ROW].height = 48
     for table in tables:
         _fold(sheet, table, layout, values)
@@ -79,6 +82,29 @@ def _fitting(sheet: Worksheet, layout: Layout, block: ScalarTable) -> list[float
         )
         found.append(min(max(least, room_of(longest)), _WIDEST))
     return found
+
+
+def _widen(sheet: Worksheet, blocks: Sequence[Block], layout: Layout, values: Values) -> None:
+    """Room for the longest numbers of each column, which else are crosses."""
+    longest: dict[int, int] = {}
+
+    def hold(column: int, number: float, quantity: Quantity) -> None:
+        letters = len(written(number, quantity.digits)) if isfinite(number) else 0
+        longest[column] = max(longest.get(column, 0), letters)
+
+    for block in blocks:
+        if isinstance(block, TableSpec):
+            for index, column in enumerate(block.columns, layout.places[block.id].column):
+                numbers = values.columns[block.id][column.key]
+                for end in (numbers.min(), numbers.max()):
+                    hold(index, float(end), column.quantity)
+        for scalar in scalars_of(block):
+            value = values.scalars[scalar.key]
+            if not isinstance(value, str):
+                hold(layout.cells[scalar.key].column, float(value), scalar.quantity)
+    for index, letters in longest.items():
+        dimension = sheet.column_dimensions[get_column_letter(index)]
+        dimension.width = max(dimension.width, room_of(letters))
 
 
 def _fold(sheet: Worksheet, table: TableSpec, layout: Layout, values: Values) -> None:

@@ -33,6 +33,7 @@ from reports.workbook.places import raise_row
 
 # Widths of the columns of titles, symbols and sources in a list.
 TITLE_WIDTH, SYMBOL_WIDTH, SOURCE_WIDTH = 58, 14, 24
+NARROW = 9.5  # of a column of a table
 _NOTE_CHARS, _LONGEST_NOTE = 38, 240  # of a line of a comment, of a formula in it
 
 
@@ -202,6 +203,8 @@ class Writer:
         for offset, label in enumerate(block.labels):
             # A label may be a name that a person gave: never a formula.
             styles.as_text(sheet.cell(place.row, first + offset, label)).style = styles.HEADER
+        if first == VALUE_COLUMN - 1:  # below a table
+            raise_row(sheet, place.row, dict.fromkeys(("Величина", *block.labels), NARROW))
         for offset, row in enumerate(block.rows, 1):
             at, quantity = place.row + offset, row.quantity
             wide = first > VALUE_COLUMN - 1
@@ -210,6 +213,8 @@ class Writer:
             first_cell = next(cell for cell in row.cells if cell is not None)
             formula = self.explained(quantity, first_cell.expr)
             label.comment = note(quantity, first_cell.source, formula)
+            if not wide:
+                raise_row(sheet, at, {quantity.header: NARROW})
             if wide:
                 sheet.cell(at, 2, quantity.header).style = styles.TEXT
                 raise_row(sheet, at, {

@@ -105,3 +105,21 @@ def test_sheets_open_with_their_subject_and_axes_have_its_unit(name: str) -> Non
         box = spec.drawn_by("workbook")[-1].y
         unit = model.scalars[model.grid_runs[box][0]].quantity.unit_label
         assert unit in spec.y_title, (spec.id, unit)
+
+
+@pytest.mark.parametrize("name", sample_names())
+def test_every_number_has_room_in_its_column(name: str) -> None:
+    """Else a program shows crosses: a digit of 11 points is 7.34 px wide."""
+    book = load_workbook(io.BytesIO(coarse_book(name)), data_only=True)
+    tight = [
+        f"{sheet.title}!{cell.coordinate}: {cell.value}"
+        for sheet in book.worksheets
+        for row in sheet.iter_rows()
+        for cell in row
+        if isinstance(cell.value, float)
+        and cell.number_format.rstrip("0") in ("0.", "")
+        and column_px(sheet, cell.column)
+        and len(f"{cell.value:.{len(cell.number_format.partition('.')[2])}f}") * 7.34 + 5
+        > column_px(sheet, cell.column) + 5  # the margins
+    ]
+    assert tight == []

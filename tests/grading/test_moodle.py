@@ -6,6 +6,7 @@ import csv
 import io
 import zipfile
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -115,7 +116,8 @@ def test_feedback_files_reach_their_participants(graded):
 
 def row(points: float | None, **more) -> dict:
     made = {"number": 1, "student": "Иванов Имя", "email": "", "points": points, "manual": False,
-            "status": "проверено", "remark": "", "result": {"moodle_id": "101"}}  # fmt: skip
+            "status": "проверено", "remark": "",
+            "result": SimpleNamespace(moodle_id="101")}  # fmt: skip
     return made | more
 
 

@@ -47,7 +47,7 @@ def moodle_csv(rows: Sequence[dict[str, Any]]) -> str:
         result = row["result"]
         if row["number"] is None or result is None:
             continue
-        participant = f"Participant {result['moodle_id']}" if result["moodle_id"] else ""
+        participant = f"Participant {result.moodle_id}" if result.moodle_id else ""
         # No grade where a person has to look first.
         grade = "" if row["points"] is None or row["manual"] else f"{row['points']:g}"
         texts = [participant, row["student"], row["email"], row["id"]]
@@ -115,18 +115,18 @@ def gradebook_xlsx(rows: Sequence[dict[str, Any]], maximum: float) -> bytes:
 def _blocks(rows: Sequence[dict[str, Any]]) -> list[str]:
     found: dict[str, None] = {}
     for row in rows:
-        for line in (row["result"] or {}).get("items", []):
-            if line["of"]:
-                found.setdefault(line["heading"])
+        for line in row["result"].items if row["result"] else ():
+            if line.of:
+                found.setdefault(line.heading)
     return list(found)
 
 
 def _shares(row: dict[str, Any]) -> dict[str, float]:
     """Points of each table before the factor for lateness."""
     found: dict[str, float] = {}
-    for line in (row["result"] or {}).get("items", []):
-        if line["of"]:
-            found[line["heading"]] = found.get(line["heading"], 0.0) + line["points"]
+    for line in row["result"].items if row["result"] else ():
+        if line.of:
+            found[line.heading] = found.get(line.heading, 0.0) + line.points
     return {block: round(value, 2) for block, value in found.items()}
 
 

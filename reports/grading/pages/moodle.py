@@ -123,7 +123,7 @@ def _by_key(rows: Sequence[dict[str, Any]]) -> dict[str, dict[str, Any]]:
     for row in rows:
         if row["number"] is None:
             continue
-        moodle = (row["result"] or {}).get("moodle_id", "")
+        moodle = row["result"].moodle_id if row["result"] else ""
         keys = (f"id {moodle}" if moodle else "", f"mail {row['email'].casefold()}",
                 f"name {_words(row['student'])}")  # fmt: skip
         for key in keys:
@@ -160,11 +160,11 @@ def feedback_zip(rows: Sequence[dict[str, Any]], pages: Path) -> bytes:
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
         for row in rows:
-            result = row["result"] or {}
-            if not result.get("moodle_id") or row["number"] is None or not row["page"]:
+            result = row["result"]
+            if not result or not result.moodle_id or row["number"] is None or not row["page"]:
                 continue
             name = row["student"].replace("_", " ").replace("/", " ")
-            folder = f"{name}_{result['moodle_id']}_assignsubmission_file_"
+            folder = f"{name}_{result.moodle_id}_assignsubmission_file_"
             data = (pages / row["page"]).read_bytes()
             info = zipfile.ZipInfo(f"{folder}/{FEEDBACK}", _EPOCH)
             archive.writestr(info, data, zipfile.ZIP_DEFLATED)

@@ -11,6 +11,7 @@ from lxml import etree
 from reports.recalculation.forms import Forms
 from reports.recalculation.grid import MAX_SHEETS, Area, BadBook, Grid
 from reports.recalculation.language import column_number
+from reports.recalculation.meanings import meanings, put_in
 from reports.recalculation.sheets import MAIN, parse_xml, read_sheet, rich_text
 from reports.workbook.package import Package
 
@@ -59,6 +60,8 @@ def _read(package: Package, forms: Forms | None) -> Grid:
             title = str(sheet.get("name"))
             grid.sheets[title] = {}
             read_sheet(grid, title, package.read(part), strings, forms)
+    if known := meanings(grid, root):
+        put_in(grid, known)
     return grid
 
 

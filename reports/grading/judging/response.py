@@ -34,10 +34,11 @@ from reports.recalculation.language import UnknownFormula
 Array = NDArray[np.float64]
 
 # What is said of a cell.
-RIGHT, ROUNDED, PARTLY, STILL, WRONG, NOTHING, UNKNOWN = "prtsw-u"
+RIGHT, ROUNDED, PARTLY, STILL, WRONG, NOTHING, UNKNOWN, PASTED = "prtsw-ul"
 _ALIKE = 3  # formulas that differ in nothing but their numbers, to be a list of numbers
 _MANY = 8  # long numbers in one formula, to be a list of numbers
 _LONG = 5  # digits of a number that nobody knows by heart
+_TYPED = 4  # digits of a number in a list that is read; angles have fewer
 _INSIDE = 2e-3  # share of a column that roundings inside a formula may cost
 
 
@@ -233,6 +234,7 @@ class Response:
         index = {row: i for i, row in enumerate(place.rows) if row is not None}
         letters = [NOTHING] * count
         listed = _listed(self.student.runs(node))
+        pasted: bool | None = None
         right = self._right(item, node)
         good = self._good(item, values, right)
         roughly = self._rounded_good(item, node, values, right)
@@ -244,8 +246,20 @@ class Response:
             elif roughly is not None and all(roughly[i] for i in at):
                 word = ROUNDED
             for i in at:
-                letters[i] = self._word(i, word, values, right, good, listed=id(run) in listed)
+                letter = self._word(i, word, values, right, good, listed=id(run) in listed)
+                if letter == PARTLY or (letter == word and not good[1][i]):
+                    pasted = self._reads_a_list(node) if pasted is None else pasted
+                    letter = PASTED if pasted else letter
+                letters[i] = letter
         return "".join(letters)
+
+    def _reads_a_list(self, node: str) -> bool:
+        """Whether a column is made of a column of numbers typed in beside the tables."""
+        if _listed(self.student.helpers(node)):
+            return True
+        read = self.student.own_numbers(node)
+        long = {abs(value) for value in read if _digits(f"{value!r}") >= _TYPED}
+        return len(long) >= _ALIKE and len(read) >= self.student.assignment.length(node) // 2
 
     def _word(
         self,
@@ -390,9 +404,10 @@ def _skeleton(formula: Formula) -> tuple[tuple[str, str], ...]:
 
 def _long_numbers(formula: Formula) -> int:
     return len(
-        {
-            value
-            for kind, value in formula.pattern
-            if kind == "number" and len(value.replace(".", "").strip("0")) >= _LONG
-        }
+        {value for kind, value in formula.pattern if kind == "number" and _digits(value) >= _LONG}
     )
+
+
+def _digits(number: str) -> int:
+    """Digits of a number that say anything."""
+    return len(number.partition("e")[0].lstrip("-").replace(".", "").strip("0"))

@@ -276,6 +276,22 @@ class Student:
             if type(value) is float and row not in taken.get((sheet, number), ())
         ]
 
+    def own_numbers(self, node: str) -> list[float]:
+        """Numbers typed in outside the tables that a node's formulas refer to."""
+        if not self.own_constants:
+            return []
+        areas = {area for run in self._seen_from(node)[1] for area in self.grid.precedents(run)}
+        return [
+            value
+            for sheet, number, row, value in self.own_constants
+            if any(
+                area.sheet == sheet
+                and area.first_column <= number <= area.last_column
+                and area.first_row <= row <= area.last_row
+                for area in areas
+            )
+        ]
+
     def helpers(self, node: str) -> list[Run]:
         """Formulas of one's own, outside the tables, that a node refers to."""
         return [run for run in self._seen_from(node)[1] if run not in self.runs(node)]

@@ -263,7 +263,8 @@ class Causes:
         if not item.is_column:
             for key, scalar in self._neighbours(item):
                 value = run.value(key)
-                if not isinstance(value, str):
+                # A nought is no value of another quantity that happens to be one.
+                if not isinstance(value, str) and round(value, item.quantity.digits.decimals):
                     yield f"это значение величины {scalar}", np.array([float(value)])
             return
         model = self.student.assignment.model

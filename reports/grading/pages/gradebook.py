@@ -56,11 +56,12 @@ def moodle_csv(rows: Sequence[dict[str, Any]]) -> str:
 
 
 def gradebook_xlsx(rows: Sequence[dict[str, Any]], maximum: float) -> bytes:
-    """The gradebook as a workbook: marks on one printed page, points by tables on the next."""
+    """The gradebook as a workbook: for reading, for deciding, and a sheet for the printer."""
     from openpyxl import Workbook
     from openpyxl.styles import Alignment, Font, PatternFill, Protection
     from openpyxl.worksheet.pagebreak import Break, ColBreak
 
+    from reports.grading.pages.printed import add_printed
     from reports.workbook.caches import finish
     from reports.workbook.styles import as_text
 
@@ -107,6 +108,7 @@ def gradebook_xlsx(rows: Sequence[dict[str, Any]], maximum: float) -> bytes:
     sheet.col_breaks.append(Break(id=len(head)))
     sheet.oddFooter.center.text = "Лист &P из &N"
     sheet.page_margins.left = sheet.page_margins.right = 0.4
+    add_printed(book, rows, [_shares(row) for row in rows], blocks)
     stream = io.BytesIO()
     book.save(stream)
     return finish(stream.getvalue())

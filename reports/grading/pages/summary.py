@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from datetime import datetime
 from statistics import mean, median
 from typing import Any
 
@@ -12,6 +11,7 @@ from reports.grading.issuing.register import Register
 from reports.grading.judging.similarity import signals, suspicions
 from reports.grading.judging.verdicts import CARRIED, EMPTY, RIGHT, TYPED
 from reports.grading.judging.works import Work
+from reports.grading.pages.pages import moment
 
 _BAR = 160  # px of the longest bar
 _STEPS = 10
@@ -108,18 +108,14 @@ def _remarks(result: Work | None, copies: int, count: str) -> list[str]:
     if result is None:
         return ["работа не сдана"]
     found = [*result.manual, *result.notes]
+    labels = {line.id: line.label for line in result.items}
     for entry in result.decisions:
-        what = f" ({entry['item']})" if entry["item"] else ""
+        what = f" ({labels.get(entry['item'], entry['item'])})" if entry["item"] else ""
         found.append(f"решение преподавателя{what}: {entry['remark'] or 'без примечания'}")
     if copies > 1:
         which = "лучший" if count == "best" else "последний"
         found.append(f"сдано файлов: {copies}, оценён {which} ({result.file})")
     return found
-
-
-def _moment(text: str) -> str:
-    """A time as people write it: 05.12.2026 10:00."""
-    return datetime.fromisoformat(text).strftime("%d.%m.%Y %H:%M")
 
 
 def summarise(register: Register, results: Sequence[Work]) -> dict[str, Any]:
@@ -138,8 +134,8 @@ def summarise(register: Register, results: Sequence[Work]) -> dict[str, Any]:
         "maximum": register.rubric.maximum,
         "mean": mean(marks) if marks else 0.0,
         "median": median(marks) if marks else 0.0,
-        "first_time": _moment(times[0]) if times else "",
-        "last_time": _moment(times[-1]) if times else "",
+        "first_time": moment(times[0]) if times else "",
+        "last_time": moment(times[-1]) if times else "",
         "late": sum(result.late < 1 for result in graded),
         "distribution": _distribution(marks, register.rubric.maximum),
         "hardest": _hardest(graded),

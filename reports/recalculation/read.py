@@ -17,9 +17,9 @@ from reports.workbook.package import Package
 
 _STRICT = "{http://purl.oclc.org/ooxml/spreadsheetml/main}"
 _REL = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}"
-_ADDRESS = re.compile(
-    r"('(?:[^']|'')+'|[^\W\d][\w.]*)!\$?([A-Z]{1,3})\$?([0-9]{1,7})"
-    r"(?::\$?([A-Z]{1,3})\$?([0-9]{1,7}))?"
+_ADDRESS = re.compile(  # without a $ a name means another cell in every cell
+    r"('(?:[^']|'')+'|[^\W\d][\w.]*)!\$([A-Z]{1,3})\$([0-9]{1,7})"
+    r"(?::\$([A-Z]{1,3})\$([0-9]{1,7}))?"
 )
 
 

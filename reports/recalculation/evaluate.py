@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.recalculation.formulas import is_doubtful
+from reports.recalculation.formulas import PLACES, TEXT_NUMBER, is_doubtful
 from reports.recalculation.grid import Area, Grid, Run, is_backwards
 from reports.recalculation.language import UnknownFormula
 from reports.recalculation.lifted import NOT_LIFTED, WRONG, register
@@ -32,6 +32,7 @@ _ERRORS = {
     "Null": "#NULL!", "Circ": "#CIRC!",
 }  # fmt: skip
 _LIMIT_MS = 40_000
+ONE_WANTED = "диапазон там, где нужно одно значение"
 
 
 class Engine:
@@ -171,17 +172,22 @@ class Engine:
         if run.formula.refusal:
             return run.formula.refusal
         for found in references:
+            if "[" in (found.sheet or ""):
+                return "ссылка на другую книгу"
             area = self.grid.named(found.name) if found.name else None
             if found.name and area is None and "LET" not in run.formula.functions:
-                return f"name {found.name}"
+                return f"имя {found.name}"
             one = found.first == found.last if area is None else _is_cell(area)
             if not (one or run.array or found.whole or found.spread):
-                return "a range where one value is wanted"
+                return ONE_WANTED
             if area is None and is_backwards(run, found):
-                return "a range that ends before it begins"
+                return "диапазон кончается раньше, чем начинается"
+        spread = run.array is not None or run.formula.takes_arrays
+        if spread and not run.formula.functions.isdisjoint(PLACES):
+            return ONE_WANTED
         if run.formula.gives_array and not run.array:
-            return "a range where one value is wanted"
-        return "number written as a text" if self._reads_doubtful(run) else ""
+            return ONE_WANTED
+        return TEXT_NUMBER if self._reads_doubtful(run) else ""
 
     def _reads_doubtful(self, run: Run) -> bool:
         """Whether a run calculates with a text that only some spreadsheets take for a number."""
@@ -291,7 +297,7 @@ def _numbers(values: list[Any], run: Run) -> tuple[Array, str]:
             kind = TEXT
         elif not (isinstance(value, dict) and value.get("kind") in _ERRORS):
             what = value.get("kind", "") if isinstance(value, dict) else type(value).__name__
-            msg = f"formualizer: {what}"
+            msg = f"ответ вычислителя: {what}"
             raise UnknownFormula(msg)
         kinds.append(kind)
     return numbers, "".join(kinds)

@@ -22,11 +22,11 @@ from reports.recalculation.language import (
 # Functions of values only: nothing volatile, nothing that builds an address or leaves the book.
 _ALLOWED = """
 ABS ACOS ACOSH AND ASIN ASINH ATAN ATAN2 ATANH AVEDEV AVERAGE AVERAGEA AVERAGEIF AVERAGEIFS CEILING
-CHOOSE COLUMNS COMBIN CONCATENATE COS COSH COUNT COUNTA COUNTBLANK COUNTIF COUNTIFS DEGREES EVEN
-EXP FACT FALSE FLOOR GCD GEOMEAN HARMEAN HLOOKUP IF IFERROR IFNA IFS INDEX INT INTERCEPT
+CHOOSE COLUMN COLUMNS COMBIN CONCATENATE COS COSH COUNT COUNTA COUNTBLANK COUNTIF COUNTIFS DEGREES
+EVEN EXP FACT FALSE FLOOR GCD GEOMEAN HARMEAN HLOOKUP IF IFERROR IFNA IFS INDEX INT INTERCEPT
 ISBLANK ISERR ISERROR ISEVEN ISLOGICAL ISNA ISNONTEXT ISNUMBER ISODD ISTEXT LARGE LCM LEFT LEN LET
 LN LOG LOG10 LOOKUP MATCH MAX MAXIFS MEDIAN MID MIN MINIFS MOD MROUND N NA NOT ODD OR PI POWER
-PRODUCT QUOTIENT RADIANS RANK RIGHT ROUND ROUNDDOWN ROUNDUP ROWS SIGN SIN SINH SLOPE SMALL SQRT
+PRODUCT QUOTIENT RADIANS RANK RIGHT ROUND ROUNDDOWN ROUNDUP ROW ROWS SIGN SIN SINH SLOPE SMALL SQRT
 STDEV STDEV.P STDEV.S STDEVP SUM SUMIF SUMIFS SUMPRODUCT SUMSQ SUMX2MY2 SUMX2PY2 SUMXMY2 SWITCH T
 TAN TANH TRIM TRUE TRUNC VAR VAR.P VAR.S VARP VLOOKUP XLOOKUP XOR
 """
@@ -46,6 +46,12 @@ _TAKES_RANGES: dict[str, Collection[int]] = {
 # Inside of these a rectangle is taken value by value.
 _TAKES_ARRAYS = frozenset(("SUMPRODUCT", "SUMX2MY2", "SUMX2PY2", "SUMXMY2"))
 _PREFIX = re.compile(r"_XL(?:FN|WS|PM)\.")
+# Where it stands is all that these tell: in a rectangle that is not one place.
+PLACES = frozenset(("ROW", "COLUMN"))
+TEXT_NUMBER = "число записано текстом"
+# What Google Sheets leaves of its own functions when a book is saved as .xlsx.
+_GOOGLE = "__XLUDF.DUMMYFUNCTION"
+GOOGLE_ARRAY = "формула Google Таблиц, которой нет в .xlsx: протяните обычную формулу"
 # A text that one country's spreadsheet takes for a number and another's for something else.
 _DOUBTFUL = re.compile(r"\s*[-+]?(?:\d[\d\s]*[.,][\d.,]*|[.,]\d+)(?:[eE][-+]?\d+)?\s*%?\s*")
 _NUMBER = re.compile(r"\s*[-+]?\d[\d\s.,]*(?:[eE][-+]?\d+)?\s*%?\s*|[.,]\d+")
@@ -97,9 +103,9 @@ class Formula:
         """Why the formula is never calculated, empty where it may be."""
         foreign = sorted(self.functions - ALLOWED)
         if foreign:
-            return f"function {foreign[0]}"
+            return f"функция {foreign[0]}" if foreign[0] != _GOOGLE else GOOGLE_ARRAY
         texts = (value[1:-1] for kind, value in self.pattern if kind == "text")
-        return "number written as a text" if any(map(is_doubtful, texts)) else ""
+        return TEXT_NUMBER if any(map(is_doubtful, texts)) else ""
 
     @cached_property
     def takes_arrays(self) -> bool:
@@ -171,11 +177,12 @@ def formula_at(text: str, row: int, column: int) -> Formula:
     Raises:
         UnknownFormula: a sign outside the language, or a formula that is too long.
     """
-    return _shared(pattern(text, row, column))
+    return formula_of(pattern(text, row, column))
 
 
 @lru_cache(maxsize=20_000)
-def _shared(tokens: tuple[Token, ...]) -> Formula:
+def formula_of(tokens: tuple[Token, ...]) -> Formula:
+    """The one formula with these tokens."""
     return Formula(tokens)
 
 
@@ -193,7 +200,7 @@ def _references(found: tuple[Token, ...]) -> Iterator[Reference]:
         if kind == "ref" and tokens[at + 1] == ("op", ":"):
             at += 2 + (tokens[at + 2 : at + 3] != () and tokens[at + 2][0] == "sheet")
             if at >= len(found) or found[at][0] != "ref":
-                msg = "a range needs two cells"
+                msg = "у диапазона одна граница"
                 raise UnknownFormula(msg)
             ends = (ref_of(value), ref_of(found[at][1]))
         elif kind == "name" and tokens[at + 1] != ("op", "("):

@@ -126,13 +126,13 @@ def _formula(grid: Grid, run: Run) -> str:
     return escape(text, quote=False)
 
 
-def formula_text(grid: Grid, run: Run, row: int, column: int, own: str = "") -> str:
+def formula_text(grid: Grid, run: Run, row: int, column: int) -> str:
     """Formula of a run in one cell without its ``=``, as formualizer takes it."""
     assert run.formula is not None
     tokens = [_plain(grid, token) for token in run.formula.pattern]
     if len(tokens) > _CHAIN:
         tokens = _in_parts(tokens)
-    return render(tokens, row, column, own)[1:]
+    return render(tokens, row, column)[1:]
 
 
 def _in_parts(tokens: list[Token]) -> list[Token]:

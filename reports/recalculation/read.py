@@ -11,14 +11,15 @@ from lxml import etree
 from reports.recalculation.forms import Forms
 from reports.recalculation.grid import MAX_SHEETS, Area, BadBook, Grid
 from reports.recalculation.language import column_number
+from reports.recalculation.meanings import meanings, put_in
 from reports.recalculation.sheets import MAIN, parse_xml, read_sheet, rich_text
 from reports.workbook.package import Package
 
 _STRICT = "{http://purl.oclc.org/ooxml/spreadsheetml/main}"
 _REL = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}"
-_ADDRESS = re.compile(
-    r"('(?:[^']|'')+'|[^\W\d][\w.]*)!\$?([A-Z]{1,3})\$?([0-9]{1,7})"
-    r"(?::\$?([A-Z]{1,3})\$?([0-9]{1,7}))?"
+_ADDRESS = re.compile(  # without a $ a name means another cell in every cell
+    r"('(?:[^']|'')+'|[^\W\d][\w.]*)!\$([A-Z]{1,3})\$([0-9]{1,7})"
+    r"(?::\$([A-Z]{1,3})\$([0-9]{1,7}))?"
 )
 
 
@@ -59,6 +60,8 @@ def _read(package: Package, forms: Forms | None) -> Grid:
             title = str(sheet.get("name"))
             grid.sheets[title] = {}
             read_sheet(grid, title, package.read(part), strings, forms)
+    if known := meanings(grid, root):
+        put_in(grid, known)
     return grid
 
 

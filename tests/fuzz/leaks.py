@@ -1,4 +1,4 @@
-"""Random classes whose work-books must hold no answers: ``python -m tests.fuzz.leaks [COUNT]``.
+"""Random classes whose books must hold no answers: ``python -m tests.fuzz.leaks [COUNT [SEED]]``.
 
 Every class has an engine near a sample and a random set of tables to fill in.  Where a table
 that is given repeats what is asked, ``issue`` refuses the class: an alarm is genuine when six
@@ -135,7 +135,7 @@ def main(arguments: Sequence[str]) -> int:
     """Try so many classes; exit code 1 where one was judged wrongly."""
     count = int(arguments[0]) if arguments else 200
     alarms, missed, tried, refused, leaking, hidden = [], [], 0, 0, 0, 0
-    seed, started = 0, time.monotonic()
+    seed, started = int(arguments[1]) if len(arguments) > 1 else 0, time.monotonic()
     while tried < count:
         seed += 1
         rng = random.Random(seed)

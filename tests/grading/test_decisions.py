@@ -13,6 +13,7 @@ from openpyxl import load_workbook
 from reports.grading.batch.grade import Options, decide, grade
 from reports.grading.issuing.rubric import rubric_of
 from reports.grading.judging.marking import late_factor
+from reports.grading.judging.works import Work, work_of
 from reports.grading.pages.summary import choose
 from reports.shared.errors import InputError
 from tests.grading import classroom
@@ -41,7 +42,7 @@ def run(where: Path, out: Path, *words: tuple[str, str, str, str]) -> dict:
 def test_an_unknown_is_decided_and_the_decision_survives(tmp_path):
     where, out = submitted(tmp_path / "in"), tmp_path / "out"
     rows = run(where, out)
-    worth = next(x for x in rows[1]["result"]["items"] if x["id"] == "geometry.V_c")["of"]
+    worth = next(x for x in rows[1]["result"].items if x.id == "geometry.V_c").of
     assert rows[1]["manual"]
     assert rows[1]["points"] == pytest.approx(100 - worth, abs=0.01)
     # Without anything to grade anew, and without the secret.
@@ -120,13 +121,15 @@ def test_what_is_no_decision_is_refused(tmp_path):
 
 
 def test_the_best_attempt_counts_where_the_rubric_says_so():
-    def result(points: float, time: str) -> dict:
-        return {"number": 1, "status": "graded", "points": points, "time": time, "key": time}
+    def result(points: float, time: str, submitter: int | None = None) -> Work:
+        made = {"number": 1, "status": "graded", "points": points, "time": time, "key": time,
+                "file": time, "submitter": submitter, "items": [], "manual": []}  # fmt: skip
+        return work_of(made, {})
 
     first, second = result(90.0, "2026-01-01"), result(60.0, "2026-01-02")
     assert choose([first, second])[1] is second
     assert choose([first, second], "best")[1] is first
-    thief = result(0.0, "2026-01-03") | {"submitter": 2}
+    thief = result(0.0, "2026-01-03", 2)
     assert choose([first, second, thief])[1] is second  # a stranger's file is never mine
 
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 import zipfile
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -23,7 +25,7 @@ RUSSIAN = ("Идентификатор", "Полное имя", "Адрес эл
            "Максимальная оценка", "Оценка может быть изменена",
            "Последнее изменение (ответ)", "Последнее изменение (оценка)",
            "Отзыв в виде комментария")  # fmt: skip
-WORDS = {ENGLISH: ("Participant ", "Yes", "-"), RUSSIAN: ("Участник", "Да", "-")}
+WORDS = {ENGLISH: ("Participant ", "Yes", "-"), RUSSIAN: ("Участник", "Да", "-")}  # hiddenuser, yes
 
 
 def worksheet(head: tuple[str, ...], most: str = "100,00") -> str:
@@ -39,31 +41,47 @@ def worksheet(head: tuple[str, ...], most: str = "100,00") -> str:
     return stream.getvalue()
 
 
+def unformat_float(text: str, comma: str) -> float | None:
+    """``unformat_float`` of ``moodlelib.php``: nothing is null, what is no number is cut off."""
+    text = text.strip().replace(" ", "").replace(comma, ".")
+    found = re.match(r"-?\d*\.?\d*", text)
+    return float(found[0] or 0) if text and found else None
+
+
 def imported(text: str, head: tuple[str, ...]) -> dict[int, tuple[float | None, str]]:
-    """What ``assignfeedback_offline_grade_importer`` takes: participant → grade, comment."""
-    lines = list(csv.reader(io.StringIO(text.lstrip("\ufeff"))))
-    columns = {name: lines[0].index(name) for name in head}  # found by their exact names
-    prefix = WORDS[head][0].strip()
+    """What ``assignfeedback_offline_grade_importer`` takes: participant → grade, comment.
+
+    After ``init`` and ``next`` of ``importgradeslib.php`` and ``process_import_grades``.
+    """
+    lines = list(csv.reader(io.StringIO(text.removeprefix("\ufeff"))))
+    columns = {name: index for index, name in enumerate(lines[0])}  # exact titles, the last counts
+    id_, grade, modified = (columns[head[i]] for i in (0, 4, 8))  # else it refuses the file
+    comment = columns.get(head[9])
+    hidden, _, never = WORDS[head]
     found = {}
     for line in lines[1:]:
-        assert len(line) == len(head)
-        text_id = line[columns[head[0]]]
-        assert text_id.startswith(prefix)
-        grade = line[columns[head[4]]]
-        comma = "," if head is RUSSIAN else "."  # unformat_float in the user's language
-        value = float(grade.replace(comma, ".")) if grade else None
-        assert value is None or 0 <= value <= float(line[columns[head[5]]].replace(",", "."))
-        assert line[columns[head[8]]] == "-"  # else the line is skipped as graded since
-        found[int(text_id.removeprefix(prefix))] = value, line[columns[head[9]]]
+        assert len(line) == len(lines[0])  # csv_import_reader: csvweirdcolumns
+        participant = int(line[id_][len(hidden) :])
+        value = unformat_float(line[grade], "," if head is RUSSIAN else ".")
+        assert line[modified] == never  # a time that cannot be read is older than any grade
+        most = unformat_float(line[columns[head[5]]], "," if head is RUSSIAN else ".")
+        taken = value if value is not None and 0 <= value <= (most or 0) else None
+        found[participant] = taken, line[comment] if comment else ""
     return found
 
 
-def feedback_goes_to(name: str) -> tuple[int, str]:
-    """Participant and file of a zip's entry as ``assignfeedback_file_zip_importer`` reads it."""
-    parts = name.split("_", 4)
-    assert len(parts) == 5
-    assert (parts[2], parts[3]) == ("assignsubmission", "file")
-    return int(parts[1]), parts[4].lstrip("/")
+def feedback_goes_to(path: str) -> tuple[int, str]:
+    """Participant and file of a zip's entry as ``is_valid_filename_for_import`` reads it."""
+    parts = path.split("/")
+    assert parts[-1][0] not in ".~"  # hidden files are passed over
+    while parts:
+        info = parts.pop(0).split("_", 4)
+        if len(info) < 4 or not info[1].isdigit():
+            continue
+        assert (info[2], info[3]) == ("assignsubmission", "file")  # get_plugin_by_type
+        name = "/".join([info[4] if len(info) > 4 else "", *parts])
+        return int(info[1]), name.lstrip("/")  # clean_param makes one of several
+    raise AssertionError(path)
 
 
 @pytest.fixture(scope="module")
@@ -115,7 +133,8 @@ def test_feedback_files_reach_their_participants(graded):
 
 def row(points: float | None, **more) -> dict:
     made = {"number": 1, "student": "Иванов Имя", "email": "", "points": points, "manual": False,
-            "status": "проверено", "remark": "", "result": {"moodle_id": "101"}}  # fmt: skip
+            "status": "проверено", "remark": "",
+            "result": SimpleNamespace(moodle_id="101")}  # fmt: skip
     return made | more
 
 
@@ -137,6 +156,35 @@ def test_a_closed_grade_is_not_written():
     assert filled(text, [row(80.0)], 100, "w.csv").graded == 0
 
 
+def test_a_scale_is_left_to_a_person():
+    text = worksheet(RUSSIAN).replace("Максимальная оценка", "Шкала").replace("100,00", "зачтено")
+    made = filled(text, [row(80.0)], 100, "w.csv")
+    assert made.graded == 0
+    assert made.left == ("Имя Иванов: в задании шкала, а не баллы",)
+
+
+def test_a_remark_is_html_and_a_persons_comment_is_not_wiped_out():
+    text = worksheet(ENGLISH)
+    said = filled(text, [row(80.0, remark="R<0 & T>1")], 100, "w.csv").text
+    assert imported(said, ENGLISH)[101][1] == "R&lt;0 &amp; T&gt;1"
+    commented = text.replace(",-,", ",-,Молодец", 1)
+    kept = imported(filled(commented, [row(80.0)], 100, "w.csv").text, ENGLISH)
+    assert kept[101] == (80.0, "Молодец")
+
+
+@pytest.mark.parametrize("folder", ["Имя Иванов_101_assignsubmission_file",
+                                    "ДВС-1-Имя Иванов_101_assignsubmission_file_"])  # fmt: skip
+def test_folders_of_all_versions_are_read(tmp_path, folder):
+    """Since 4.1 the folder has no last ``_``; with groups their name stands first."""
+    with zipfile.ZipFile(tmp_path / "a.zip", "w") as archive:
+        archive.writestr(f"{folder}/работа.xlsx", b"x")
+    (found,) = collect(tmp_path / "a.zip")
+    assert found.moodle_id == "101"
+
+
 def test_another_file_is_refused():
+    no_times = worksheet(RUSSIAN).replace("Последнее изменение (оценка)", "Время")
+    with pytest.raises(InputError, match="это не ведомость оценивания Moodle"):
+        filled(no_times, [], 100, "w.csv")
     with pytest.raises(InputError, match="это не ведомость оценивания Moodle"):
         filled("a;b\n1;2\n", [], 100, "w.csv")

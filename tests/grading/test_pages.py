@@ -2,8 +2,17 @@
 
 from __future__ import annotations
 
+import io
+from types import SimpleNamespace
+
+import pytest
+from openpyxl import load_workbook
+
+from reports.grading.judging.works import Entry
 from reports.grading.pages.chart import line_chart
+from reports.grading.pages.gradebook import gradebook_xlsx
 from reports.grading.pages.pages import number, student_page
+from reports.grading.pages.printed import TITLE
 from tests.grading import classroom
 from tests.grading.test_verdicts import formulas, graded, line
 
@@ -41,3 +50,28 @@ def test_full_feedback_draws_both_curves():
     assert line_chart(chart["x"], chart["own"], chart["right"]) in html
     assert html.count('class="right"') == 2  # the curve and its sample in the legend
     assert all(f">{number(cell['right'], item['digits'])}<" in html for cell in item["cells"])
+
+
+@pytest.mark.parametrize(("students", "tables", "pages"), [(30, 17, 1), (140, 17, 2), (140, 24, 2)])
+def test_a_class_is_printed_on_two_landscape_pages(students, tables, pages):
+    entries = [
+        Entry(f"t{i}.x", f"Таблица П4.{i}", "", "", "right", 1.5, 1.5, "", "", None)
+        for i in range(tables)
+    ]
+    rows = [
+        {"number": n, "student": f"Константинопольский Александр {n}", "group": "ДВС-1",
+         "points": 98.76, "status": "нужна ручная проверка", "remark": "", "file": "", "manual": 0,
+         "decision": None, "result": SimpleNamespace(items=entries)}
+        for n in range(1, students + 1)
+    ]  # fmt: skip
+    sheet = load_workbook(io.BytesIO(gradebook_xlsx(rows, 100)))[TITLE]
+    assert sheet.max_row == students + 1
+    assert sheet.cell(students + 1, 6).value == 1.5
+    assert (sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight) == (1, pages)
+    # A landscape A4 without margins, in points; a column is wider than its digits by 5 pixels.
+    heights = [sheet.row_dimensions[n].height for n in range(1, students + 2)]
+    on_page = -(-students // pages)
+    assert sum(heights[: on_page + 1]) < 595 - 72 * (0.3 + 0.45)
+    widths = [sheet.column_dimensions[cell.column_letter].width for cell in sheet[1]]
+    assert sum(7 * width + 5 for width in widths) * 0.75 < (842 - 72 * 0.6) * 1.1  # shrunk little
+    assert sheet.cell(2, 2).font.size >= 5.4

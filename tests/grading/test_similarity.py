@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
-from reports.grading.judging.similarity import signals
+import json
+import tracemalloc
+
+from reports.grading.judging import similarity
+from reports.grading.judging.works import Work, work_of
+from tests.grading import classroom
+from tests.grading.fill import filled_book
 
 
 def result(number: int, **more) -> dict:
@@ -15,7 +21,17 @@ def result(number: int, **more) -> dict:
 
 
 def line(item: str, mark: str, right: str, of: float = 1.0) -> dict:
-    return {"id": item, "mark": mark, "right_mark": right, "of": of}
+    return {"id": item, "mark": mark, "right_mark": right.ljust(16), "of": of, "verdict": "wrong",
+            "heading": "", "label": item, "title": "", "points": 0.0, "cause": ""}  # fmt: skip
+
+
+def works(results: list[dict]) -> list[Work]:
+    shared: dict = {}
+    return [work_of(result, shared) for result in results]
+
+
+def signals(results: list[dict]) -> list[str]:
+    return similarity.signals(works(results))
 
 
 def test_different_works_give_no_signal():
@@ -52,3 +68,29 @@ def test_files_that_one_person_saved_last():
 def test_foreign_identifiers_are_told():
     (text,) = signals([result(1, manual=["идентификатор выдан: Петров"])])
     assert text == "Студент 1 (1.xlsx): идентификатор выдан: Петров"
+
+
+def distinct(result: dict, number: int) -> dict:
+    """The work of another student with another variant: other right values, other wrong ones."""
+    mine = json.loads(json.dumps(result))
+    for line in mine["items"]:
+        for mark in ("right_mark", "mark"):
+            if line.get(mark):
+                line[mark] = f"{number:08d}{line[mark][8:]}"
+    mine |= {"number": number, "key": f"{number}.xlsx", "sha256": f"{number}"}
+    return mine | {"student": f"Студент {number}"}
+
+
+def test_a_class_of_a_thousand_fits_into_memory():
+    wrong = {"omega": ["=regime_speed_rpm*PI()/60"]}
+    result = classroom.marks(filled_book(classroom.handout(), classroom.assignment(), wrong))
+    assert len(json.dumps(result)) > 60_000
+    shared: dict = {}
+    kept = [work_of(distinct(result, number), shared) for number in (1, 2)]
+    tracemalloc.start()
+    kept += [work_of(distinct(result, number), shared) for number in range(3, 43)]
+    taken = tracemalloc.get_traced_memory()[0] / 40
+    tracemalloc.stop()
+    assert taken < 6_000  # bytes of a work
+    assert [right for _, right in kept[1].rights] != [right for _, right in kept[2].rights]
+    assert similarity.signals(kept) == []

@@ -12,6 +12,7 @@ from typing import Any
 
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.judging.marking import rescored
+from reports.grading.judging.works import Work
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.files import write_text
 
@@ -60,7 +61,7 @@ def save_decisions(folder: Path, decisions: Sequence[Decision]) -> None:
 
 
 def decided(
-    kept: Sequence[Decision], register: Register, results: Sequence[dict[str, Any]],
+    kept: Sequence[Decision], register: Register, works: Sequence[Work],
     words: Sequence[tuple[str, str, str, str]], author: str,
 ) -> list[Decision]:  # fmt: skip
     """Decisions with those of a command added: who, what, points, remark.
@@ -70,11 +71,9 @@ def decided(
     """
     made = {(entry.number, entry.item): entry for entry in kept}
     for who, what, points, remark in words:
-        book = _student(register, results, who)
+        book = _student(register, works, who)
         item = WHOLE if what.strip().casefold() in _WHOLE_WORDS else what.strip()
-        known = {
-            line["id"] for r in results if r.get("number") == book.number for line in r["items"]
-        }
+        known = {line.id for work in works if work.number == book.number for line in work.items}
         if item and item not in known:
             hint = "имена столбцов — на странице студента в results/*.json: P3_1.s_mm"
             raise InputError(Problem(item, "в работе нет такого столбца", hint))
@@ -100,7 +99,7 @@ def _points(text: str, maximum: float) -> float:
     return value
 
 
-def _student(register: Register, results: Sequence[dict[str, Any]], who: str) -> Issued:
+def _student(register: Register, works: Sequence[Work], who: str) -> Issued:
     wanted = who.strip().casefold()
     hits = [
         book
@@ -109,7 +108,7 @@ def _student(register: Register, results: Sequence[dict[str, Any]], who: str) ->
     ]
     hits = hits or [b for b in register.books if b.student.surname.casefold() == wanted]
     if not hits:
-        numbers = {r["number"] for r in results if r["file"] == who or r["key"] == who}
+        numbers = {work.number for work in works if who in (work.file, work.key)}
         hits = [book for book in register.books if book.number in numbers]
     if len(hits) != 1:
         what = "таких студентов несколько" if hits else "нет такого студента"

@@ -14,7 +14,6 @@ from typing import Any
 
 from reports.grading.batch.cluster import grade_far
 from reports.grading.batch.decisions import (
-    Decision,
     applied,
     decided,
     from_gradebook,
@@ -26,6 +25,7 @@ from reports.grading.issuing.issue import latin
 from reports.grading.issuing.register import FILE, Register, checked_register, load_register
 from reports.grading.issuing.rubric import load_rubric
 from reports.grading.judging.marking import FORMAT, Marker, blank_result
+from reports.grading.judging.works import Shared, Work, work_of
 from reports.grading.pages.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
 from reports.grading.pages.moodle import feedback_zip, filled, read_worksheet
 from reports.grading.pages.pages import class_page, student_page
@@ -106,7 +106,7 @@ def grade(
     with Progress("Проверка работ") as progress:
         for outcome in outcomes:
             batch.take(outcome)
-            progress.step(_progress(len(batch.results), len(submissions), batch.reused, started))
+            progress.step(_progress(len(batch.works), len(submissions), batch.reused, started))
         batch.decide(options)
         summary = batch.finish()
     if options.worksheet is not None:
@@ -138,15 +138,19 @@ def decide(folder: Path, options: Options) -> Graded:
     batch = _Batch(load_register(folder / RESULTS / FILE), folder)
     batch.take_over()
     batch.decide(options)
-    return Graded(folder, batch.finish(), len(batch.results), time.monotonic() - started)
+    return Graded(folder, batch.finish(), len(batch.works), time.monotonic() - started)
 
 
 class _Batch:
-    """The results of a batch on disk, so that it can be stopped and started again."""
+    """The results of a batch on disk, so that it can be stopped and started again.
+
+    In memory there is only what the tables of the class need of each work.
+    """
 
     def __init__(self, register: Register, folder: Path) -> None:
         self.register, self.folder = register, folder
-        self.results: dict[str, dict[str, Any]] = {}
+        self.works: dict[str, Work] = {}
+        self._shared: Shared = {}
         self.waiting: list[Submission] = []
         self.register_file = folder / RESULTS / FILE
         self._written = time.monotonic()
@@ -154,7 +158,6 @@ class _Batch:
             f"{FORMAT} {register.json_text()}".encode() + _program().encode()
         ).hexdigest()
         self._hashes: dict[str, str] = {}
-        self.decisions: list[Decision] = []
         self._taken_over = 0
 
     @property
@@ -170,9 +173,8 @@ class _Batch:
         """
         for path in sorted((self.folder / RESULTS).glob("*.json")):
             if path.name != FILE:
-                result = json.loads(path.read_text(encoding="utf-8"))
-                self.results[result["key"]] = result
-        if not self.results:
+                self._keep(json.loads(path.read_text(encoding="utf-8")))
+        if not self.works:
             hint = "укажите папку, в которую проверены работы"
             raise InputError(Problem(str(self.folder), "здесь нет проверенных работ", hint))
 
@@ -180,16 +182,17 @@ class _Batch:
         """Decisions kept, written into the gradebook and given with the command."""
         kept = load_decisions(self.folder)
         found = from_gradebook(self.folder / "gradebook.xlsx", kept)
-        results = list(self.results.values())
-        found = decided(found, self.register, results, options.decisions, options.author)
+        works = list(self.works.values())
+        found = decided(found, self.register, works, options.decisions, options.author)
         if found or kept:
             save_decisions(self.folder, found)
-        self.decisions = found
         touched = {entry.number for entry in (*kept, *found)}
-        for result in results:
-            if result.get("number") in touched:
-                page = student_page(applied(result, found), self.register.rubric)
-                write_text(self.folder / result["page"], page)
+        for work in works:
+            if work.number in touched:
+                path = self.folder / RESULTS / f"{Path(work.page).stem}.json"
+                result = applied(json.loads(path.read_text(encoding="utf-8")), found)
+                write_text(self.folder / work.page, student_page(result, self.register.rubric))
+                self._keep(result)
 
     def start(self, submissions: Sequence[Submission]) -> None:
         """Take over what an earlier run has finished of the same files under the same rules."""
@@ -204,13 +207,16 @@ class _Batch:
         for submission in submissions:
             self._hashes[submission.key] = self._fingerprint(submission)
             earlier = done.get(submission.key)
-            if earlier and earlier["fingerprint"] == self._hashes[submission.key]:
-                self.results[submission.key] = earlier
+            if earlier and earlier.fingerprint == self._hashes[submission.key]:
+                self.works[submission.key] = earlier
                 self._taken_over += 1
             else:
                 self.waiting.append(submission)
 
-    def _earlier(self, keys: set[str]) -> dict[str, dict[str, Any]]:
+    def _keep(self, result: dict[str, Any]) -> None:
+        self.works[result["key"]] = work_of(result, self._shared)
+
+    def _earlier(self, keys: set[str]) -> dict[str, Work]:
         found = {}
         for path in sorted((self.folder / RESULTS).glob("*.json")):
             if path.name == FILE:
@@ -222,7 +228,7 @@ class _Batch:
             except (OSError, ValueError, KeyError, TypeError, AssertionError):
                 continue
             if key in keys and page.exists():
-                found[key] = result
+                found[key] = work_of(result, self._shared)
             else:  # of a file that is no longer there
                 path.unlink(missing_ok=True)
                 if page.parent == self.folder / PAGES:
@@ -251,14 +257,14 @@ class _Batch:
         write_text(self.folder / result["page"], page)
         text = json.dumps(result, ensure_ascii=False, allow_nan=False, sort_keys=True) + "\n"
         write_text(self.folder / RESULTS / f"{stem}.json", text)
-        self.results[submission.key] = result
+        self._keep(result)
         if time.monotonic() - self._written > _EVERY_S:
             self._tables()
 
     @property
-    def ordered(self) -> list[dict[str, Any]]:
-        """Results in the order of their keys, whatever the order in which they came."""
-        return [applied(self.results[key], self.decisions) for key in sorted(self.results)]
+    def ordered(self) -> list[Work]:
+        """Works in the order of their keys, whatever the order in which they came."""
+        return [self.works[key] for key in sorted(self.works)]
 
     def _tables(self) -> list[dict[str, Any]]:
         rows = table_rows(self.register, self.ordered)
@@ -273,7 +279,7 @@ class _Batch:
         maximum = self.register.rubric.maximum
         write_bytes(self.folder / "gradebook.xlsx", gradebook_xlsx(rows, maximum))
         write_text(self.folder / "moodle.csv", moodle_csv(rows))
-        if any(result.get("moodle_id") for result in self.ordered):
+        if any(work.moodle_id for work in self.ordered):
             write_bytes(self.folder / "moodle-feedback.zip", feedback_zip(rows, self.folder))
         write_text(self.folder / "summary.html", class_page(summary))
         data = {**summary, "rows": [{k: v for k, v in r.items() if k != "result"} for r in rows]}
@@ -301,8 +307,8 @@ class _Batch:
         from reports.shared.doctor import need_pango
 
         need_pango()
-        for result in self.ordered:
-            page = self.folder / result["page"]
+        for work in self.ordered:
+            page = self.folder / work.page
             made = render(page.read_text(encoding="utf-8"), variant=None)
             write_bytes(page.with_suffix(".pdf"), made.pdf)
 

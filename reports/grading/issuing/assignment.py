@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from functools import cached_property
@@ -20,6 +20,7 @@ from reports.spec.graph import Graph, graph_of, nodes_of
 
 _LIKE = re.compile(r"\s*\(\d+\)$")  # sheets of one kind: «П4.3 (2)»
 _COPY = 0.3
+_PICKS = ("element", "col_last")
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,8 +69,32 @@ class Assignment:
 
     @cached_property
     def items(self) -> tuple[Item, ...]:
-        """All items, in the order of the book."""
-        return tuple(item for block in self.fill for item in _items(block, self.model))
+        """All items, in the order of the book: what a person would calculate."""
+        found = [item for block in self.fill for item in _items(block, self.model)]
+        found = [item for item in found if not all(map(self._is_fixed, item.nodes))]
+        helpers = frozenset(node for item in found if item.helper for node in item.nodes)
+        read: dict[str, list[str]] = {}
+        for node in self.model.nodes if helpers else ():
+            for name in self.graph.references(node) & helpers:
+                read.setdefault(name, []).append(node)
+        return tuple(
+            item
+            for item in found
+            if not (item.helper and all(self._is_idle(n, read.get(n, ())) for n in item.nodes))
+        )
+
+    def _is_fixed(self, node: str) -> bool:
+        """Whether a value only marks or remarks something, or is a number from a book."""
+        text = self.graph.expression(node)
+        return text is not None and all(map(_is_constant, _outcomes(parse(text))))
+
+    def _is_idle(self, node: str, readers: Sequence[str]) -> bool:
+        """Whether a helper serves nothing but marks and remarks, or a drawing alike for all."""
+        if readers and all(map(self._is_fixed, readers)):
+            return True
+        return all(
+            "." in n and self.graph.expression(n) is None for n in self.graph.ancestors(node)
+        )
 
     @cached_property
     def points(self) -> Mapping[str, float]:
@@ -253,7 +278,7 @@ def _needed(model: Model, fill: Iterable[Block]) -> set[str]:
     return {graph.owners[name] for name in nodes if name in graph.owners}
 
 
-def _items(block: Block, model: Model) -> Iterable[Item]:
+def _items(block: Block, model: Model) -> Iterator[Item]:
     if isinstance(block, TableSpec):
         for column in block.columns:
             if column.expr is not None and not _is_mark(column):
@@ -281,11 +306,26 @@ def _is_mark(column: Column) -> bool:
 
 
 def _is_copy(text: str) -> bool:
-    """Whether a formula only repeats another value, or its opposite."""
+    """Whether a formula only repeats another value, or its opposite, or picks it from a run."""
     tree = parse(text)
     if isinstance(tree, ast.UnaryOp):
         tree = tree.operand
+    if isinstance(tree, ast.Call) and isinstance(tree.func, ast.Name):
+        tree = tree.args[0] if tree.func.id in _PICKS else tree
     return isinstance(tree, (ast.Name, ast.Attribute))
+
+
+def _outcomes(tree: ast.expr) -> Iterator[ast.expr]:
+    """What a formula may come to, whatever its conditions say."""
+    if isinstance(tree, ast.IfExp):
+        yield from _outcomes(tree.body)
+        yield from _outcomes(tree.orelse)
+    else:
+        yield tree
+
+
+def _is_constant(tree: ast.expr) -> bool:
+    return not any(isinstance(part, (ast.Name, ast.Attribute)) for part in ast.walk(tree))
 
 
 def _column_item(table: TableSpec, column: Column) -> Item:

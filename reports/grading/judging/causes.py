@@ -30,6 +30,7 @@ from reports.grading.judging.tolerances import close, tolerance
 from reports.grading.judging.verdicts import Judgement
 from reports.grading.reading.student import Student, known_values
 from reports.inputs.sections.input_file import METHODS
+from reports.shared.russian import fixed
 from reports.spec.blocks import TableSpec
 from reports.spec.evaluation import Evaluation
 from reports.spec.graph import node_of
@@ -130,8 +131,9 @@ class Causes:
     ) -> Iterator[tuple[str, Array | None]]:
         yield "обратный знак", -right
         for factor in _FACTORS:
-            yield f"значения больше правильных в {factor:g} раз: проверьте единицы", right * factor
-            yield f"значения меньше правильных в {factor:g} раз: проверьте единицы", right / factor
+            times = fixed(factor, 0)
+            yield f"значения больше правильных в {times} раз: проверьте единицы", right * factor
+            yield f"значения меньше правильных в {times} раз: проверьте единицы", right / factor
         if not item.is_column:
             yield from self._inputs(item, run)
         yield "результат в градусах вместо радиан", np.degrees(right)
@@ -263,7 +265,8 @@ class Causes:
         if not item.is_column:
             for key, scalar in self._neighbours(item):
                 value = run.value(key)
-                if not isinstance(value, str):
+                # A nought is no value of another quantity that happens to be one.
+                if not isinstance(value, str) and round(value, item.quantity.digits.decimals):
                     yield f"это значение величины {scalar}", np.array([float(value)])
             return
         model = self.student.assignment.model

@@ -41,7 +41,7 @@ from reports.workbook.intake import check_data
 from reports.workbook.layout import Layout
 from reports.workbook.package import Package
 
-FORMAT = 3
+FORMAT = 4
 Result = dict[str, Any]
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Item
+from reports.grading.judging.lists import listed, reads_a_list
 from reports.grading.judging.settled import EXACT, settled
 from reports.grading.judging.tolerances import close, tolerance
 from reports.grading.judging.trials import Trial
@@ -27,17 +28,13 @@ from reports.recalculation.bench import (
     rounded_to,
     unrounded_grid,
 )
-from reports.recalculation.formulas import Formula
 from reports.recalculation.grid import Run
 from reports.recalculation.language import UnknownFormula
 
 Array = NDArray[np.float64]
 
 # What is said of a cell.
-RIGHT, ROUNDED, PARTLY, STILL, WRONG, NOTHING, UNKNOWN = "prtsw-u"
-_ALIKE = 3  # formulas that differ in nothing but their numbers, to be a list of numbers
-_MANY = 8  # long numbers in one formula, to be a list of numbers
-_LONG = 5  # digits of a number that nobody knows by heart
+RIGHT, ROUNDED, PARTLY, STILL, WRONG, NOTHING, UNKNOWN, PASTED = "prtsw-ul"
 _INSIDE = 2e-3  # share of a column that roundings inside a formula may cost
 
 
@@ -232,7 +229,8 @@ class Response:
         place = self.student.placement.places[node]
         index = {row: i for i, row in enumerate(place.rows) if row is not None}
         letters = [NOTHING] * count
-        listed = _listed(self.student.runs(node))
+        lists = listed(self.student.runs(node))
+        pasted: bool | None = None
         right = self._right(item, node)
         good = self._good(item, values, right)
         roughly = self._rounded_good(item, node, values, right)
@@ -244,7 +242,11 @@ class Response:
             elif roughly is not None and all(roughly[i] for i in at):
                 word = ROUNDED
             for i in at:
-                letters[i] = self._word(i, word, values, right, good, listed=id(run) in listed)
+                letter = self._word(i, word, values, right, good, listed=id(run) in lists)
+                if letter == PARTLY or (letter == word and not good[1][i]):
+                    pasted = reads_a_list(self.student, node) if pasted is None else pasted
+                    letter = PASTED if pasted else letter
+                letters[i] = letter
         return "".join(letters)
 
     def _word(
@@ -361,38 +363,3 @@ def _differ(first: float, second: float) -> bool:
     if np.isnan(first) or np.isnan(second):
         return bool(np.isnan(first) != np.isnan(second))
     return bool(abs(first - second) > 1e-9 * max(abs(first), abs(second)) + 1e-12)
-
-
-def _listed(runs: Sequence[Run]) -> set[int]:
-    """Runs that are a list of numbers: alike but for them, or full of them."""
-    alike: dict[tuple[tuple[str, str], ...], list[Run]] = {}
-    found = set()
-    for run in runs:
-        if run.formula is None:
-            continue
-        alike.setdefault(_skeleton(run.formula), []).append(run)
-        if _long_numbers(run.formula) >= _MANY:
-            found.add(id(run))
-    for group in alike.values():
-        numbers = {
-            tuple(v for kind, v in run.formula.pattern if kind == "number")
-            for run in group
-            if run.formula is not None
-        }
-        if len(numbers) >= _ALIKE:
-            found |= {id(run) for run in group}
-    return found
-
-
-def _skeleton(formula: Formula) -> tuple[tuple[str, str], ...]:
-    return tuple((kind, "") if kind == "number" else (kind, v) for kind, v in formula.pattern)
-
-
-def _long_numbers(formula: Formula) -> int:
-    return len(
-        {
-            value
-            for kind, value in formula.pattern
-            if kind == "number" and len(value.replace(".", "").strip("0")) >= _LONG
-        }
-    )

@@ -7,19 +7,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import combinations
-from typing import Any
 
-Results = Sequence[dict[str, Any]]
+from reports.grading.judging.works import Work
+
+Works = Sequence[Work]
 
 _COMMON = {"", "kshm", "openpyxl"}
 _FEW = 3  # students who share what the others do not have
 _SHARED = 3  # formulas, or columns, from which it is no chance
-_WRONG = ("wrong", "typed", "still")
 
 
-def signals(results: Results) -> list[str]:
+def signals(results: Works) -> list[str]:
     """Signals over all results of a batch, in a fixed order."""
-    graded = [result for result in results if result["status"] == "graded"]
+    graded = [result for result in results if result.status == "graded"]
     return [
         *_same_files(results),
         *_same_values(graded),
@@ -30,78 +30,77 @@ def signals(results: Results) -> list[str]:
     ]
 
 
-def suspicions(results: Results) -> dict[str, list[str]]:
+def suspicions(results: Works) -> dict[str, list[str]]:
     """Key of a result → why a person has to decide before it gives points."""
-    graded = [result for result in results if result["status"] == "graded"]
-    found: dict[str, list[str]] = {r["key"]: list(r["doubts"]) for r in results if r.get("doubts")}
+    graded = [result for result in results if result.status == "graded"]
+    found: dict[str, list[str]] = {r.key: list(r.doubts) for r in results if r.doubts}
     for group, shared in _sharing(graded, odd=True):
         for result in group:
             others = ", ".join(_who(other) for other in group if other is not result)
             text = f"те же необычные формулы, что у: {others} — {_named(shared, result)}"
-            found.setdefault(result["key"], []).append(text)
+            found.setdefault(result.key, []).append(text)
     for result, text in _foreign_values(graded):
-        found.setdefault(result["key"], []).append(text)
+        found.setdefault(result.key, []).append(text)
     for group in _file_groups(results):
-        if len({r.get("number") for r in group}) > 1:
+        if len({r.number for r in group}) > 1:
             for result in group:
                 others = ", ".join(_who(other) for other in group if other is not result)
-                found.setdefault(result["key"], []).append(f"тот же файл сдан: {others}")
+                found.setdefault(result.key, []).append(f"тот же файл сдан: {others}")
     return found
 
 
-def _who(result: dict[str, Any]) -> str:
-    name = result.get("student")
-    return f"{name} ({result['file']})" if name else str(result["file"])
+def _who(result: Work) -> str:
+    return f"{result.student} ({result.file})" if result.student else result.file
 
 
-def _named(items: Sequence[str], result: dict[str, Any], limit: int = 3) -> str:
+def _named(items: Sequence[str], result: Work, limit: int = 3) -> str:
     """Items as the student's page calls them."""
-    labels = {line["id"]: line.get("label", line["id"]) for line in result["items"]}
+    labels = {line.id: line.label for line in result.items}
     more = f" и ещё {len(items) - limit}" if len(items) > limit else ""
     return ", ".join(labels[item] for item in items[:limit]) + more
 
 
-def _groups(pairs: list[tuple[str, dict[str, Any]]]) -> dict[str, list[dict[str, Any]]]:
-    found: dict[str, list[dict[str, Any]]] = {}
+def _groups(pairs: list[tuple[str, Work]]) -> dict[str, list[Work]]:
+    found: dict[str, list[Work]] = {}
     for key, result in pairs:
         found.setdefault(key, []).append(result)
     return {
         key: group
         for key, group in sorted(found.items())
-        if len({result.get("number") or result["key"] for result in group}) > 1
+        if len({result.number or result.key for result in group}) > 1
     }
 
 
-def _file_groups(results: Results) -> list[list[dict[str, Any]]]:
-    found: dict[str, list[dict[str, Any]]] = {}
+def _file_groups(results: Works) -> list[list[Work]]:
+    found: dict[str, list[Work]] = {}
     for result in results:
-        if result.get("sha256"):
-            found.setdefault(result["sha256"], []).append(result)
+        if result.sha256:
+            found.setdefault(result.sha256, []).append(result)
     return [group for _, group in sorted(found.items()) if len(group) > 1]
 
 
-def _same_files(results: Results) -> list[str]:
+def _same_files(results: Works) -> list[str]:
     return [
         "одинаковые файлы: " + ", ".join(_who(result) for result in group)
         for group in _file_groups(results)
     ]
 
 
-def _same_values(graded: Results) -> list[str]:
+def _same_values(graded: Works) -> list[str]:
     """The same wrong values where the right ones differ, pair by pair."""
-    rights = {line["right_mark"] for r in graded for line in r["items"] if line.get("right_mark")}
-    by_mark: dict[tuple[str, str], list[tuple[str, dict[str, Any]]]] = {}
+    by_mark: dict[tuple[str, str], list[tuple[str, Work]]] = {}
     for result in graded:
-        for line in result["items"]:
-            mark = line.get("mark")
-            if mark and line["of"] > 0 and mark not in rights and _is_wrong(line):
-                by_mark.setdefault((line["id"], mark), []).append((line["right_mark"], result))
+        for line, right in result.rights:
+            if line.mark and line.of > 0:
+                by_mark.setdefault((line.id, line.mark), []).append((right, result))
+    wanted = {mark for _, mark in by_mark}
+    rights = {right for r in graded for _, right in r.rights if right in wanted}
     pairs: dict[tuple[str, str], list[str]] = {}
-    for (item, _), group in sorted(by_mark.items()):
-        if len(group) > _FEW:  # a usual mistake
+    for (item, mark), group in sorted(by_mark.items()):
+        if mark in rights or len(group) > _FEW:  # a usual mistake
             continue
         for (right, first), (other, second) in combinations(group, 2):
-            if right != other and first["number"] != second["number"]:
+            if right != other and first.number != second.number:
                 names = sorted((_who(first), _who(second)))
                 pairs.setdefault((names[0], names[1]), []).append(item)
     return [
@@ -113,27 +112,23 @@ def _same_values(graded: Results) -> list[str]:
     ][:200]
 
 
-def _is_wrong(line: dict[str, Any]) -> bool:
-    return line.get("verdict", "wrong") in _WRONG
-
-
-def _foreign_values(graded: Results) -> list[tuple[dict[str, Any], str]]:
+def _foreign_values(graded: Works) -> list[tuple[Work, str]]:
     """Wrong values that are the right ones of another's variant; he did nothing."""
-    owners: dict[tuple[str, str], list[dict[str, Any]]] = {}
+    wanted = {(line.id, line.mark) for r in graded for line in r.items if line.mark}
+    owners: dict[tuple[str, str], list[Work]] = {}
     for result in graded:
-        for line in result["items"]:
-            if line.get("right_mark"):
-                owners.setdefault((line["id"], line["right_mark"]), []).append(result)
+        for line, right in result.rights:
+            if (line.id, right) in wanted:
+                owners.setdefault((line.id, right), []).append(result)
     found = []
     for result in graded:
         sources: dict[str, list[str]] = {}
-        for line in result["items"]:
-            mark = line.get("mark")
-            if not mark or mark == line.get("right_mark") or not _is_wrong(line):
+        for line, right in result.rights:
+            if not line.mark or line.mark == right:
                 continue
-            for owner in owners.get((line["id"], mark), ())[:_FEW]:
-                if owner["number"] != result["number"]:
-                    sources.setdefault(_who(owner), []).append(line["id"])
+            for owner in owners.get((line.id, line.mark), ())[:_FEW]:
+                if owner.number != result.number:
+                    sources.setdefault(_who(owner), []).append(line.id)
         for name, items in sorted(sources.items()):
             if len(items) >= _SHARED:
                 text = f"значения верны для чужого варианта: {name} — {_named(items, result)}"
@@ -141,18 +136,18 @@ def _foreign_values(graded: Results) -> list[tuple[dict[str, Any], str]]:
     return found
 
 
-def _sharing(graded: Results, *, odd: bool) -> list[tuple[list[dict[str, Any]], list[str]]]:
+def _sharing(graded: Works, *, odd: bool) -> list[tuple[list[Work], list[str]]]:
     """Few students with the same formulas that no one else has, and these formulas' items."""
-    by_mark: dict[tuple[str, str], list[dict[str, Any]]] = {}
+    by_mark: dict[tuple[str, str], list[Work]] = {}
     for result in graded:
-        for item, (mark, strange) in result.get("formulas", {}).items():
-            if strange or not odd:
-                by_mark.setdefault((item, mark), []).append(result)
+        for line in result.items:
+            if line.formula and (line.formula[1] or not odd):
+                by_mark.setdefault((line.id, line.formula[0]), []).append(result)
     shared: dict[tuple[str, ...], list[str]] = {}
-    known = {result["key"]: result for result in graded}
+    known = {result.key: result for result in graded}
     for (item, _), group in sorted(by_mark.items()):
-        if 1 < len({r["number"] for r in group}) <= _FEW:
-            keys = tuple(sorted(result["key"] for result in group))
+        if 1 < len({r.number for r in group}) <= _FEW:
+            keys = tuple(sorted(result.key for result in group))
             shared.setdefault(keys, []).append(item)
     return [
         ([known[key] for key in keys], items)
@@ -161,8 +156,8 @@ def _sharing(graded: Results, *, odd: bool) -> list[tuple[list[dict[str, Any]], 
     ]
 
 
-def _same_formulas(graded: Results, *, odd: bool) -> list[str]:
-    if len({result["number"] for result in graded}) <= 2 * _FEW:
+def _same_formulas(graded: Works, *, odd: bool) -> list[str]:
+    if len({result.number for result in graded}) <= 2 * _FEW:
         return []  # in a small class nothing is rare
     return [
         "те же формулы, каких нет у других: "
@@ -172,22 +167,21 @@ def _same_formulas(graded: Results, *, odd: bool) -> list[str]:
     ]
 
 
-def _same_people(graded: Results) -> list[str]:
+def _same_people(graded: Works) -> list[str]:
     pairs = []
     for result in graded:
-        name = result.get("properties", {}).get("lastModifiedBy", "").strip()
-        if name.casefold() not in _COMMON:
-            pairs.append((name, result))
+        if result.saved_by.casefold() not in _COMMON:
+            pairs.append((result.saved_by, result))
     return [
         f"файлы последним сохранил «{name}»: " + ", ".join(_who(result) for result in group)
         for name, group in _groups(pairs).items()
     ]
 
 
-def _foreign(results: Results) -> list[str]:
+def _foreign(results: Works) -> list[str]:
     found = []
     for result in results:
-        for text in result["manual"]:
+        for text in result.manual:
             if "идентификатор" in text:
                 found.append(f"{_who(result)}: {text}")
     return found

@@ -35,6 +35,7 @@ WORDS = {
     RIGHT: "верно",
 }
 _ROUND = "круговая ссылка: величина считается через саму себя"
+_PASTED = "считает от столбца вписанных чисел, и не для всех исходных данных верно: откуда они?"
 _ENOUGH = 0.5  # share of right rows from which a column is paid by rows
 
 
@@ -148,6 +149,8 @@ def _by_rows(
         runs = [run for node in item.nodes for run in student.runs(node)]
         plain = not any(True for run in runs for _ in student.grid.located(run))
         words = [(TYPED if plain else STILL) if w in (RIGHT, STILL) else w for w in words]
+    if any(good[i] for i, letter in enumerate(letters) if letter == say.PASTED):
+        return replace(made, verdict=UNKNOWN, typed=(), reason=_PASTED)
     counts = {word: words.count(word) for word in dict.fromkeys(words)}
     if set(words) == {RIGHT}:
         return replace(made, paid=1.0, typed=(), coarse=say.ROUNDED in letters)

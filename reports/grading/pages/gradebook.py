@@ -47,7 +47,7 @@ def moodle_csv(rows: Sequence[dict[str, Any]]) -> str:
         result = row["result"]
         if row["number"] is None or result is None:
             continue
-        participant = f"Participant {result['moodle_id']}" if result["moodle_id"] else ""
+        participant = f"Participant {result.moodle_id}" if result.moodle_id else ""
         # No grade where a person has to look first.
         grade = "" if row["points"] is None or row["manual"] else f"{row['points']:g}"
         texts = [participant, row["student"], row["email"], row["id"]]
@@ -56,11 +56,12 @@ def moodle_csv(rows: Sequence[dict[str, Any]]) -> str:
 
 
 def gradebook_xlsx(rows: Sequence[dict[str, Any]], maximum: float) -> bytes:
-    """The gradebook as a workbook: marks on one printed page, points by tables on the next."""
+    """The gradebook as a workbook: for reading, for deciding, and a sheet for the printer."""
     from openpyxl import Workbook
     from openpyxl.styles import Alignment, Font, PatternFill, Protection
     from openpyxl.worksheet.pagebreak import Break, ColBreak
 
+    from reports.grading.pages.printed import add_printed
     from reports.workbook.caches import finish
     from reports.workbook.styles import as_text
 
@@ -107,6 +108,7 @@ def gradebook_xlsx(rows: Sequence[dict[str, Any]], maximum: float) -> bytes:
     sheet.col_breaks.append(Break(id=len(head)))
     sheet.oddFooter.center.text = "Лист &P из &N"
     sheet.page_margins.left = sheet.page_margins.right = 0.4
+    add_printed(book, rows, [_shares(row) for row in rows], blocks)
     stream = io.BytesIO()
     book.save(stream)
     return finish(stream.getvalue())
@@ -115,18 +117,18 @@ def gradebook_xlsx(rows: Sequence[dict[str, Any]], maximum: float) -> bytes:
 def _blocks(rows: Sequence[dict[str, Any]]) -> list[str]:
     found: dict[str, None] = {}
     for row in rows:
-        for line in (row["result"] or {}).get("items", []):
-            if line["of"]:
-                found.setdefault(line["heading"])
+        for line in row["result"].items if row["result"] else ():
+            if line.of:
+                found.setdefault(line.heading)
     return list(found)
 
 
 def _shares(row: dict[str, Any]) -> dict[str, float]:
     """Points of each table before the factor for lateness."""
     found: dict[str, float] = {}
-    for line in (row["result"] or {}).get("items", []):
-        if line["of"]:
-            found[line["heading"]] = found.get(line["heading"], 0.0) + line["points"]
+    for line in row["result"].items if row["result"] else ():
+        if line.of:
+            found[line.heading] = found.get(line.heading, 0.0) + line.points
     return {block: round(value, 2) for block, value in found.items()}
 
 

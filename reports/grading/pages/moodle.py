@@ -1,14 +1,17 @@
 """Moodle's own forms: the offline grading worksheet filled in, feedback files in a zip.
 
-The rules are those of Moodle's import (``mod/assign/feedback/offline`` and ``file``): a line is
-found by the number in its first column, all columns stay as they were downloaded, a grade
-is written as the language of the worksheet writes it; a file goes to the participant whose
-number is the second part of its folder's name, of five divided by ``_``.
+The rules are those of Moodle's import (``mod/assign/feedback/offline/importgradeslib.php`` and
+``file/importziplib.php``): columns are found by their exact titles in the reader's language, that
+of the time of the last grade among them; a line by the number at the end of its identifier; a
+grade is written as the language of the worksheet writes it, and a scale takes words alone; a
+comment is HTML.  A file goes to the participant whose number is the second part of its folder's
+name, of four or five divided by ``_``.
 """
 
 from __future__ import annotations
 
 import csv
+import html
 import io
 import re
 import zipfile
@@ -27,6 +30,9 @@ _EPOCH = (1980, 1, 1, 0, 0, 0)
 _HEADS = {
     "id": ("identifier", "идентификатор"),
     "grade": ("grade", "оценка"),
+    "modified": ("last modified (grade)", "последнее изменение (оценка)",
+                 "последнее изменение оценки"),
+    "scale": ("scale", "шкала"),
     "maximum": ("maximum grade", "максимальная оценка", "максимальный балл"),
     "open": ("grade can be changed", "оценка может быть изменена", "оценку можно изменить"),
     "feedback": ("feedback comments", "отзыв в виде комментария", "отзыв в комментариях",
@@ -55,7 +61,7 @@ def read_worksheet(path: Path) -> str:
     try:
         data = path.read_bytes()
     except OSError as error:
-        hint = "скачайте её в задании Moodle: «Скачать ведомость оценивания»"
+        hint = "скачайте её в задании Moodle: «Скачать ведомость с оценками»"
         what = f"ведомость не читается: {reason(error)}"
         raise InputError(Problem(str(path), what, hint)) from None
     try:
@@ -76,8 +82,8 @@ def filled(text: str, rows: Sequence[dict[str, Any]], maximum: float, source: st
     delimiter = max(",;\t", key=text.partition("\n")[0].count)
     lines = list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter))
     at = _columns(lines[0] if lines else [])
-    if "id" not in at or "grade" not in at:
-        hint = "нужны столбцы Identifier и Grade (Идентификатор и Оценка)"
+    if not at.keys() >= {"id", "grade", "modified"}:
+        hint = "нужны её столбцы «Идентификатор», «Оценка», «Последнее изменение (оценка)»"
         raise InputError(Problem(source, "это не ведомость оценивания Moodle", hint))
     russian = lines[0][at["grade"]].strip().casefold() == "оценка"
     graded, left = 0, []
@@ -92,6 +98,9 @@ def filled(text: str, rows: Sequence[dict[str, Any]], maximum: float, source: st
         if row["points"] is None or row["manual"]:
             left.append(f"{who}: {row['status']}")
             continue
+        if "scale" in at:
+            left.append(f"{who}: в задании шкала, а не баллы")
+            continue
         if "open" in at and line[at["open"]].strip().casefold() in _NO:
             left.append(f"{who}: оценка в Moodle закрыта")
             continue
@@ -99,8 +108,8 @@ def filled(text: str, rows: Sequence[dict[str, Any]], maximum: float, source: st
         points = round(row["points"] * most / maximum, 2) if most else row["points"]
         grade = f"{points:.2f}"
         line[at["grade"]] = grade.replace(".", ",") if russian else grade
-        if "feedback" in at:
-            line[at["feedback"]] = neutralised(row["remark"])
+        if "feedback" in at and row["remark"]:  # else a person's comment stays
+            line[at["feedback"]] = html.escape(neutralised(row["remark"]), quote=False)
         graded += 1
     stream = io.StringIO()
     csv.writer(stream, delimiter=delimiter, lineterminator="\n").writerows(lines)
@@ -123,7 +132,7 @@ def _by_key(rows: Sequence[dict[str, Any]]) -> dict[str, dict[str, Any]]:
     for row in rows:
         if row["number"] is None:
             continue
-        moodle = (row["result"] or {}).get("moodle_id", "")
+        moodle = row["result"].moodle_id if row["result"] else ""
         keys = (f"id {moodle}" if moodle else "", f"mail {row['email'].casefold()}",
                 f"name {_words(row['student'])}")  # fmt: skip
         for key in keys:
@@ -160,11 +169,11 @@ def feedback_zip(rows: Sequence[dict[str, Any]], pages: Path) -> bytes:
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
         for row in rows:
-            result = row["result"] or {}
-            if not result.get("moodle_id") or row["number"] is None or not row["page"]:
+            result = row["result"]
+            if not result or not result.moodle_id or row["number"] is None or not row["page"]:
                 continue
             name = row["student"].replace("_", " ").replace("/", " ")
-            folder = f"{name}_{result['moodle_id']}_assignsubmission_file_"
+            folder = f"{name}_{result.moodle_id}_assignsubmission_file_"
             data = (pages / row["page"]).read_bytes()
             info = zipfile.ZipInfo(f"{folder}/{FEEDBACK}", _EPOCH)
             archive.writestr(info, data, zipfile.ZIP_DEFLATED)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from datetime import datetime
 from functools import lru_cache
 from typing import Any
 
@@ -30,6 +31,7 @@ def _environment() -> Environment:
         "number": number,
         "points": points,
         "rows": rows,
+        "moment": moment,
         "capitalize_first": capital,
     }
     return environment
@@ -113,6 +115,11 @@ def number(value: float | None, digits: Mapping[str, Any] | None = None) -> str:
 def points(value: float) -> str:
     """Points without needless zeros."""
     return f"{round(value, 2):g}".replace(".", ",")
+
+
+def moment(text: str) -> str:
+    """A time as people write it: 05.12.2026 10:00."""
+    return datetime.fromisoformat(text).strftime("%d.%m.%Y %H:%M")
 
 
 def rows(labels: list[str], limit: int = 14) -> str:

@@ -4,61 +4,61 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from datetime import datetime
 from statistics import mean, median
 from typing import Any
 
 from reports.grading.issuing.register import Register
 from reports.grading.judging.similarity import signals, suspicions
 from reports.grading.judging.verdicts import CARRIED, EMPTY, RIGHT, TYPED
+from reports.grading.judging.works import Work
+from reports.grading.pages.pages import moment
 
 _BAR = 160  # px of the longest bar
 _STEPS = 10
 
 
-def choose(results: Sequence[dict[str, Any]], count: str = "last") -> dict[int, dict[str, Any]]:
+def choose(results: Sequence[Work], count: str = "last") -> dict[int, Work]:
     """The result that counts for each student: of several graded files the last or the best.
 
     One's own file comes before one that came under another's name.
     """
-    chosen: dict[int, dict[str, Any]] = {}
+    chosen: dict[int, Work] = {}
 
-    def order(result: dict[str, Any]) -> tuple[Any, ...]:
-        points = result.get("points") or 0.0
+    def order(result: Work) -> tuple[Any, ...]:
+        points = result.points or 0.0
         return (
-            result.get("submitter") is None,
-            result["status"] == "graded",
+            result.submitter is None,
+            result.status == "graded",
             points if count == "best" else 0.0,
-            result["time"] or "",
-            result["key"],
+            result.time,
+            result.key,
         )
 
     for result in sorted(results, key=order):
-        if result.get("number") is not None:
-            chosen[result["number"]] = result
+        if result.number is not None:
+            chosen[result.number] = result
     return chosen
 
 
-def table_rows(register: Register, results: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+def table_rows(register: Register, results: Sequence[Work]) -> list[dict[str, Any]]:
     """A row for each student of the register, then one for each file without an owner."""
     count = register.rubric.attempts.count
     chosen, held = choose(results, count), suspicions(results)
-    copies = Counter(
-        r["number"] for r in results if r.get("number") is not None and r.get("submitter") is None
-    )
-    strange = {r["submitter"]: r for r in results if r.get("submitter") is not None}
+    copies = Counter(r.number for r in results if r.number is not None and r.submitter is None)
+    strange = {r.submitter: r for r in results if r.submitter is not None}
     rows = []
     for book in register.books:
         result = chosen.get(book.number)
         other = strange.get(book.number) if result is None else None
-        doubts = held.get((result or other or {}).get("key", ""), [])
-        word = (result or {}).get("decision")
+        seen = result or other  # the file that is told of
+        doubts = held.get(seen.key, []) if seen else []
+        word = result.decision if result else None
         if word:  # a person has looked
             doubts = []
-        foreign = result is not None and result.get("submitter") is not None
+        foreign = result is not None and result.submitter is not None
         if result is not None and foreign and not doubts and not word:
-            doubts = list(result["manual"])
-        points = result.get("points") if result else None
+            doubts = list(result.manual)
+        points = result.points if result else None
         remarks = _remarks(result, copies[book.number], count)
         if other is not None:
             remarks = list(doubts)
@@ -72,64 +72,60 @@ def table_rows(register: Register, results: Sequence[dict[str, Any]]) -> list[di
                 "group": book.student.group,
                 "id": book.student.number,
                 "email": book.student.email,
-                "file": (result or other or {}).get("file", ""),
+                "file": seen.file if seen else "",
                 "status": "ждёт решения" if doubts else _status(result),
                 "points": None if doubts else points,
                 "provisional": points,
                 "result": result,
-                "page": result.get("page", "") if result else "",
-                "manual": bool(doubts or (result and result["manual"])),
+                "page": result.page if result else "",
+                "manual": bool(doubts or (result and result.manual)),
                 "remark": "; ".join(remarks),
                 "decision": word,
             }
         )
     for result in results:
-        if result.get("number") is None and result.get("submitter") is None:
+        if result.number is None and result.submitter is None:
             rows.append(
                 {
-                    "number": None, "student": f"? ({result['file']})", "group": "", "id": "",
-                    "email": "", "file": result["file"], "status": _status(result), "points": None,
-                    "provisional": None, "result": result, "page": result.get("page", ""),
-                    "manual": True, "remark": "; ".join(result["manual"]), "decision": None,
+                    "number": None, "student": f"? ({result.file})", "group": "", "id": "",
+                    "email": "", "file": result.file, "status": _status(result), "points": None,
+                    "provisional": None, "result": result, "page": result.page,
+                    "manual": True, "remark": "; ".join(result.manual), "decision": None,
                 }
             )  # fmt: skip
     return rows
 
 
-def _status(result: dict[str, Any] | None) -> str:
+def _status(result: Work | None) -> str:
     if result is None:
         return "не сдано"
     words = {"graded": "проверено", "refused": "не принято", "unmatched": "не опознано"}
-    word = words[result["status"]]
-    return "нужна ручная проверка" if result["status"] == "graded" and result["manual"] else word
+    word = words[result.status]
+    return "нужна ручная проверка" if result.status == "graded" and result.manual else word
 
 
-def _remarks(result: dict[str, Any] | None, copies: int, count: str) -> list[str]:
+def _remarks(result: Work | None, copies: int, count: str) -> list[str]:
     if result is None:
         return ["работа не сдана"]
-    found = [*result["manual"], *result["notes"]]
-    for entry in result.get("decisions", ()):
-        what = f" ({entry['item']})" if entry["item"] else ""
+    found = [*result.manual, *result.notes]
+    labels = {line.id: line.label for line in result.items}
+    for entry in result.decisions:
+        what = f" ({labels.get(entry['item'], entry['item'])})" if entry["item"] else ""
         found.append(f"решение преподавателя{what}: {entry['remark'] or 'без примечания'}")
     if copies > 1:
         which = "лучший" if count == "best" else "последний"
-        found.append(f"сдано файлов: {copies}, оценён {which} ({result['file']})")
+        found.append(f"сдано файлов: {copies}, оценён {which} ({result.file})")
     return found
 
 
-def _moment(text: str) -> str:
-    """A time as people write it: 05.12.2026 10:00."""
-    return datetime.fromisoformat(text).strftime("%d.%m.%Y %H:%M")
-
-
-def summarise(register: Register, results: Sequence[dict[str, Any]]) -> dict[str, Any]:
+def summarise(register: Register, results: Sequence[Work]) -> dict[str, Any]:
     """Everything that the page of the class shows."""
     rows = table_rows(register, results)
     chosen = choose(results, register.rubric.attempts.count)
-    graded = [r for _, r in sorted(chosen.items()) if r["status"] == "graded"]
+    graded = [r for _, r in sorted(chosen.items()) if r.status == "graded"]
     marks = [float(row["points"]) for row in rows if row["points"] is not None]
     held = suspicions(results)
-    times = sorted(r["time"] for r in chosen.values() if r["time"])
+    times = sorted(r.time for r in chosen.values() if r.time)
     return {
         "files": len(results),
         "students": len(register.books),
@@ -138,27 +134,27 @@ def summarise(register: Register, results: Sequence[dict[str, Any]]) -> dict[str
         "maximum": register.rubric.maximum,
         "mean": mean(marks) if marks else 0.0,
         "median": median(marks) if marks else 0.0,
-        "first_time": _moment(times[0]) if times else "",
-        "last_time": _moment(times[-1]) if times else "",
-        "late": sum(result.get("late", 1) < 1 for result in graded),
+        "first_time": moment(times[0]) if times else "",
+        "last_time": moment(times[-1]) if times else "",
+        "late": sum(result.late < 1 for result in graded),
         "distribution": _distribution(marks, register.rubric.maximum),
         "hardest": _hardest(graded),
         "signals": signals(results),
         "manual": [
             {
                 "who": _name(r),
-                "why": list(dict.fromkeys([*r["manual"], *held.get(r["key"], ())])),
-                "page": r.get("page", ""),
+                "why": list(dict.fromkeys([*r.manual, *held.get(r.key, ())])),
+                "page": r.page,
             }
             for r in results
-            if (r["manual"] or held.get(r["key"])) and not r.get("decision")
+            if (r.manual or held.get(r.key)) and not r.decision
         ],
         "rows": rows,
     }
 
 
-def _name(result: dict[str, Any]) -> str:
-    return str(result["student"] or result["file"])
+def _name(result: Work) -> str:
+    return result.student or result.file
 
 
 def _distribution(marks: list[float], maximum: float) -> list[dict[str, Any]]:
@@ -176,22 +172,22 @@ def _distribution(marks: list[float], maximum: float) -> list[dict[str, Any]]:
     ]
 
 
-def _hardest(graded: list[dict[str, Any]], limit: int = 15) -> list[dict[str, Any]]:
+def _hardest(graded: list[Work], limit: int = 15) -> list[dict[str, Any]]:
     lines: dict[str, dict[str, Any]] = {}
     causes: dict[str, Counter[str]] = {}
     for result in graded:
-        for line in result["items"]:
-            if not line["of"]:
+        for line in result.items:
+            if not line.of:
                 continue
             entry = lines.setdefault(
-                line["id"],
-                {"title": f"{line['label']} — {line['title']}", "right": 0, "carried": 0,
+                line.id,
+                {"title": f"{line.label} — {line.title}", "right": 0, "carried": 0,
                  "typed": 0, "wrong": 0, "empty": 0},
             )  # fmt: skip
-            verdict = line["verdict"]
+            verdict = line.verdict
             entry[verdict if verdict in (RIGHT, CARRIED, TYPED, EMPTY) else "wrong"] += 1
-            if line["cause"]:
-                causes.setdefault(line["id"], Counter())[line["cause"]] += 1
+            if line.cause:
+                causes.setdefault(line.id, Counter())[line.cause] += 1
     for key, entry in lines.items():
         found = causes.get(key)
         entry["cause"] = min(found, key=lambda c: (-found[c], c)) if found else ""

@@ -22,6 +22,7 @@ from reports.spec.evaluation import Evaluation
 from reports.workbook.layout import Layout
 
 Array = NDArray[np.float64]
+_MANY_AREAS = 100  # rectangles of one column that are looked at one by one
 LOST = "x"  # beside the kinds of ``recalculation.evaluate``
 
 
@@ -274,6 +275,23 @@ class Student:
             for number, column in columns.items()
             for row, value in column.constants.items()
             if type(value) is float and row not in taken.get((sheet, number), ())
+        ]
+
+    def own_numbers(self, node: str) -> list[float]:
+        """Numbers typed in outside the tables that a node's formulas refer to."""
+        read: dict[tuple[str, int], set[tuple[int, int]]] = {}
+        for run in self._seen_from(node)[1] if self.own_constants else ():
+            for area in self.grid.precedents(run):
+                for number in self.grid.columns_of(area):
+                    rows = read.setdefault((area.sheet, number), set())
+                    rows.add((area.first_row, area.last_row))
+                    if len(rows) > _MANY_AREAS:  # what lies between them as well
+                        ends = [row for pair in rows for row in pair]
+                        read[area.sheet, number] = {(min(ends), max(ends))}
+        return [
+            value
+            for sheet, number, row, value in self.own_constants
+            if any(first <= row <= last for first, last in read.get((sheet, number), ()))
         ]
 
     def helpers(self, node: str) -> list[Run]:

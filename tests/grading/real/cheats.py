@@ -50,6 +50,26 @@ def _scaled(by: str, key: str) -> Callable[[Desk], dict[str, object]]:
     return change
 
 
+def _times(
+    text: str, node: str, *, friend: bool = False, digits: int = 15
+) -> Callable[[Workbook, Desk], None]:
+    """A column pasted on a sheet of its own, scaled by the input data as the right one is."""
+
+    def edit(book: Workbook, here: Desk) -> None:
+        owner = desk(here.other.number) if friend else here
+        speed = owner.issued.drawn["regime.speed_rpm"]
+        sheet, place = book.create_sheet("Числа"), here.layout.columns[node]
+        for row, value in zip(rows(), owner.column(node), strict=False):
+            sheet.cell(row, 1).value = text.replace("{v}", repr(round(value, digits)))
+            if "=" not in text:
+                sheet.cell(row, 1).value = round(value, digits)
+            power = 1 if node == V1 else 2
+            formula = f"=Числа!A{row}*(regime_speed_rpm/{speed})^{power}"
+            book[place[0].sheet].cell(row, place[1]).value = formula
+
+    return edit
+
+
 def _only_mine(here: Desk) -> dict[str, object]:
     speed = here.issued.drawn["regime.speed_rpm"]
     return {S1: literals(f"=IF(regime_speed_rpm={speed},{{v}},D{{r}})", here.column(S1))}
@@ -223,6 +243,9 @@ CHEATS = (
         edit=_pasted("=INDEX(Расчёт!B:B,ROWS(A$1:A{r}))", V1),
         unpaid=(V1,),
     ),
+    Work("pasted and scaled", edit=_times("{v}", J1, digits=1), unpaid=(J1,)),
+    Work("a friend's column scaled", edit=_times("{v}", V1, friend=True), unpaid=(V1,)),
+    Work("formulas of numbers, scaled", edit=_times("={v}*1", J1), unpaid=(J1,)),
     Work("names of numbers", edit=_name_constant, unpaid=(S1,)),
     Work("everything pasted", edit=_solved_with_ticket, unpaid=_ALL),
     Work("a circle", lambda here: _CIRCLE, unpaid=tuple(_CIRCLE)),

@@ -238,6 +238,42 @@ def _notes(book: Workbook, desk: Desk) -> None:
     book["П3.1"]["N5"] = '=IF(ABS(D12-S_stroke*1000)<0.01,"сошлось","ошибка")'
 
 
+def _new_functions(desk: Desk) -> dict[str, Cells]:
+    moments = "'П4.1'!$A$6:$A$30,'П4.1'!$I$6:$I$30"
+    return {
+        "P4_2.M2_Nm": f"=_xlfn.XLOOKUP(MOD(A{{r}}-240,720),{moments})",
+        "P4_2.M3_Nm": "=INDEX('П4.1'!I:I,6+MOD(ROW()-6-16,24))",
+        "P4_1.T_MPa": f"=_xlfn.LET(_xlpm.a,{_RAD},_xlpm.b,J{{r}},"
+        "D{r}*SIN(_xlpm.a+_xlpm.b)/COS(_xlpm.b))",
+        "P4_4.Mmain2_Nm": "=SUMPRODUCT(--('П4.2'!$A$6:$A$30=A{r}),'П4.2'!$B$6:$B$30)",
+        "P4_5.Mpin1_Nm": "=+'П4.2'!B{r} * 50%",
+    }
+
+
+def _names_of_formulas(book: Workbook, desk: Desk) -> None:
+    names = {"рад": "PI()/180", "vr": "Массы!$C$5*Массы!$C$13", "половина": "0.5"}
+    for name, text in names.items():
+        book.defined_names[name] = DefinedName(name, attr_text=text)
+    for row in rows():
+        if row <= 18:
+            book["П3.1"].cell(row, 5).value = f"=vr*SIN(A{row}*рад)"
+        book["П4.5"].cell(row, 2).value = f"=половина*'П4.2'!B{row}"
+
+
+def _untidy(book: Workbook, desk: Desk) -> None:
+    """Hidden rows and sheets, merged cells, angles of one's own, sheets in another order."""
+    sheet = book["П4.1"]
+    sheet.merge_cells("N6:N8")
+    sheet["N6"] = "=omega"
+    for row in range(8, 20):
+        sheet.row_dimensions[row].hidden = True
+    for row in range(FIRST, 19):
+        book["П3.1"].cell(row, 14).value = f"=N{row - 1}+30" if row > FIRST else 0
+        book["П3.1"].cell(row, 5).value = f"=r_crank*'П4.1'!$N$6*SIN(RADIANS(N{row}))"
+    book["П3.1"].sheet_state = "hidden"
+    book._sheets.reverse()
+
+
 HONEST = (
     Work("as written"),
     Work("saved by LibreOffice", form="office"),
@@ -265,4 +301,7 @@ HONEST = (
     Work("noughts at dead centre", _zeros),
     Work("other functions", _functions),
     Work("own notes and checks", edit=_notes, form="office"),
+    Work("new functions", _new_functions),
+    Work("names of formulas", edit=_names_of_formulas),
+    Work("hidden, merged, in another order", edit=_untidy, form="office"),
 )

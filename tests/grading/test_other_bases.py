@@ -1,0 +1,171 @@
+"""A V engine, torsional vibration, bearings: the honest are paid, mistakes and cheats are not."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.grading.other_bases import Base
+
+V6 = Base(
+    "yamz-236",
+    {"geometry.bore_mm": {"min": 126.0, "max": 134.0, "step": 1.0},
+     "regime.speed_rpm": {"min": 1900, "max": 2200, "step": 20},
+     "masses.rod_kg": {"min": 4.2, "max": 5.0, "step": 0.1}},
+    ("geometry", "masses", "P4_1", "P4_2", "P4_4", "P4_5", "rods_1"),
+    {
+        "r_crank": "=geometry_stroke_mm/2000",
+        "omega": "=2*PI()*regime_speed_rpm/60",
+        "F_piston": "=PI()*(geometry_bore_mm/2000)^2",
+        "m_1": "=masses_rod_kg-{m_2}",
+        "m_2": "=masses_rod_kg*(1-masses_rod_small_end_share)",
+        "m_j": "=masses_piston_group_kg+masses_rod_kg*masses_rod_small_end_share",
+        "m_r": "=SUM({m_k},{m_2},{m_2})",
+        "K_r": "={m_r}*{r_crank}*{omega}^2*0.001",
+        "P4_1.T_MPa": "={P4_1.N_MPa}*COS(RADIANS(A{row}))+{P4_1.Ps_MPa}*SIN(RADIANS(A{row}))",
+        "P4_1.M_Nm": "={P4_1.T_MPa}*1E6*{F_piston}*{r_crank}",
+        "P4_2.M2_Nm": "=INDEX({|P4_1.M_Nm},MATCH({cylinder_2.phase_deg},{|P4_1.phi_deg},0))",
+        "P4_2.M4_Nm": "=_xlfn.XLOOKUP({cylinder_4.phase_deg},{|P4_1.phi_deg},{|P4_1.M_Nm})",
+        "P4_2.Msum_Nm": "=SUM({P4_2.M1_Nm}:{P4_2.M6_Nm})",
+        "P4_4.Mmain2_Nm": "={P4_2.M1_Nm}+{P4_2.M4_Nm}",
+        "P4_4.Mmain4_Nm": "={P4_2.Msum_Nm}",
+        "P4_5.Mpin1_Nm": "=({P4_2.M1_Nm}+{P4_2.M4_Nm})*50%",
+        "P4_5.Mpin2_Nm": "=AVERAGE({P4_4.Mmain2_Nm},{P4_4.Mmain3_Nm})",
+        "rods_1.T_MPa": "={P4_1.T_MPa}+{cylinder_4.T_MPa}",
+        "rods_1.Rthrow_MPa": "=SQRT(SUMSQ({rods_1.Ksum_MPa},{rods_1.Tsum_MPa}))",
+        "rods_1.Mthrow_Nm": "={rods_1.T_MPa}*10^6*{F_piston}*{r_crank}",
+    },
+    {
+        "m_2": ("=masses_rod_kg*masses_rod_small_end_share", ""),
+        "m_r": ("={m_k}+{m_2}", ""),  # one rod on a pin that carries two
+        "P4_2.M5_Nm": ("={cylinder_4.M_Nm}", ""),
+        "P4_2.Msum_Nm": ("=SUM({P4_2.M1_Nm}:{P4_2.M5_Nm})", "слагаемое"),
+        "P4_4.Mmain3_Nm": ("={P4_4.Mmain2_Nm}", "слагаемое"),
+        "P4_5.Mpin1_Nm": ("={rods_1.Mthrow_Nm}", "половин"),
+        "rods_1.Rthrow_MPa": ("=ABS({rods_1.Ksum_MPa})", ""),
+        "rods_1.K_MPa": ("={rods_1.Kleft_MPa}-{rods_1.Kright_MPa}", "знак"),
+    },
+    {
+        "m_k": "={v}+0*{m_1}",
+        "P4_1.T_MPa": "={v}*{F_piston}/{F_piston}",
+        "P4_2.M3_Nm": "=IF({P4_2.M1_Nm}>1E9,1,{v})",
+        "rods_1.Rthrow_MPa": "=MAX({v},-{rods_1.T_MPa})",
+    },
+    {"P4_1.j_m_s2": "={p}*(regime_speed_rpm/{n})^2",
+     "P4_2.Msum_Nm": "={p}*{F_piston}/{F_piston}"},
+)  # fmt: skip
+
+TORSION = Base(
+    "mwm-6",
+    {"torsion.speed_max_rpm": {"min": 2200, "max": 2600, "step": 50},
+     "torsion.other_flywheel_kg_m2": {"min": 1.0, "max": 2.0, "step": 0.1}},
+    ("torsion_train", "torsion_list", "torsion_forms", "torsion_results", "torsion_damper_list"),
+    {
+        "tor_greatest": "=MATCH(MAX({torJ1}:{torJ9}),{torJ1}:{torJ9},0)",
+        "tor_flywheel": "=MAX({torJ1}:{torJ9})",
+        "torsion_forms.tor_J_kgm2": "=INDEX({torJ1}:{torJ9},A{row})",
+        "torsion_forms.tor_theta1": "=IF(A{row}=1,1,{<torsion_forms.tor_theta1}"
+        "-{<torsion_forms.tor_moment1_Nm}/{<torsion_forms.tor_c_Nm_rad})",
+        "torsion_forms.tor_moment1_Nm": "=(2*PI()*{tor_f1_hz})^2*SUMPRODUCT("
+        "{^torsion_forms.tor_J_kgm2}:{torsion_forms.tor_J_kgm2},"
+        "{^torsion_forms.tor_theta1}:{torsion_forms.tor_theta1})",
+        "torsion_forms.tor_whole2": "=SUMPRODUCT("
+        "{^torsion_forms.tor_J_kgm2}:{torsion_forms.tor_J_kgm2},"
+        "{^torsion_forms.tor_theta2}:{torsion_forms.tor_theta2}^2)",
+        "tor_brought1": "=SUMPRODUCT({|torsion_forms.tor_J_kgm2},{|torsion_forms.tor_theta1}^2)",
+        "tor_twist1": "=MAX({|torsion_forms.tor_shaft1_MPa})",
+        "tor_twist2": "=LARGE({|torsion_forms.tor_shaft2_MPa},1)",
+        "tor_f1_change": "=100*({tor_f1_other_hz}-{tor_f1_hz})/{tor_f1_hz}",
+        "tor_kappa": "={tor_brought1}/({tor_brought1}+{tor_ring})",
+        "tor_zeta_viscous": "=1/SQRT(({tor_mu}+1)*({tor_mu}+2)*2)",
+    },
+    {
+        "tor_twist1": ("=MIN({|torsion_forms.tor_shaft1_MPa})", None),  # nought: no cause
+        "tor_brought1": ("=SUM({|torsion_forms.tor_J_kgm2})", ""),
+        "tor_f1_change": ("={tor_f1_other_hz}/{tor_f1_hz}-1", "в 100 раз"),
+        "tor_mu": ("={tor_ring}/{tor_flywheel}", ""),
+        "tor_kappa": ("=1-{tor_mu}", ""),
+        "torsion_forms.tor_theta3": ("=IF(A{row}=1,1,{<torsion_forms.tor_theta3}"
+         "+{<torsion_forms.tor_moment3_Nm}/{<torsion_forms.tor_c_Nm_rad})", ""),
+        "torsion_forms.tor_shaft2_MPa": ("={<torsion_forms.tor_shaft3_MPa}", ""),
+    },
+    {
+        "torsion_forms.tor_theta2": "={v}+0*{tor_f2_hz}",
+        "tor_twist3": "={v}*{tor_f3_hz}/{tor_f3_hz}",
+        "tor_f1_change": "=IF({tor_mu}>9,{tor_mu},{v})",
+    },
+    {"torsion_forms.tor_whole3": "={p}+0*{torsion_forms.tor_theta3}"},
+)  # fmt: skip
+
+BEARINGS = Base(
+    "d-240-bearings",
+    {"bearings.pin_clearance_max_mm": {"min": 0.11, "max": 0.15, "step": 0.005},
+     "regime.speed_rpm": {"min": 2000, "max": 2200, "step": 20},
+     "crankshaft.pin_diameter_mm": {"min": 66.0, "max": 70.0, "step": 0.5}},
+    ("oil_list", "oil_results", "safety", "safe_main", "safe_pins"),
+    {
+        "oil_hcr_um": "=SUM(bearings_journal_roughness_um,bearings_shell_roughness_um)"
+        "+bearings_form_um",
+        "oil_vogel": "=LN({oil_eta40}/{oil_eta100})*135*195/60",
+        "oil_hmin1_um": "={oil_gap1_mm}*(1-{oil_chi1})*500",
+        "oil_K1": "=500*{oil_gap1_mm}*(1-{oil_chi1})/{oil_hcr_um}",
+        "safe_pin_W1_cm3": "=PI()*crankshaft_pin_diameter_mm^3/16000",  # solid
+        "safe_pin_a1_MPa": "=(MAX({|P4_5.Mpin1_Nm})-MIN({|P4_5.Mpin1_Nm}))/(2*{safe_pin_W1_cm3})",
+        "safe_n_hole": "={safe_n_bend_hole}*{safe_n_turn_hole}"
+        "/SQRT({safe_n_bend_hole}^2+{safe_n_turn_hole}^2)",
+        "safe_n_pin": "=IF({safe_n_hole}<{safe_n_fillet},{safe_n_hole},{safe_n_fillet})",
+    },
+    {
+        "oil_hcr_um": ("=bearings_journal_roughness_um+bearings_shell_roughness_um", "слагаемое"),
+        "oil_vogel": ("=LOG10({oil_eta40}/{oil_eta100})/(1/135-1/195)", ""),
+        "oil_hmin1_um": ("={oil_gap1_mm}*1000*(1-{oil_chi1})", ""),
+        "oil_K1": ("={oil_hcr_um}/{oil_hmin1_um}", ""),
+        "oil_hot1_C": ("=60*{oil_friction1_W}/(bearings_density_kg_m3*bearings_heat_j_kg_k"
+         "*{oil_through1_l_min})", ""),
+        "safe_n_turn_hole": ("={safe_pin_hole1}", ""),
+        "safe_pin_W1_cm3": ("=PI()*crankshaft_pin_diameter_mm^3/32000", ""),
+        "safe_n_hole": ("=({safe_n_bend_hole}+{safe_n_turn_hole})/2", ""),
+        "safe_n_pin": ("=MAX({safe_n_hole},{safe_n_fillet})", ""),
+    },
+    {
+        "oil_hcr_um": "={v}*{oil_eta40}/{oil_eta40}",
+        "safe_n_fillet": "=IF({safe_n_hole}>0,{v},0)",
+        "safe_sigma_a_MPa": "=SUM({v},0*{safe_pin_W1_cm3})",
+    },
+    {"safe_n_bend_hole": "={p}", "safe_n_hole": "={p}*{safe_n_bend_hole}/{safe_n_bend_hole}"},
+)  # fmt: skip
+
+BASES = {"V6": V6, "torsion": TORSION, "bearings": BEARINGS}
+
+
+@pytest.fixture(
+    scope="module",
+    params=[pytest.param(n, marks=pytest.mark.xdist_group(f"base {n}")) for n in BASES],
+)
+def base(request: pytest.FixtureRequest) -> Base:
+    return BASES[request.param]
+
+
+def test_honest_formulas_are_right(base):
+    lines = base.marks(base.honest)
+    assert {n: x["verdict"] for n, x in lines.items() if x["verdict"] != "right"} == {}
+
+
+def test_mistakes_are_told_and_cost_no_other_column(base):
+    lines = base.marks({node: text for node, (text, _) in base.mistakes.items()})
+    for node, (_, cause) in base.mistakes.items():
+        assert lines[node]["verdict"] == "wrong", node
+        told = lines[node]["cause"]
+        assert told == "" if cause is None else cause in told, (node, told)
+    items = {lines[node]["id"] for node in base.mistakes}
+    others = {x["id"]: x["verdict"] for x in lines.values() if x["id"] not in items}
+    assert set(others.values()) <= {"right", "carried"}, others
+
+
+def test_cheats_earn_nothing(base):
+    lines = base.marks(base.cheats, base.pasted)
+    cheated = {*base.cheats, *base.pasted}
+    for node in cheated:
+        assert lines[node]["points"] == 0, (node, lines[node]["verdict"])
+    items = {lines[node]["id"] for node in cheated}
+    others = {x["id"]: x["verdict"] for x in lines.values() if x["id"] not in items}
+    assert set(others.values()) <= {"right"}, others

@@ -157,7 +157,7 @@ def own_engine(
         "geometry.stroke_mm": f"обычное S/D = {number_text(usual.stroke_bore)}; впишите свой",
         "geometry.rod_length_mm": f"обычное λ = {number_text(usual.lam)}",
         "regime.mechanical_efficiency": "обычное",
-        "gas.max_pressure_mpa": f"диаграмма дает p_e ≈ {usual.effective_mpa:g} МПа",
+        "gas.max_pressure_mpa": f"диаграмма даёт p_e ≈ {usual.effective_mpa:g} МПа",
     }
     if speed_rpm is None:
         words = f"обычная: средняя скорость поршня {number_text(usual.piston_speed)} м/с"
@@ -227,7 +227,7 @@ def _engine(cylinders: int, layout: str, strokes: int, name: str) -> dict[str, A
 
 
 def _named(kind: str, layout: str, cylinders: int, strokes: int) -> str:
-    words = "двухтактный" if strokes == 2 else "четырехтактный"
+    words = "двухтактный" if strokes == 2 else "четырёхтактный"
     noun = "Дизель" if kind == "diesel" else "Бензиновый двигатель"
     return f"{noun}: {LAYOUTS[layout]}, {words}, цилиндров {cylinders}"
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from reports.document.chapters.chapter import Chapter
-from reports.document.chapters.profiles import chosen
+from reports.document.chapters.profiles import told
 from reports.document.page.fitting import type_pt
 from reports.document.page.style import TitlePage
 from reports.inputs.sections.input_file import InputFile
@@ -25,6 +25,8 @@ _KEYWORDS = (
     ("crankpin", "шатунная шейка"),
     ("journals", "коренная шейка"),
     ("crankpin", "диаграмма износа"),
+    ("torsion", "крутильные колебания"),
+    ("oil", "масляная плёнка"),
     ("companions", "уравновешенность"),
 )
 _REPORT = ("title", "institution", "department", "discipline", "student", "group", "supervisor",
@@ -69,9 +71,7 @@ def assignment(chapter: Chapter) -> Words:
 def abstract(chapter: Chapter) -> Words:
     """Counts of what the report holds, and key words."""
     n = chapter.writer.n
-    names = {"", *chosen(chapter.input.report)}
-    if not chapter.terms.has("cyc_N_e"):
-        names.discard("cycle")
+    names = {"", *told(chapter.input)}
     words = [word for name, word in _KEYWORDS if name in names]
     return {
         "figures": n.count("figure"),

@@ -178,7 +178,7 @@ def own_engine(
     data["masses"], data["crankshaft"] = masses, shaft(layout, timing, sizes, found)
     head = (
         f"Двигатель составлен из обычных значений: около {number_text(round(power, 1))} кВт при "
-        f"{number_text(speed)} мин⁻¹, рабочий объем {number_text(round(swept / 1e6, 2))} л.",
+        f"{number_text(speed)} мин⁻¹, рабочий объём {number_text(round(swept / 1e6, 2))} л.",
     )
     return Made(data, {**notes, **found.notes, **sizes.notes, **timing_notes(timing)}, head)
 
@@ -291,7 +291,7 @@ def table_masses(
         "masses.rod_small_end_share": "обычная",
         "crankshaft.pin_mass_kg": f"колено: {throw}"
         + ("; шейка длиннее: под двумя шатунами" if rods == 2 else ""),
-        "crankshaft.webs.counterweight_kg": "берет вращающиеся массы колена: "
+        "crankshaft.webs.counterweight_kg": "берёт вращающиеся массы колена: "
         f"{SHAFTS[layout, kind].counterweights:.0%}".replace("%", " %"),
     }
     masses = {

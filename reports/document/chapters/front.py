@@ -104,6 +104,11 @@ def crowded(model: InputFile, frame: str | None = None) -> list[str]:
     ]
 
 
+def has_frame(model: InputFile, frame: str | None = None) -> bool:
+    """Whether the style file or, where it says nothing, the input asks for a frame."""
+    return (frame or model.report.frame) != "none"
+
+
 def title_block(model: InputFile, frame: str | None = None) -> Words | None:
     """Cells of the title block by ГОСТ 2.104; ``None`` where no frame is asked for.
 
@@ -112,7 +117,7 @@ def title_block(model: InputFile, frame: str | None = None) -> Words | None:
         frame: what the style file says about the frame, ``None`` for nothing.
     """
     report = model.report
-    if (frame or report.frame) == "none":
+    if not has_frame(model, frame):
         return None
     places = (report.institution, report.department, report.group)
     words = {

@@ -73,9 +73,8 @@ _FOUND = (
 def introduction(chapter: Chapter) -> Markup:
     """Introduction: what is computed and how."""
     names = told(chapter.input)
-    return chapter.page(
-        "introduction", found=joined([what for name, what in _FOUND if name in names])
-    )
+    found = joined([what for name, what in _FOUND if name in names])
+    return chapter.page("introduction", found=found, appended="appendices" in names)
 
 
 def input_data(chapter: Chapter) -> Markup:

@@ -80,7 +80,7 @@ class Report(Strictly):
     frame: Annotated[
         Literal["none", "eskd"], choice("Рамка листов отчёта", FRAMES, structural=False)
     ] = "none"
-    detail: Annotated[Detail, choice("Объем отчёта", DETAILS, structural=False)] = "course"
+    detail: Annotated[Detail, choice("Объём отчёта", DETAILS, structural=False)] = "course"
     chapters: Annotated[
         tuple[Annotated[ChapterName, choice("Глава отчёта {n}", CHAPTERS, structural=False)], ...]
         | None,

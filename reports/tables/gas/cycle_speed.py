@@ -83,7 +83,7 @@ def _diagram() -> TableSpec:
             cd_T_K = {temperature} | {SOURCE}
         """),
         tuple(float(x) for x in diagram_rows()),
-        note="Нескругленная диаграмма; при 360° стоит точка z′, конец сжатия c — на листе «Цикл».",
+        note="Нескруглённая диаграмма; при 360° стоит точка z′, конец сжатия c — на листе «Цикл».",
         step=DIAGRAM_STEP,
     )
 

@@ -93,7 +93,7 @@ def _geometry(shape: Shape, radius: str, length: str, bore: str, offset: str = "
             *(_offset_extremes() if shape.offset else _central_extremes()),
         ),
         note=(
-            "Рабочий объем и объем камеры сгорания найдены по ходу дезаксиального механизма (11), "
+            "Рабочий объём и объём камеры сгорания найдены по ходу дезаксиального механизма (11), "
             "а не по 2r. Положительное смещение — в сторону, куда идёт кривошип от ВМТ."
             if shape.offset
             else ""

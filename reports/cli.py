@@ -90,7 +90,7 @@ def _unexpected(error: Exception) -> str:
         from reports.shared.files import reason
 
         place = f"{error.filename}" if error.filename else "вывод или временный файл"
-        text = f"kshm: {place}: не удается записать или прочитать: {reason(error)}"
+        text = f"kshm: {place}: не удаётся записать или прочитать: {reason(error)}"
         return one_line(f"{text}; освободите место или укажите другое, подробности: ключ -v")
     if isinstance(error, MemoryError):
         return "kshm: не хватает памяти; закройте другие программы или увеличьте шаг расчёта"

@@ -68,4 +68,4 @@ def notes_of(loaded: Loaded) -> tuple[str, ...]:
         return ()  # without loading the tables
     from reports.tables.overview.left_out import left_out_note
 
-    return (left_out_note(loaded.model),)
+    return (left_out_note(loaded.model, keys=True),)

@@ -195,7 +195,8 @@ def _page(model: Model, values: Values, env: Environment, further: Further) -> s
     chapter = Chapter(terms, Writer(env, numbering), env)
     body = chapter.writer.drawn(_write(chapter, names, further))
     if env.globals["media"] == "print":
-        body = Markup(arranged(body, style, run_on=_run_on(chapter, style)))
+        sheets = style.framed if front.has_frame(chapter.input, style.frame) else style
+        body = Markup(arranged(body, sheets, run_on=_run_on(chapter, style)))
     numbering.check()
     store.store().save()
     return texts.unbroken_initials(texts.spaces_inside(_whole(env, chapter, body)))

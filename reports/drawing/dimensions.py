@@ -36,18 +36,22 @@ def along(
                for s in shares]  # fmt: skip
     places = [(x + up[0] * gap * letters, y + up[1] * gap * letters)
               for gap in (0.5, -1.6, 1.6, -2.8) for x, y in middles]  # fmt: skip
+    if not heads:  # there is no dimension line to stand beside: the line goes on as its words
+        far = length + 1.6 * letters + width_of(text, letters) / 2
+        places.append((start[0] + far * unit[0] - 0.4 * letters * up[0],
+                       start[1] + far * unit[1] - 0.4 * letters * up[1]))  # fmt: skip
     canvas.words_where_free(places, text, letters, align=0.5, angle=round(turn, 3))
 
 
 def across(
-    canvas: Canvas, x: float, ends: tuple[float, float], name: str, value: float, letters: float
+    canvas: Canvas, x: float, ends: tuple[float, float], value: float, letters: float
 ) -> None:
     """A diameter upright within its journal, the value beside the line."""
     low, high = ends
     canvas.line((x, low), (x, high), layer=SIZES)
     canvas.arrow((x, high), (0.0, 1.0), min(letters, (high - low) / 3))
     canvas.arrow((x, low), (0.0, -1.0), min(letters, (high - low) / 3))
-    text = f"{name} {number(value)}"
+    text = f"Ø{number(value)}"
     middle, wide = (low + high) / 2, width_of(text, letters)
     if wide < high - low:
         places = [(x - 0.5 * letters, middle)]
@@ -61,22 +65,30 @@ def chain(
     canvas: Canvas, stations: Sequence[float], names: Sequence[str], values: Sequence[float],
     y: float, letters: float,
 ) -> None:  # fmt: skip
-    """Sizes one after another on a line; a value without room stands on a lower level."""
+    """Sizes one after another on a line.
+
+    Values without room in between stand below, left ones left of their leaders and the lower
+    the nearer to the middle, right ones likewise: so no leader runs through a value.
+    """
+    below: list[tuple[float, str]] = []
     for start, end, name, value in zip(stations, stations[1:], names, values, strict=False):
         if end - start <= 0:
             continue
-        long = end - start
         canvas.line((start, y), (end, y), layer=SIZES)
-        head = min(letters, long / 3)
+        head = min(letters, (end - start) / 3)
         canvas.arrow((end, y), (1.0, 0.0), head)
         canvas.arrow((start, y), (-1.0, 0.0), head)
-        text = f"{name} = {number(value)}"
-        middle = (start + end) / 2
-        inside = [(middle, y + 0.5 * letters)] if width_of(text, letters) < long else []
-        levels = [(middle, y - 1.7 * letters * n) for n in range(1, 8)]
-        placed = canvas.words_where_free([*inside, *levels], text, letters, align=0.5)
-        if placed and canvas.items[-1].place[1] < y:  # type: ignore[union-attr]
-            foot = canvas.items[-1].place[1] + 1.1 * letters  # type: ignore[union-attr]
-            canvas.line((middle, y), (middle, foot), layer=SIZES)
+        text, middle = f"{name} = {number(value)}", (start + end) / 2
+        if width_of(text, letters) < end - start:
+            canvas.words((middle, y + 0.5 * letters), text, letters, align=0.5)
+        else:
+            below.append((middle, text))
+    half = -(-len(below) // 2)
+    for place, (middle, text) in enumerate(below):
+        left = place < half
+        level = y - 1.6 * letters * (1 + (place if left else len(below) - 1 - place))
+        canvas.line((middle, y), (middle, level - 0.2 * letters), layer=SIZES)
+        beside = (middle + (-0.4 if left else 0.4) * letters, level)
+        canvas.words(beside, text, letters, align=1.0 if left else 0.0)
     for x in sorted(set(stations)):
         canvas.line((x, y - 0.5 * letters), (x, y + 3 * letters), layer=SIZES)

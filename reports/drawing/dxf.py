@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Iterable
 
+from reports.drawing.lettering import plain
 from reports.drawing.primitives import LAYERS, Circle, Dash, Item, Line, Words, bounds
 
 STYLE = "ЕСКД"
@@ -68,7 +69,7 @@ def dxf_bytes(items: Iterable[Item]) -> bytes:
 
 def _text(space: object, item: Words, align: object, looks: dict[str, object]) -> None:
     text = space.add_text(  # type: ignore[attr-defined]
-        item.text, height=item.height, rotation=item.angle,
+        plain(item.text), height=item.height, rotation=item.angle,
         dxfattribs={**looks, "style": STYLE, "oblique": _SLANT},
     )  # fmt: skip
     text.set_placement(item.place, align=align)

@@ -1,15 +1,21 @@
-"""How wide letters are: slanted STIX, which matplotlib carries and the PDF sets."""
+"""How wide letters are: slanted STIX, which matplotlib carries and the PDF sets.
+
+A word after a stroke below is an index: «l_1 = 32».
+"""
 
 from __future__ import annotations
 
 import functools
+import re
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from matplotlib.ft2font import FT2Font
 
 CAPITAL = 0.662  # height of a capital of the face [em]
-_WIDER = 1.04  # a drawing program may set another face
+WIDER = 1.04  # a drawing program may set another face
+INDEX = 0.7  # size of an index
+_INDEX = re.compile(r"_([^\W_][\w.]*)")
 
 
 @functools.cache
@@ -37,7 +43,20 @@ def _advance(char: str) -> float:
 
 def width_of(text: str, height: float) -> float:
     """Length of a line by the height of its capitals [mm]."""
-    return _WIDER * sum(map(_advance, text)) * height / CAPITAL
+    parts = enumerate(_INDEX.split(text))
+    ems = sum(sum(map(_advance, part)) * (INDEX if place % 2 else 1.0) for place, part in parts)
+    return WIDER * ems * height / CAPITAL
+
+
+def parts_of(text: str) -> list[tuple[str, bool]]:
+    """The text in parts and whether each is an index."""
+    parts = enumerate(_INDEX.split(text))
+    return [(part, place % 2 == 1) for place, part in parts if part]
+
+
+def plain(text: str) -> str:
+    """The text in one line, where an index cannot stand lower."""
+    return _INDEX.sub(r"\1", text)
 
 
 def fitted(text: str, room: float, height: float, least: float = 1.8) -> float:

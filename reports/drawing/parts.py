@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from reports.drawing.dimensions import across, along, chain, number
-from reports.drawing.primitives import AXES, CONTOUR, THIN, Canvas, Item, Point
+from reports.drawing.primitives import AXES, CONTOUR, THIN, Canvas, Item, Point, interrupted
 
 _THIN_WEB = 0.35  # of the arms beside it: a web whose thickness is not given
 _ROUND = 0.7  # of a journal's diameter that a web reaches beyond its axis
@@ -78,7 +78,7 @@ def throw_drawing(throw: Throw, *, letters: float = 3.5, scale: float = 1.0) -> 
     canvas.line((-halves[0] - over, 0), (end + halves[1] + over, 0), layer=AXES)
     canvas.line((inner[0] - over, r), (inner[1] + over, r), layer=AXES)
     stations = [0.0, l1, l1 + left_web, rod, rod + l3, rod + l3 + l4, right, right + right_web, end]
-    names = ["l1", "hЛ", "l2", "l3", "l4", "l5", "hП", "l6"]
+    names = ["l_1", "h_Л", "l_2", "l_3", "l_4", "l_5", "h_П", "l_6"]
     values = [throw.arms[0], throw.webs[0], *throw.arms[1:5], throw.webs[1], throw.arms[5]]
     floor = low - 4 * letters
     for x in sorted({0.0, rod, rod + l3, rod + l3 + l4, end}):
@@ -89,13 +89,14 @@ def throw_drawing(throw: Throw, *, letters: float = 3.5, scale: float = 1.0) -> 
     canvas.line((reach - letters, r), (inner[0], r), layer=THIN)
     canvas.line((reach - letters, 0), (-halves[0], 0), layer=THIN)
     along(canvas, (reach, 0), (reach, r), "r", throw.radius, letters)
-    for x, y, d, name, value in (
-        ((inner[0] + inner[1]) / 2 + (inner[1] - inner[0]) / 4, r, pin, "Øш.ш", throw.pin),
-        (-halves[0] / 2, 0.0, mains[0], "Øк.ш", throw.mains[0]),
-        (end + halves[1] / 2, 0.0, mains[1], "Øк.ш", throw.mains[1]),
+    aside = 1.9 * letters  # from the end of a journal: the letters stand left of the line
+    for x, y, d, value in (
+        ((inner[0] + inner[1]) / 2 + (inner[1] - inner[0]) / 4, r, pin, throw.pin),
+        (-halves[0] + max(halves[0] / 2, aside), 0.0, mains[0], throw.mains[0]),
+        (end + halves[1] / 2, 0.0, mains[1], throw.mains[1]),
     ):
-        across(canvas, x, (y - d / 2, y + d / 2), name, value, letters)
-    return canvas.items
+        across(canvas, x, (y - d / 2, y + d / 2), value, letters)
+    return interrupted(canvas.items)
 
 
 def mechanism_drawing(
@@ -129,7 +130,7 @@ def mechanism_drawing(
     canvas.line((0.0, -r - over), (0.0, head + over if not e else r + over), layer=AXES)
     canvas.line((-r - over, 0.0), (r + over, 0.0), layer=AXES)
     _sizes(canvas, mechanism, (pin, piston), (top, bottom, head, e), scale, letters)
-    return canvas.items
+    return interrupted(canvas.items)
 
 
 def _sizes(

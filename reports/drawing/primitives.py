@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 from reports.drawing.lettering import width_of
 
@@ -152,6 +153,10 @@ class Canvas:
         corners = ((left, low), (right, low), (right, high), (left, high))
         self.items.append(Line(corners, layer, closed=True))
 
+    def clear(self, words: Words) -> bool:
+        """Whether no contour and no dimension runs through a text."""
+        return not any(_cuts(item, words) for item in self.items)
+
     def free(self, words: Words, gap: float = 0.6) -> bool:
         """Whether a text touches no other."""
         left, low, right, high = words.box
@@ -162,13 +167,16 @@ class Canvas:
         self, places: Iterable[Point], text: str, height: float = 3.5, within: Box | None = None,
         **more: object,
     ) -> bool:  # fmt: skip
-        """A text at the first place that is free; whether there was one."""
-        for place in places:
-            made = Words(place, text, height, **more)  # type: ignore[arg-type]
-            if self.free(made) and (within is None or _inside(made.box, within)):
-                self.items.append(made)
-                return True
-        return False
+        """A text at the first place that is free, best with no line through it; whether placed."""
+        made = (Words(place, text, height, **more) for place in places)  # type: ignore[arg-type]
+        free = [
+            words
+            for words in made
+            if self.free(words) and (within is None or _inside(words.box, within))
+        ]
+        if free:
+            self.items.append(next(filter(self.clear, free), free[0]))
+        return bool(free)
 
     def arrow(self, tip: Point, along: Point, length: float = 3.5, layer: Layer = SIZES) -> None:
         """A filled arrow head whose tip points along a unit vector."""
@@ -184,6 +192,62 @@ def _inside(box: Box, outer: Box) -> bool:
     return (
         box[0] >= outer[0] and box[1] >= outer[1] and box[2] <= outer[2] and box[3] <= outer[3]
     )  # fmt: skip
+
+
+def _cuts(item: Item, words: Words) -> bool:
+    if isinstance(item, Words) or (isinstance(item, Line) and item.layer not in (CONTOUR, SIZES)):
+        return False
+    if isinstance(item, Circle):
+        ends = [polar(item.centre, item.radius, turn) for turn in range(0, 375, 15)]
+    else:
+        ends = [*item.points, item.points[0]] if item.closed else list(item.points)
+    return any(_within(a, b, words, 0.0) for a, b in pairwise(ends))
+
+
+def _within(start: Point, end: Point, words: Words, gap: float) -> tuple[float, float] | None:
+    """From where to where, as shares of its length, a line runs through a text."""
+    turn = math.radians(words.angle)
+    cos, sin = math.cos(turn), math.sin(turn)
+
+    def turned(point: Point) -> Point:
+        x, y = point[0] - words.place[0], point[1] - words.place[1]
+        return x * cos + y * sin, y * cos - x * sin
+
+    left = -words.align * words.width
+    limits = ((left - gap, left + words.width + gap),
+              (-0.3 * words.height - gap, 1.05 * words.height + gap))  # fmt: skip
+    low, high = 0.0, 1.0
+    for one, other, (least, most) in zip(turned(start), turned(end), limits, strict=True):
+        way = other - one
+        if abs(way) < 1e-9:
+            if not least < one < most:
+                return None
+            continue
+        enters, leaves = sorted(((least - one) / way, (most - one) / way))
+        low, high = max(low, enters), min(high, leaves)
+    return (low, high) if low < high else None
+
+
+def interrupted(items: Sequence[Item]) -> list[Item]:
+    """Axes and thin straight lines broken where a text stands on them, ГОСТ 2.307."""
+    texts = [item for item in items if isinstance(item, Words)]
+    shown: list[Item] = []
+    for item in items:
+        if not isinstance(item, Line) or item.layer not in (AXES, THIN) or len(item.points) != 2:
+            shown.append(item)
+            continue
+        start, end = item.points
+        gaps = sorted(filter(None, (_within(start, end, words, 0.5) for words in texts)))
+        at = 0.0
+        for low, high in [*gaps, (1.0, 1.0)]:
+            if low > at:
+                between = tuple(
+                    (start[0] + t * (end[0] - start[0]), start[1] + t * (end[1] - start[1]))
+                    for t in (at, low)
+                )
+                shown.append(replace(item, points=between))
+            at = max(at, high)
+    return shown
 
 
 def polar(centre: Point, radius: float, angle: float) -> Point:

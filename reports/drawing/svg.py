@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from html import escape
 
-from reports.drawing.lettering import CAPITAL
+from reports.drawing.lettering import CAPITAL, INDEX, WIDER, parts_of, width_of
 from reports.drawing.primitives import Box, Circle, Item, Line, Words
 
 _FAMILY = "STIXGeneral"
@@ -64,10 +66,27 @@ def _path(item: Line | Circle, left: float, high: float) -> str:
 
 
 def _words(item: Words, left: float, high: float) -> str:
+    parts = parts_of(item.text)
+    if len(parts) == 1:
+        return _text(item, left, high)
+    shown, run = [], -item.align * item.width / WIDER
+    for text, index in parts:
+        height = item.height * (INDEX if index else 1.0)
+        along, down = run, -0.3 * item.height if index else 0.0
+        turn = math.radians(item.angle)
+        x = item.place[0] + along * math.cos(turn) - down * math.sin(turn)
+        y = item.place[1] + along * math.sin(turn) + down * math.cos(turn)
+        part = replace(item, place=(x, y), text=text, height=height, align=0.0)
+        shown.append(_text(part, left, high))
+        run += width_of(text, height) / WIDER
+    return "".join(shown)
+
+
+def _text(item: Words, left: float, high: float) -> str:
     x, y = item.place[0] - left, high - item.place[1]
     anchor = {0.0: "start", 0.5: "middle", 1.0: "end"}[item.align]
     turn = f' transform="rotate({-item.angle:g} {x:.2f} {y:.2f})"' if item.angle else ""
     return (
         f'<text x="{x:.2f}" y="{y:.2f}" font-style="italic" font-size="{item.height / CAPITAL:.2f}"'
-        f' text-anchor="{anchor}"{turn}>{escape(item.text)}</text>'
+        f' text-anchor="{anchor}"{turn} xml:space="preserve">{escape(item.text)}</text>'
     )

@@ -369,4 +369,4 @@ def _capped(source: str, problems: list[Problem], uncounted: int) -> list[Proble
     rest = max(0, len(problems) - MAX_PROBLEMS) + uncounted
     if rest == 0:
         return problems
-    return [*problems[:MAX_PROBLEMS], Problem(one_line(source, 120), f"и еще ошибок: {rest}")]
+    return [*problems[:MAX_PROBLEMS], Problem(one_line(source, 120), f"и ещё ошибок: {rest}")]

@@ -44,7 +44,7 @@ def regime_data(raw: object) -> Iterator[Finding | tuple[int, dict[str, Any]]]:
             what = f"нужен раздел, а задано: {messages.kind(entry['gas'])}"
             yield Finding(("regimes", index, "gas"), what, "добавьте раздел [regimes.gas]")
         elif entry["gas"].get("source") == "cycle":
-            what = "расчет цикла есть только у основного режима"
+            what = "расчёт цикла есть только у основного режима"
             yield Finding(("regimes", index, "gas", "source"), what, "задайте давления")
         else:
             yield index, entry

@@ -157,7 +157,7 @@ def own_engine(
         "geometry.stroke_mm": f"обычное S/D = {number_text(usual.stroke_bore)}; впишите свой",
         "geometry.rod_length_mm": f"обычное λ = {number_text(usual.lam)}",
         "regime.mechanical_efficiency": "обычное",
-        "gas.max_pressure_mpa": f"диаграмма дает p_e ≈ {usual.effective_mpa:g} МПа",
+        "gas.max_pressure_mpa": f"диаграмма даёт p_e ≈ {usual.effective_mpa:g} МПа",
     }
     if speed_rpm is None:
         words = f"обычная: средняя скорость поршня {number_text(usual.piston_speed)} м/с"
@@ -178,7 +178,7 @@ def own_engine(
     data["masses"], data["crankshaft"] = masses, shaft(layout, timing, sizes, found)
     head = (
         f"Двигатель составлен из обычных значений: около {number_text(round(power, 1))} кВт при "
-        f"{number_text(speed)} мин⁻¹, рабочий объем {number_text(round(swept / 1e6, 2))} л.",
+        f"{number_text(speed)} мин⁻¹, рабочий объём {number_text(round(swept / 1e6, 2))} л.",
     )
     return Made(data, {**notes, **found.notes, **sizes.notes, **timing_notes(timing)}, head)
 
@@ -227,7 +227,7 @@ def _engine(cylinders: int, layout: str, strokes: int, name: str) -> dict[str, A
 
 
 def _named(kind: str, layout: str, cylinders: int, strokes: int) -> str:
-    words = "двухтактный" if strokes == 2 else "четырехтактный"
+    words = "двухтактный" if strokes == 2 else "четырёхтактный"
     noun = "Дизель" if kind == "diesel" else "Бензиновый двигатель"
     return f"{noun}: {LAYOUTS[layout]}, {words}, цилиндров {cylinders}"
 
@@ -291,7 +291,7 @@ def table_masses(
         "masses.rod_small_end_share": "обычная",
         "crankshaft.pin_mass_kg": f"колено: {throw}"
         + ("; шейка длиннее: под двумя шатунами" if rods == 2 else ""),
-        "crankshaft.webs.counterweight_kg": "берет вращающиеся массы колена: "
+        "crankshaft.webs.counterweight_kg": "берёт вращающиеся массы колена: "
         f"{SHAFTS[layout, kind].counterweights:.0%}".replace("%", " %"),
     }
     masses = {

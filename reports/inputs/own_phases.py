@@ -116,7 +116,7 @@ def _refuse(cylinders: int, layout: str) -> None:
         what, hint = f"число цилиндров {cylinders}", f"команда знает от 1 до {MOST}"
     elif layout != "inline" and cylinders % 2:
         words = "V-образного" if layout == "v" else "оппозитного"
-        what = f"число цилиндров {cylinders} нечетное, а рядов у {words} двигателя два"
-        hint = "задайте четное число или --layout inline"
+        what = f"число цилиндров {cylinders} нечётное, а рядов у {words} двигателя два"
+        hint = "задайте чётное число или --layout inline"
     if what:
         raise InputError(Problem("--cylinders", what, hint))

@@ -108,9 +108,9 @@ def alternative(
         f"Вариант двигателя «{old.name}»: цилиндров {cylinders} вместо {old.cylinders}.",
         f"По подобию: D, S, L {linear_words}{more}; шейки × ({old.cylinders}/{cylinders})^½{more};",
         "массы по таблице 4; фазы, щеки и плечи нового вала составлены заново.",
-        *([f"{cause}: рабочий объем × {number_text(round(displacement, 6))}."] if cause else
-          ["Рабочий объем, частота вращения и давления прежние." if speed_rpm is None else
-           "Рабочий объем и давления прежние, частота вращения новая."]),
+        *([f"{cause}: рабочий объём × {number_text(round(displacement, 6))}."] if cause else
+          ["Рабочий объём, частота вращения и давления прежние." if speed_rpm is None else
+           "Рабочий объём и давления прежние, частота вращения новая."]),
     ]  # fmt: skip
     if model.articulated is not None:
         head.append("Прицепные шатуны не перенесены: шатуны стоят рядом на шейке.")

@@ -76,7 +76,7 @@ _ALL = (
         Report,
         optional=True,
         lists={
-            "chapters": ListKey("Главы отчета", "report_chapter_{n}"),
+            "chapters": ListKey("Главы отчёта", "report_chapter_{n}"),
             "formats": ListKey("Документы", "report_format_{n}"),
         },
     ),
@@ -96,10 +96,10 @@ _ALL = (
         },
         lists={"points": ListKey("Индикаторная диаграмма по точкам", "gas_point_{n}_{key}")},
         words=(
-            'source = "rounded" — скругленная диаграмма рисунка 22 (kind = "petrol" или "diesel");',
+            'source = "rounded" — скруглённая диаграмма рисунка 22 (kind = "petrol" или "diesel");',
             'source = "table" — точки points, interpolation = "linear" или "monotone";',
             'source = "file" — текстовая таблица рядом с этим файлом (CSV или результаты',
-            'DIESEL-RK, сохраненные как текст): file = "diagram.csv", pressure_unit = "bar",',
+            'DIESEL-RK, сохранённые как текст): file = "diagram.csv", pressure_unit = "bar",',
             "angle_column и pressure_column — номер или заголовок столбца, firing_tdc_deg — угол",
             "ВМТ сгорания в таблице.",
             "Другие режимы того же двигателя — разделы [[regimes]] с [regimes.gas]: см. образец",
@@ -113,8 +113,8 @@ _ALL = (
         optional=True,
         absent=True,
         words=(
-            'Давления газов можно взять из расчета цикла: gas.source = "cycle" и раздел [cycle];',
-            "готовый пример дает команда kshm new --sample cycle-turbo-diesel.",
+            'Давления газов можно взять из расчёта цикла: gas.source = "cycle" и раздел [cycle];',
+            "готовый пример даёт команда kshm new --sample cycle-turbo-diesel.",
         ),
     ),
     Section(

@@ -171,7 +171,7 @@ def temporary_failure(error: Exception) -> OutputError:
     known = number if number is not None else getattr(errno, str(error).removeprefix("IO_"), 0)
     text = "нет папки" if number == errno.ENOENT else _REASONS.get(known, "ошибка ввода-вывода")
     hint = "освободите место или укажите другую папку переменной TMPDIR"
-    return OutputError(Problem("временные файлы", f"не удается записать: {text}", hint))
+    return OutputError(Problem("временные файлы", f"не удаётся записать: {text}", hint))
 
 
 # Removed at the latest when the program ends: an interruption may come between two lines.
@@ -237,4 +237,4 @@ def _failure(path: Path, error: OSError) -> OutputError:
     text = reason(error)
     if isinstance(error, PermissionError) and os.name == "nt":
         text = "файл занят (закройте его в Excel) или нет прав"
-    return OutputError(Problem(str(path), f"не удается записать: {text}", _ADVICE))
+    return OutputError(Problem(str(path), f"не удаётся записать: {text}", _ADVICE))

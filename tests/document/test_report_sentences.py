@@ -253,3 +253,39 @@ def test_initials_do_not_leave_their_surname():
 def test_only_cited_sources_are_listed():
     offset = text_of(engine("offset"))
     assert "Сегаль" not in offset and "Сегаль, В. Ф." in text_of(engine())
+
+
+@pytest.mark.usefixtures("nothing_is_drawn")
+@pytest.mark.parametrize("name", ["two-stroke", "ecoboost-10", "cycle-petrol", "yamz-236"])
+def test_what_a_strict_reader_asks_for(name):
+    """No names of the program, no raw indices, no blank cells, no unit before a blank."""
+    page = bare_page(engine(source=name, report__detail="course"))
+    text = plain(re.sub("<title>.*?</title>", "", page))  # what pictures are called aloud
+    assert not re.search(r"[A-Za-zА-яλρ]_[A-Za-zА-я]", text)
+    assert "<td></td>" not in page
+    assert "· 1 +" not in text and "порядок работы 1." not in text
+    ties = re.search(r"Наименьш(?:ая сумма — у луча|ие суммы — у лучей) ([IVXи, ]+)\.", text)
+    rows = printed_rows(page, "Суммы удельных сил по лучам шатунной шейки")
+    least = min(float(row[2].replace(",", ".")) for row in rows)
+    named = [row[0] for row in rows if float(row[2].replace(",", ".")) == least]
+    assert re.findall("[IVX]+", ties.group(1)) == named
+
+
+@pytest.mark.usefixtures("nothing_is_drawn")
+def test_a_short_report_promises_no_appendix():
+    page = bare_page(engine(source="gots-diesel", report__detail="short"))
+    text = plain(page)
+    assert "напечатаны через" not in text and "0 прил." not in text
+    page = bare_page(engine(source="gots-diesel", report__detail="course"))
+    assert "напечатаны через 30°" in plain(page) and "2 прил." in plain(page)
+
+
+@pytest.mark.usefixtures("nothing_is_drawn")
+@pytest.mark.parametrize(
+    ("name", "said", "word"),
+    [("mwm-6", "превышает допускаемую", "КРУТИЛЬНЫЕ"), ("d-240-bearings", "плёнка", "ПЛЁНКА")],
+)
+def test_the_conclusion_tells_of_every_chapter(name, said, word):
+    page = bare_page(engine(source=name, report__detail="course"))
+    end = plain(page[page.index("Заключение</h1>") :])
+    assert said in end and word in plain(page)

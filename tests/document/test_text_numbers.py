@@ -96,3 +96,8 @@ def test_power_says_the_number(value, decimals):
     assert 1 <= _value(mantissa) < 10 and len(mantissa) == decimals + 2
     shown = _value(mantissa) * 10.0 ** int(exponent.rstrip("}") or 0)
     assert shown == pytest.approx(value, rel=0.51 * 10**-decimals)
+
+
+def test_what_is_no_number_stays_in_the_middle():
+    assert numbers.aligned(["мм", "—", "мин⁻¹", "МПа"]) == ["мм", "—", "мин⁻¹", "МПа"]
+    assert numbers.aligned(["5", "—", "10"]) == [NBSP * 2 + "5", "—", "10"]

@@ -1,6 +1,6 @@
 import pytest
 
-from reports.document.text.symbols import SymbolError, inline_html
+from reports.document.text.symbols import SymbolError, inline_html, titled_html
 
 NB = "\u00a0"
 
@@ -38,3 +38,22 @@ def test_anything_else_is_refused(tex):
 
 def test_markup_cannot_pass():
     assert "<script" not in inline_html(r"\mathrm{<script>}")
+
+
+@pytest.mark.parametrize(
+    ("title", "html"),
+    [
+        ("впуска pa/pк", "впуска <i>p</i><sub><i>a</i></sub>/<i>p</i><sub>к</sub>"),
+        ("Потери A + B·cm: A", "Потери <i>A</i> + <i>B</i>·<i>c</i><sub><i>m</i></sub>: <i>A</i>"),
+        ("H2/CO при α < 1", "H<sub>2</sub>/CO при <i>α</i> &lt; 1"),
+        ("Температура T_r", "Температура <i>T</i><sub><i>r</i></sub>"),
+        ("показатель n1", "показатель <i>n</i><sub>1</sub>"),
+        ("дозарядки φдоз", "дозарядки <i>φ</i><sub>доз</sub>"),
+        ("шатунный, Δmin", "шатунный, Δ<sub>min</sub>"),
+        ("до 1500 °C: c·t²", "до 1500 °C: <i>c</i>·<i>t</i>²"),
+        ("Ford EcoBoost, М-10Г2к", "Ford EcoBoost, М-10Г2к"),
+        ("<b>x</b>", "&lt;<i>b</i>&gt;<i>x</i>&lt;/<i>b</i>&gt;"),
+    ],
+)
+def test_symbols_in_titles(title, html):
+    assert titled_html(title) == html

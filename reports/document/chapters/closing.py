@@ -7,7 +7,7 @@ from functools import partial
 
 from markupsafe import Markup
 
-from reports.document.chapters import facts
+from reports.document.chapters import facts, oil, torsion
 from reports.document.chapters.chapter import BOOK, Chapter
 from reports.document.chapters.journals import least_ray
 from reports.document.chapters.profiles import chosen
@@ -15,6 +15,7 @@ from reports.document.page.blocks import Column, TableBlock, table_block
 from reports.document.page.spec_tables import angle_table
 from reports.document.page.writer import TablePlan
 from reports.document.text.numbers import of_digits
+from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms
 from reports.inputs.checks.grid import remark_on
 from reports.shared.russian import capital, fixed
@@ -29,7 +30,8 @@ SOURCES = {
         "учебное пособие / А. Н. Гоц. — Владимир : Изд-во Владим. гос. ун-та, 2006. — 104 с. — "
         f"ISBN 5-89368-664-0. {_TEXT}.",
     "vikhert":
-        "Вихерт, М. М. Конструкция и расчет автотракторных двигателей / М. М. Вихерт [и др.] ; "
+        "Конструкция и расчет автотракторных двигателей / М. М. Вихерт, Р. П. Доброгаев, "
+        "М. И. Ляхов [и др.] ; "
         "под редакцией Ю. А. Степанова. — 2-е изд., перераб. и доп. — Москва : Машиностроение, "
         f"1964. — 552 с. {_TEXT}.",
     "gots_polar":
@@ -48,6 +50,17 @@ SOURCES = {
     "neiman":
         "Нейман, И. Ш. Динамика авиационных двигателей / И. Ш. Нейман. — Москва : Оборонгиз, "
         f"1940. {_TEXT}.",
+    "den_hartog":
+        "Ден-Гартог, Дж. П. Механические колебания / Дж. П. Ден-Гартог ; перевод с английского. "
+        f"— Москва : Физматгиз, 1960. — 580 с. {_TEXT}.",
+    "butenschon":
+        "Butenschön, H.-J. Das hydrodynamische, zylindrische Gleitlager endlicher Breite unter "
+        "instationärer Belastung : Dissertation / H.-J. Butenschön. — Karlsruhe, 1976. "
+        f"{_TEXT}. — На немецком языке.",
+    "serensen":
+        "Серенсен, С. В. Несущая способность и расчет деталей машин на прочность / "
+        "С. В. Серенсен, В. П. Когаев, Р. М. Шнейдерович. — 3-е изд. — Москва : "
+        f"Машиностроение, 1975. — 488 с. {_TEXT}.",
 }  # fmt: skip
 
 _MOST_PERCENT = 1000.0  # of a value near zero a difference in percent says nothing
@@ -103,10 +116,10 @@ def check_keys(terms: Terms) -> list[str]:
     return [k.removeprefix(prefix) for k in terms.model.scalars if k.startswith(prefix)]
 
 
-def failed(terms: Terms) -> list[tuple[str, str]]:
+def failed(terms: Terms) -> list[tuple[Markup, str]]:
     """Title and value of the checks that did not pass."""
     return [
-        (terms.model.scalars[f"check_{key}"].note, _check_value(terms, key))
+        (titled_html(terms.model.scalars[f"check_{key}"].note), _check_value(terms, key))
         for key in check_keys(terms)
         if terms.values.scalars[f"check_{key}"] == NO
     ]
@@ -121,7 +134,7 @@ def _check_table(terms: Terms, keys: list[str]) -> TableBlock:
     columns = (Column("Проверка", 6, text=True), Column("Значение", 1.5), Column("Выполнено", 1.5))
     rows = [
         [
-            terms.model.scalars[f"check_{key}"].note,
+            titled_html(terms.model.scalars[f"check_{key}"].note),
             _check_value(terms, key),
             "да" if terms.values.scalars[f"check_{key}"] == YES else "нет",
         ]
@@ -152,11 +165,19 @@ def conclusion(chapter: Chapter) -> Markup:
         pin=worst_pin(chapter),
         ray=least_ray(terms),
         has_power=terms.has("T_ref"),
+        further=_further(chapter),
         step=chapter.input.calculation.step_deg,
         forced=chapter.input.crankshaft.force_offsets_deg is not None,
         peak=_peak(terms, float(pressure[row])),
         pz=(fixed(float(pressure[row]), 2), fixed(terms.model.tables["gas"].rows[row], 0)),
     )
+
+
+def _further(chapter: Chapter) -> list[Markup]:
+    """Results of the chapters that not every report has."""
+    names = chosen(chapter.input.report)
+    lines = {"torsion": torsion.concluded, "oil": oil.concluded}
+    return [line for name, of in lines.items() if name in names and (line := of(chapter))]
 
 
 def worst_pin(chapter: Chapter) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -13,10 +14,11 @@ from kshm.nomenclature.digits import scientific
 from reports.document.chapters import facts
 from reports.document.chapters.chapter import Chapter
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
+from reports.document.page.spec_tables import angle_table
 from reports.document.page.writer import TablePlan
 from reports.document.text.terms import Terms
 from reports.inputs.to_si.engine import to_engine
-from reports.shared.russian import fixed, joined, written
+from reports.shared.russian import MINUS, NBSP, fixed, joined, written
 
 _MOST_ORDERS = 8
 
@@ -58,6 +60,7 @@ _LISTS = {
         ("neiman_k", *(f"neiman_p{n}" for n in (2, 4, 6, 8))),
     ),
 }  # fmt: skip
+_ZERO = f"0,{NBSP}{MINUS}"  # signs of a number that is printed as zero
 _DEVICES = {
     "counterweight": "противовесов",
     "first_shafts": "грузов валов первого порядка",
@@ -85,8 +88,8 @@ def companions(chapter: Chapter) -> Markup:
     after = bool(asked - {"suppression"})
     tables |= _vectors(chapter, after=after) | {
         "devices": _devices(chapter, asked),
-        "orders": chapter.columns(
-            "balance_orders", _ORDERS_OF_BANKS if banks else _ORDERS,
+        "orders": TablePlan(
+            partial(_orders, terms, banks=banks),
             "Свободные силы и моменты инерции по порядкам", keep=True,
         ),
         "torque": chapter.columns(
@@ -116,6 +119,23 @@ def companions(chapter: Chapter) -> Markup:
         flywheel=_fine_flywheel(chapter),
         rod_given=chapter.input.masses.rod_kg is not None,
     )
+
+
+def _orders(terms: Terms, *, banks: bool) -> TableBlock:
+    """Forces and moments by orders; what is printed as zero has no direction."""
+    keys = _ORDERS_OF_BANKS if banks else _ORDERS
+    block = angle_table(terms, "balance_orders", keys)
+    directions = {keys.index(key): keys.index(key.replace("dir_deg", unit))
+                  for key, unit in (("F_order_dir_deg", "kN"), ("M_order_dir_deg", "Nm"))
+                  if key in keys}  # fmt: skip
+    rows = (
+        tuple(
+            "—" if place in directions and not row[directions[place]].strip(_ZERO) else cell
+            for place, cell in enumerate(row)
+        )
+        for row in block.rows
+    )
+    return replace(block, rows=tuple(rows))
 
 
 def _asked(chapter: Chapter) -> set[str]:

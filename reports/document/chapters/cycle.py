@@ -12,7 +12,7 @@ from reports.document.page.blocks import Column, TableBlock, symbol_head, table_
 from reports.document.page.spec_tables import list_block, unit_cell
 from reports.document.page.writer import TablePlan
 from reports.document.text import numbers
-from reports.document.text.symbols import inline_html
+from reports.document.text.symbols import inline_html, titled_html
 from reports.document.text.terms import Terms
 from reports.shared.russian import MINUS, capital, fixed
 from reports.tables.gas.cycle_names import friction_by_speed, is_boosted, section_of
@@ -166,7 +166,7 @@ def _ranges(terms: Terms) -> TableBlock:
         shown = fixed(value, 0 if abs(value) >= 100 else 2 if abs(value) >= 1 else 3)
         verdict = str(terms.values.scalars[f"range_{key}"])
         place = ("—" if scalar.source == UNCHECKED else scalar.source,) if sourced else ()
-        rows.append([title, shown, usual.replace("-", MINUS), verdict, *place])
+        rows.append([titled_html(title), shown, usual.replace("-", MINUS), verdict, *place])
     return table_block(columns, rows)
 
 

@@ -70,6 +70,7 @@ def _mass_notes(chapter: Chapter) -> Markup:
     return chapter.page(
         "masses",
         plan=chapter.scalars("Массы и шатун", keys, size="dense"),
+        keys=keys,
         estimated=given.estimate_fuel is not None,
         weighed=given.rod_weighed_small_end_kg is not None,
         swung=given.swing_edges_mm is not None,

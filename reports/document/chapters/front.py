@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from reports.document.chapters.chapter import Chapter
-from reports.document.chapters.profiles import chosen
+from reports.document.chapters.profiles import told
 from reports.document.page.fitting import type_pt
 from reports.document.page.style import TitlePage
 from reports.inputs.sections.input_file import InputFile
@@ -25,6 +25,8 @@ _KEYWORDS = (
     ("crankpin", "шатунная шейка"),
     ("journals", "коренная шейка"),
     ("crankpin", "диаграмма износа"),
+    ("torsion", "крутильные колебания"),
+    ("oil", "масляная плёнка"),
     ("companions", "уравновешенность"),
 )
 _REPORT = ("title", "institution", "department", "discipline", "student", "group", "supervisor",
@@ -69,9 +71,7 @@ def assignment(chapter: Chapter) -> Words:
 def abstract(chapter: Chapter) -> Words:
     """Counts of what the report holds, and key words."""
     n = chapter.writer.n
-    names = {"", *chosen(chapter.input.report)}
-    if not chapter.terms.has("cyc_N_e"):
-        names.discard("cycle")
+    names = {"", *told(chapter.input)}
     words = [word for name, word in _KEYWORDS if name in names]
     return {
         "figures": n.count("figure"),
@@ -104,6 +104,11 @@ def crowded(model: InputFile, frame: str | None = None) -> list[str]:
     ]
 
 
+def has_frame(model: InputFile, frame: str | None = None) -> bool:
+    """Whether the style file or, where it says nothing, the input asks for a frame."""
+    return (frame or model.report.frame) != "none"
+
+
 def title_block(model: InputFile, frame: str | None = None) -> Words | None:
     """Cells of the title block by ГОСТ 2.104; ``None`` where no frame is asked for.
 
@@ -112,7 +117,7 @@ def title_block(model: InputFile, frame: str | None = None) -> Words | None:
         frame: what the style file says about the frame, ``None`` for nothing.
     """
     report = model.report
-    if (frame or report.frame) == "none":
+    if not has_frame(model, frame):
         return None
     places = (report.institution, report.department, report.group)
     words = {

@@ -23,6 +23,9 @@ from reports.spec.shape import pin_name
 _FORCES = ("C1", "C2", "C3", "C4", "C5", "C6", "C7", "C8", "C9", "C10", "C11", "C12", "C13",
            "C14", "C15", "C4x", "C5x")  # fmt: skip
 _REACTIONS = ("length", "share", "share2", "RKCL", "RTCL", "RKCP", "RTCP")
+_ARMS = tuple(f"throw1_{key}" for key in ("arm_left", "arm_rod", "arm_rod2", "arm_pin",
+                                          "arm_right", "length"))  # fmt: skip
+_SUM_DIGITS = 2
 _SUM_COLUMNS = 7  # journals in one table of sums
 # Columns of a table of loads: key of the scalar, symbol, unit.
 _MOST = (("R{}_max", r"R'_{\max}", "МПа"), ("phi_R{}_max_deg", r"\varphi_{\max}", "°"))
@@ -58,6 +61,7 @@ def crankpin(chapter: Chapter) -> Markup:
         rays=rays,
         sums=TablePlan(sums, "Суммы удельных сил по лучам шатунной шейки", keep=True),
         best=least_ray(terms),
+        ties=_least_rays(terms, rays),
     )
 
 
@@ -82,6 +86,13 @@ def least_ray(terms: Terms) -> str:
     return roman(round(terms.value("hole_pin_ray")))
 
 
+def _least_rays(terms: Terms, rays: int) -> list[str]:
+    """Roman numbers of the rays whose sums are the least as printed."""
+    sums = [fixed(terms.value(f"pin_sum{i}"), _SUM_DIGITS) for i in range(1, rays + 1)]
+    least = sums[round(terms.value("hole_pin_ray")) - 1]
+    return [roman(i) for i, shown in enumerate(sums, 1) if shown == least]
+
+
 def journals(chapter: Chapter) -> Markup:
     """Reactions of the bearings on every main journal."""
     terms, rays, throws = chapter.terms, chapter.input.calculation.wear_rays, chapter.shape.throws
@@ -99,6 +110,7 @@ def journals(chapter: Chapter) -> Markup:
             "Схема коленчатого вала: вид сбоку и с носка",
         ),
         throws=throws,
+        arms=[name for name in _ARMS if terms.has(name)],
         numbers=numbers,
         drawn=numbers if chapter.whole else [k],
         forces=_throws(chapter, _FORCES, "Центробежные силы колен", size),
@@ -161,6 +173,6 @@ def _ray_sums(terms: Terms, names: list[str], heads: list[str], rays: int) -> Ta
     columns += [Column(symbol_head(head, "МПа")) for head in heads]
     rows = []
     for i in range(1, rays + 1):
-        sums = [fixed(terms.value(f"{name}_sum{i}"), 2) for name in names]
+        sums = [fixed(terms.value(f"{name}_sum{i}"), _SUM_DIGITS) for name in names]
         rows.append([roman(i), fixed(terms.value(f"{names[0]}_deg{i}"), 0), *sums])
     return table_block(columns, rows)

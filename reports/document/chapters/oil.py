@@ -10,6 +10,7 @@ from markupsafe import Markup
 from reports.document.chapters.chapter import Chapter
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.page.writer import TablePlan
+from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms
 from reports.inputs.sections.bearings import MATERIALS
 from reports.shared.russian import fixed
@@ -82,6 +83,27 @@ def oil(chapter: Chapter) -> Markup:
     )  # fmt: skip
 
 
+def concluded(chapter: Chapter) -> Markup:
+    """The chapter's result in a line of the conclusion."""
+    terms, section = chapter.terms, chapter.input.bearings
+    if section is None:
+        return Markup("")
+    gaps = terms.column("oil_orbits.oil_orb_h_um")
+    thin = _worst(cases_of(Scope(chapter.input))[int(gaps.argmin())], float(gaps.min()))
+    side = "меньше" if thin.value < terms.value("oil_hcr_um") else "не меньше"
+    pin, main = terms.value("safe_n_pin"), terms.value("safe_n_main")
+    part = "шатунной" if pin <= main else "коренной"
+    enough = "не меньше" if min(pin, main) >= section.safety_allowed else "меньше"
+    line = (
+        "самая тонкая масляная плёнка {} мкм — у {}, она {} критической {}; наименьший запас "
+        "прочности {} — у {} шейки, он {} допускаемого {}"
+    )
+    return Markup(line).format(
+        thin.text, thin.words, side, terms.val("oil_hcr_um"), fixed(min(pin, main), 2), part,
+        enough, terms.num("bearings_safety_allowed"),
+    )  # fmt: skip
+
+
 _CLOSED = 1e-3
 _SAFE = (
     "worst_main_torque", "safe_n_main", "safe_sigma_a_MPa", "safe_sigma_m_MPa", "safe_n_bend_hole",
@@ -109,7 +131,10 @@ def _steady(terms: Terms, cases: list[Case]) -> TableBlock:
         "oil_k{}_MPa", "oil_chi{}", "oil_temp{}_C", "oil_visc{}_mPas", "oil_hmin{}_um", "oil_K{}",
         "oil_friction{}_W", "oil_through{}_l_min",
     )  # fmt: skip
-    rows = [[case.label, *(terms.num(key.format(case.number)) for key in keys)] for case in cases]
+    rows = [
+        [titled_html(case.label), *(terms.num(key.format(case.number)) for key in keys)]
+        for case in cases
+    ]
     return table_block(heads, rows)
 
 
@@ -127,7 +152,7 @@ def _orbits(terms: Terms, cases: list[Case]) -> TableBlock:
     )  # fmt: skip
     rows = [
         [
-            case.label,
+            titled_html(case.label),
             *(fixed(float(terms.column(f"oil_orbits.{key}")[k]), digits) for key, digits in keys),
         ]
         for k, case in enumerate(cases)

@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from reports.document.chapters.chapter import Chapter
 from reports.document.chapters.layout import scheme_text
-from reports.document.chapters.profiles import chosen
+from reports.document.chapters.profiles import told
 from reports.document.figures.parts import mechanism_of, sizes_figure, throw_of
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.page.spec_tables import list_block, unit_cell
@@ -64,16 +64,17 @@ _FOUND = (
     ("crankpin", "нагрузка на шатунную шейку и условная диаграмма её износа"),
     ("journals", "нагрузки на коренные шейки и их условные диаграммы износа"),
     ("running", "набегающие моменты"),
+    ("torsion", "крутильные колебания вала"),
+    ("oil", "толщина масляной плёнки подшипников и запасы прочности шеек"),
     ("companions", "уравновешенность и неравномерность хода двигателя"),
 )
 
 
 def introduction(chapter: Chapter) -> Markup:
     """Introduction: what is computed and how."""
-    names = chosen(chapter.input.report)
-    return chapter.page(
-        "introduction", found=joined([what for name, what in _FOUND if name in names])
-    )
+    names = told(chapter.input)
+    found = joined([what for name, what in _FOUND if name in names])
+    return chapter.page("introduction", found=found, appended="appendices" in names)
 
 
 def input_data(chapter: Chapter) -> Markup:
@@ -129,8 +130,9 @@ def _general(fields: Sequence[Field], unused: set[str]) -> TableBlock:
         if field.path[0] in _OTHERS or field.name in _LEFT_OUT or _is_listed(field):
             continue
         symbol = inline_html(input_symbol_tex(field.symbol)) if field.symbol else "—"
-        unit = "—" if field.choices is not None else unit_cell(field.unit)
-        rows.append([field.title, symbol, input_text(field), unit])
+        value, degrees, _ = input_text(field).partition("°" if field.choices is not None else "\0")
+        unit = degrees or ("—" if field.choices is not None else unit_cell(field.unit))
+        rows.append([field.title, symbol, value, unit])
     return list_block(rows)
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.report import Report
+from reports.tables.gas.cycle_names import section_of
 
 _ALWAYS = {"notation", "introduction", "inputs", "conclusion", "sources"}
 _SHORT = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals"}
@@ -15,3 +17,11 @@ def chosen(report: Report) -> set[str]:
     """Names of the chapters that a report holds."""
     wanted = _PROFILES[report.detail] if report.chapters is None else set(report.chapters)
     return wanted | _ALWAYS
+
+
+def told(model: InputFile) -> set[str]:
+    """Those of them that have something to tell of an engine."""
+    lacking = {"torsion"} if model.torsion is None else set()
+    lacking |= {"oil"} if model.bearings is None else set()
+    lacking |= {"cycle"} if section_of(model) is None else set()
+    return chosen(model.report) - lacking

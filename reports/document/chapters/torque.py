@@ -110,5 +110,6 @@ def _ranges(terms: Terms, count: int) -> TableBlock:
     for title, column, key in names:
         values = terms.column(column)
         numbers = (float(values.max()), float(values.min()), terms.value(key))
-        rows.append([title, *(fixed(number, 0) for number in numbers)])
+        digits = terms.quantity(key).digits.decimals  # as in the text below the table
+        rows.append([title, *(fixed(number, digits) for number in numbers)])
     return table_block(columns, rows)

@@ -89,6 +89,22 @@ def torsion(chapter: Chapter) -> Markup:
     )  # fmt: skip
 
 
+def concluded(chapter: Chapter) -> Markup:
+    """The chapter's result in a line of the conclusion."""
+    terms, section = chapter.terms, chapter.input.torsion
+    if section is None:
+        return Markup("")
+    bare = _peak(terms, "")
+    over = bare.stress > section.stress_allowed_mpa
+    line = (
+        "первая собственная частота крутильных колебаний вала {}, наибольшая амплитуда "
+        "напряжений кручения {} МПа при {} мин<sup>−1</sup>, что {} {}"
+    )
+    verdict = "превышает допускаемую" if over else "не превышает допускаемой"
+    allowed = terms.val("torsion_stress_allowed_mpa")
+    return Markup(line).format(terms.val("tor_f1_hz"), bare.text, bare.speed, verdict, allowed)
+
+
 def _peak(terms: Terms, which: str) -> Peak:
     stresses = terms.column(f"torsion_response.tor_tau{which}_MPa")
     place = int(stresses.argmax())
@@ -109,7 +125,7 @@ def _forms(terms: Terms, modes: list[int]) -> TableBlock:
         ]
         for k, label in enumerate(labels)
     ]
-    rows.append(["частота, Гц", "", *(terms.num(f"tor_f{m}_hz") for m in modes)])
+    rows.append(["частота, Гц", "—", *(terms.num(f"tor_f{m}_hz") for m in modes)])
     return table_block(heads, rows)
 
 

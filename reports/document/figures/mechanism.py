@@ -110,7 +110,7 @@ class _Mechanism:
             pen.line([(edge - 4, place[1]), (place[0], place[1])], HAIR, DASHED)
             pen.text((edge - 20, place[1]), name, SMALL)
         pen.measure((edge, self.bottom[1]), (edge, self.top[1]))
-        stroke = r"$S_{\mathrm{д}}$" if self.offset else "$S=2r$"
+        stroke = "$S$" if self.offset else "$S=2r$"
         pen.text((edge - 22, (self.top[1] + self.bottom[1]) / 2), stroke, SMALL)
         x += self.offset
         across = x + self.bore + 16

@@ -13,6 +13,7 @@ from reports.document.text.texts import rich
 from reports.shared.russian import NBSP
 
 _LONG = 12  # rows from which a table is worth the lines
+_DASH = "—"
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +92,8 @@ class TableBlock:
         if len(self.rows) < _LONG or not equal or any(column.text for column in self.columns):
             return None
         cells = [cell for row in self.rows for cell in row]
-        if not all(type(cell) is str and numbers.is_number(cell) for cell in cells):
+        if not all(type(cell) is str and (numbers.is_number(cell) or cell == _DASH)
+                   for cell in cells):  # fmt: skip
             return None
         tab = int(width_px / count)
         first = width_px - tab * (count - 1)
@@ -104,7 +106,14 @@ class TableBlock:
             NBSP * max(0, round(middle / quarter - width / 2))
             for middle, width in zip(middles, widest, strict=True)
         ]
-        lines = ("\t".join(map(str.__add__, leads, row)) for row in self.rows)
+        dashes = [NBSP * max(0, round(middle / quarter - 2)) + _DASH for middle in middles]
+        lines = (
+            "\t".join(
+                dash if cell == _DASH else lead + cell
+                for lead, dash, cell in zip(leads, dashes, row, strict=True)
+            )
+            for row in self.rows
+        )
         return Tabbed(tuple(lines), tab, first)
 
 
@@ -123,7 +132,12 @@ def table_block(columns: Sequence[Column], rows: Sequence[Sequence[object]]) -> 
 def symbol_head(symbol_tex: str, unit: str = "") -> Markup:
     """Heading of a column: the symbol and, after a comma, the unit."""
     head = inline_html(symbol_tex)
-    return head + Markup(", {}").format(rich(unit)) if unit else head
+    return Markup("{}, {}").format(head, unbroken(unit)) if unit else head
+
+
+def unbroken(unit: str) -> Markup:
+    """A unit that no line ends within."""
+    return Markup('<span class="nb">{}</span>' if "/" in unit else "{}").format(rich(unit))
 
 
 @dataclass(frozen=True, slots=True)

@@ -105,11 +105,20 @@ def _together(terms: Terms, charts: Sequence[ChartSpec]) -> tuple[str, Column, l
     return name, abscissa, [[next(found) for _ in each] for each in series]
 
 
+def _something(
+    series: Sequence[Series], columns: Sequence[Column]
+) -> tuple[Sequence[Series], Sequence[Column]]:
+    """Without curves that are zero all along beside others that are not."""
+    kept = [place for place, column in enumerate(columns) if np.any(column)]
+    places = kept or range(len(columns))
+    return [series[place] for place in places], [columns[place] for place in places]
+
+
 def _panel(
     terms: Terms, chart: ChartSpec, columns: Sequence[Column], rows: Sequence[Row] = ()
 ) -> Panel:
     """A panel with its curves; the rows of the table are marked on finer curves."""
-    drawn = chart.drawn_by("report")
+    drawn, columns = _something(chart.drawn_by("report"), columns)
     x, y = terms.column(drawn[0].x), terms.column(drawn[0].y)
     marked = len(columns[0]) > len(x)
     if chart.extremes:
@@ -178,6 +187,7 @@ def _tex(title: str) -> str:
 
     def symbol(match: re.Match[str]) -> str:
         text = match.group().replace("′", "'").replace("²", "^2")
+        text = re.sub("(max|min)$", r"_{\\mathrm{\1}}", text)
         text = "".join(_COMMANDS.get(sign, sign) for sign in text)
         return "$" + re.sub(r"(?<!\^)([0-9]+)", r"_{\1}", text).strip() + "$"
 

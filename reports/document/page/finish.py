@@ -10,7 +10,7 @@ _TYPES = {".toml": "application/toml"}  # that Python's list of media types lack
 
 
 def finish(pdf: Any) -> None:  # noqa: ANN401
-    """Formulas tagged as such, each attachment named once, media types of attachments."""
+    """Formulas and headings of columns tagged as such; attachments named once, with their types."""
     for item in pdf.objects:
         if isinstance(item, dict) and item.get("Type") == "/StructElem":
             _tagged(item)
@@ -25,6 +25,8 @@ def _tagged(element: dict[str, Any]) -> None:
     if words is not None and words.string.startswith(FORMULA):
         words.string = words.string.removeprefix(FORMULA)
         element["S"] = "/Formula"
+    elif element.get("S") == "/TH":
+        element["A"]["Scope"] = "/Column"
 
 
 def _typed(pdf: Any, file: dict[str, Any]) -> None:  # noqa: ANN401

@@ -137,7 +137,8 @@ def type_pt(text: str, width_mm: float, height_mm: float, usual_pt: float) -> fl
     Returns:
         Size [pt]; 0 if the text does not fit even in the smallest type.
     """
-    words = [text_em(word) for word in text.split()]
+    # A line may end after a hyphen too.
+    words = [text_em(word) for word in re.split(r"\s+|(?<=\w-)(?=\w)", text.strip()) if word]
     whole = sum(words) + 0.25 * max(0, len(words) - 1)
     count = round((usual_pt - _LEAST_PT) / 0.5) + 1
     sizes = [usual_pt - 0.5 * step for step in range(count)]

@@ -10,6 +10,7 @@ from markupsafe import Markup
 
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.text import numbers
+from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms
 from reports.shared.russian import capital
 from reports.spec.blocks import Grid
@@ -41,7 +42,7 @@ def angle_table(
     for column in columns:
         q = column.quantity
         values = np.asarray(terms.values.columns[table][column.key], dtype=float).tolist()
-        cells.append([numbers.of_digits(v, q.digits) for v in values])
+        cells.append([numbers.of_digits(v, q.digits) or "—" for v in values])
         tex = terms.tex(f"{table}.{column.key}") if own_symbols else q.tex
         heads.append(Column(symbol_head(tex, q.unit_label)))
     rows = list(zip(*cells, strict=True))
@@ -71,7 +72,9 @@ def list_block(rows: Sequence[Sequence[str]]) -> TableBlock:
         Column("Единица", 1.3),
     )
     # Values of different kinds: Markup keeps them from being lined up as one column.
-    return table_block(columns, [[a, b, Markup("{}").format(c), d] for a, b, c, d in rows])
+    return table_block(
+        columns, [[titled_html(a), b, Markup("{}").format(c), d] for a, b, c, d in rows]
+    )
 
 
 def unit_cell(unit: str) -> str:

@@ -14,6 +14,7 @@ from reports.shared.errors import InputError, Problem
 KEY = "report.style"
 HINT = "исправьте файл оформления; ключи описаны в docs/report.md"
 PX = 96 / 25.4  # CSS pixels in a millimetre
+FRAMED_MM = 30.0  # bottom margin of a sheet with the title block, form 2а
 _TABLE = 12 / 14  # type of tables relative to the text's
 _SIZES = {"": 1.0, "dense": 0.875, "tiny": 0.75}  # relative to the usual type of tables
 
@@ -55,6 +56,12 @@ class Style(_Strict):
     table_step_deg: Annotated[int, Field(ge=1, le=90)] = 30
     margins: Margins = Margins()
     title: TitlePage = TitlePage()
+
+    @property
+    def framed(self) -> Style:
+        """The same for sheets with a frame: the title block stands at their foot."""
+        margins = self.margins.model_copy(update={"bottom": FRAMED_MM})
+        return self.model_copy(update={"margins": margins})
 
     @property
     def width_mm(self) -> float:

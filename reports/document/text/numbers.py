@@ -56,12 +56,16 @@ def aligned(texts: Iterable[str]) -> list[str]:
     """Fill numbers up on the left so that, set centred, their last digits stand in line.
 
     No-break spaces do it (a quarter of an em in STIX, half a digit): decimals line up while
-    the column stays centred under its heading, without a style on every cell.
+    the column stays centred under its heading, without a style on every cell.  What is no
+    number, a unit, a dash, stays in the middle.
     """
     column = list(texts)
-    widths = [quarters(text) for text in column]
+    widths = [quarters(text) if is_number(text) else 0 for text in column]
     widest = max(widths, default=0)
-    return [NBSP * (widest - width) + text for text, width in zip(column, widths, strict=True)]
+    return [
+        NBSP * (widest - width) + text if width else text
+        for text, width in zip(column, widths, strict=True)
+    ]
 
 
 def quarters(text: str) -> int:

@@ -7,6 +7,7 @@ Cheaper than a picture by far.  Only letters, Greek, indices, primes, ``\mathrm`
 from __future__ import annotations
 
 import functools
+import re
 from collections.abc import Sequence
 
 from markupsafe import Markup, escape
@@ -22,6 +23,12 @@ SIGNS = {
 _SPACED = set(f"=≈≤≥<>·×±+{MINUS}") | {"&lt;", "&gt;"}
 _FUNCTIONS = {"sin", "cos", "tan", "tg", "ctg", "arcsin", "arccos", "arctg", "max", "min", "ln"}
 _UPRIGHT = {"mathrm", "text", "operatorname"}
+# In a title: a letter and its index, written as one word or with a stroke, or a letter alone.
+_WORD = r"0-9A-Za-zА-яёα-ω_′"
+_IN_TITLE = re.compile(
+    rf"(?<![{_WORD}°])([A-Za-zα-ω]|Δ(?=m))(?:_?(max|min|[a-z]|\d|[а-я][а-я.]{{0,4}}))?(?![{_WORD}°])"
+)
+_ELEMENTS = "HON"
 
 
 class SymbolError(ValueError):
@@ -42,6 +49,28 @@ def inline_html(symbol_tex: str) -> Markup:
         return Markup(_html(tree(symbol_tex), upright=False))
     except TexError as error:
         raise SymbolError(str(error)) from error
+
+
+@functools.lru_cache(maxsize=4096)
+def titled_html(title: str) -> Markup:
+    """A title with its symbols as symbols: «давление pa» gives *p* with the index *a*."""
+    pieces, end = [], 0
+    for match in _IN_TITLE.finditer(title):
+        pieces += [str(escape(title[end : match.start()])), _in_title(match)]
+        end = match.end()
+    return Markup("".join([*pieces, str(escape(title[end:]))]))
+
+
+def _in_title(match: re.Match[str]) -> str:
+    letter, index = match.groups()
+    if letter == "Δ":
+        return f"Δ<sub>{index}</sub>"
+    upright = letter in _ELEMENTS and index is not None and index.isdigit()
+    shown = letter if upright else f"<i>{letter}</i>"
+    if index is None:
+        return shown
+    small = f"<i>{index}</i>" if index.isascii() and index.isalpha() else index
+    return f"{shown}<sub>{small}</sub>"
 
 
 def _html(nodes: Sequence[Node], *, upright: bool) -> str:

@@ -282,7 +282,8 @@ def with_unit(number: str, unit: str) -> Markup:
     if not unit:
         return Markup(number)
     space = "" if unit in _NO_SPACE else NBSP
-    return Markup("{}{}{}").format(number, space, rich(unit))
+    look = '{}{}<span class="nb">{}</span>' if "/" in unit else "{}{}{}"
+    return Markup(look).format(number, space, rich(unit))
 
 
 def book_place(source: str) -> str:

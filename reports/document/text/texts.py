@@ -70,8 +70,8 @@ def pictured(svg: str, title: object) -> Markup:
     return Markup(picture).format(*values)
 
 
-_SPACE_BEFORE = re.compile("([ \u00a0])(<(?:a|i)\\b[^<>]*>)")
-_SPACE_BEFORE_UNBROKEN = re.compile('([ \u00a0])(<span class="nb">)')
+_SPACE_BEFORE = re.compile('([ \u00a0])(<(?:a(?! class="ref")|i)\\b[^<>]*>)')
+_SPACE_BEFORE_UNBROKEN = re.compile('([ \u00a0])(<span class="nb">|<a class="ref")')
 
 
 # A lone capital with a point before another capital: initials, «А. Н. Гоц».

@@ -67,7 +67,7 @@ def make_secret(path: Path) -> bytes:
             stream.write(secret.hex() + "\n")
     except OSError as error:
         hint = "укажите другое место ключом --secret"
-        what = f"не удается записать секрет: {reason(error)}"
+        what = f"не удаётся записать секрет: {reason(error)}"
         raise InputError(Problem(str(path), what, hint)) from None
     return secret
 

@@ -69,7 +69,7 @@ def _geometry(values: Values) -> Iterator[Finding]:
 def _ratio(ratio: float, path: Path) -> Iterator[Finding]:
     text = number_text(round(ratio, 6))
     if ratio >= 1:
-        what = f"λ = r/L = {text}: шатун не длиннее кривошипа, механизм не провернется"
+        what = f"λ = r/L = {text}: шатун не длиннее кривошипа, механизм не провернётся"
         yield Finding(path, what, f"допустимо λ от {LAMBDA_MIN} до {LAMBDA_MAX}")
     elif not LAMBDA_MIN <= ratio <= LAMBDA_MAX:
         what = f"λ = r/L = {text} вне допустимых пределов"

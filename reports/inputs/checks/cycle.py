@@ -19,17 +19,17 @@ def check_cycle(values: Values) -> Iterator[Finding]:
     if not given:
         return
     if source is not None and source != "cycle":
-        what = f"задан расчет цикла, а gas.source = {source}"
+        what = f"задан расчёт цикла, а gas.source = {source}"
         yield Finding(("gas", "source"), what, "запишите source = cycle или уберите [cycle]")
     if values.get("regime", "indicated_power_kw") is not None:
-        what = "индикаторная мощность следует из расчета цикла"
+        what = "индикаторная мощность следует из расчёта цикла"
         yield Finding(("regime", "indicated_power_kw"), what, "уберите ключ")
     if values.get("regime", "fullness") not in (None, 1.0):
-        what = "полнота диаграммы при расчете цикла задается в cycle.fullness"
+        what = "полнота диаграммы при расчёте цикла задаётся в cycle.fullness"
         yield Finding(("regime", "fullness"), what, "уберите ключ")
     for key in ("crank_offset_mm", "pin_offset_mm"):
         if values.get("geometry", key):
-            what = "расчет цикла ведется для центрального механизма"
+            what = "расчёт цикла ведётся для центрального механизма"
             yield Finding(("geometry", key), what, "уберите ключ или задайте давления газов сами")
     yield from _engine(values)
     yield from _groups(values)
@@ -53,19 +53,19 @@ def _together(
 def _engine(values: Values) -> Iterator[Finding]:
     kind = values.get("cycle", "kind")
     if kind == "diesel":
-        yield from _together(values, "для дизеля p_z задается", True, ("max_pressure_mpa",))
+        yield from _together(values, "для дизеля p_z задаётся", True, ("max_pressure_mpa",))
         yield from _together(
             values, "нужен только бензиновому двигателю", False, (), ("h2_co_ratio",)
         )
     elif kind == "petrol":
-        why = "у бензинового двигателя p_z получается из расчета"
+        why = "у бензинового двигателя p_z получается из расчёта"
         yield from _together(values, why, False, (), ("max_pressure_mpa",))
     fuel = values.get("cycle", "fuel")
     if fuel == "own":
         needed = OWN_FUEL if kind == "diesel" else (*OWN_FUEL, "fuel_molar_mass_kg_kmol")
         yield from _together(values, "fuel = own", True, needed)
     elif fuel is not None:
-        why = "состав задается только при fuel = own"
+        why = "состав задаётся только при fuel = own"
         yield from _together(values, why, False, (), (*OWN_FUEL, "fuel_molar_mass_kg_kmol"))
 
 

@@ -138,14 +138,14 @@ def _central_only(values: Values) -> Iterator[Finding]:
     keys = ("crank_offset_mm", "pin_offset_mm")
     others = [key for key in keys if values.get("geometry", key) is not None]
     if others or "articulated" in values.sections:
-        what = "скругленная диаграмма построена только для центрального механизма"
+        what = "скруглённая диаграмма построена только для центрального механизма"
         yield Finding(("gas", "source"), what, "задайте точки или политропы")
 
 
 def _two_stroke(values: Values) -> Iterator[Finding]:
     strokes = values.get("engine", "strokes")
     if strokes == 2 and values.get("gas", "source") == "cycle":
-        what = "рабочий цикл рассчитывается только для четырехтактного двигателя"
+        what = "рабочий цикл рассчитывается только для четырёхтактного двигателя"
         yield Finding(("gas", "source"), what, 'задайте source = "polytropic" или "table"')
     if values.get("gas", "source") != "polytropic" or strokes is None:
         return

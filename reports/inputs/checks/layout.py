@@ -44,8 +44,8 @@ def _banks(values: Values) -> Iterator[Finding]:
     if layout is None:
         return
     if layout != "inline" and cylinders is not None and cylinders % 2:
-        what = f"число цилиндров {cylinders} нечетное, а рядов два"
-        yield Finding(("engine", "cylinders"), what, 'задайте четное число или layout = "inline"')
+        what = f"число цилиндров {cylinders} нечётное, а рядов два"
+        yield Finding(("engine", "cylinders"), what, 'задайте чётное число или layout = "inline"')
     if layout == "v" and bank is None and values.sure("crankshaft", "bank_angle_deg"):
         what = "угол развала не задан"
         yield Finding(("crankshaft", "bank_angle_deg"), what, "V-образному двигателю он нужен")
@@ -185,7 +185,7 @@ def _offset(values: Values) -> Iterator[Finding]:
     if radius < rod <= radius + abs(offset):
         what = (
             f"смещение {number_text(offset)} мм не меньше L − r = "
-            f"{number_text(round(rod - radius, 6))} мм: механизм не провернется"
+            f"{number_text(round(rod - radius, 6))} мм: механизм не провернётся"
         )
         yield Finding(path, what, "уменьшите смещение или удлините шатун")
         return
@@ -232,8 +232,8 @@ def _articulated(values: Values) -> Iterator[Finding]:
     reach = _side_reach(pair, offset, radius, math.radians(angle), math.radians(bank))
     if reach >= length:
         what = (
-            f"прицепной шатун {number_text(length)} мм не достает до оси своего цилиндра: "
-            f"его палец отходит от нее на {number_text(round(reach, 2))} мм"
+            f"прицепной шатун {number_text(length)} мм не достаёт до оси своего цилиндра: "
+            f"его палец отходит от неё на {number_text(round(reach, 2))} мм"
         )
         hint = "удлините шатун или поставьте палец ближе к углу развала"
         yield Finding(("articulated", "rod_length_mm"), what, hint)

@@ -18,7 +18,7 @@ _ADVICE = (
     "задайте либо reciprocating_kg и rod_big_end_kg, "
     "либо piston_group_kg, rod_kg и одно из rod_centre_mm, rod_small_end_share"
 )
-_MORE = "; еще способы: взвешивание, качания, оценка estimate_fuel"
+_MORE = "; ещё способы: взвешивание, качания, оценка estimate_fuel"
 _GRAVITY_MM = 9810.0
 
 
@@ -89,7 +89,7 @@ def _webs(values: Values) -> Iterator[Finding]:
             return
         ways.add((actual, web.mass_kg is None))
     if len(ways) > 1:
-        what = "массы щек заданы разными способами"
+        what = "массы щёк заданы разными способами"
         yield Finding(("crankshaft", "webs"), what, "задайте все щеки одинаково")
 
 

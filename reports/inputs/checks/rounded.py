@@ -16,7 +16,7 @@ def check_rounded(values: Values) -> Iterator[Finding]:
     """Yield what keeps the points of figure 22 from being joined."""
     strokes = values.get("engine", "strokes")
     if strokes is not None and int(strokes) != 4:
-        what = "скругленная диаграмма построена только для четырехтактного двигателя"
+        what = "скруглённая диаграмма построена только для четырёхтактного двигателя"
         yield Finding(("gas", "source"), what, "задайте точки или политропы")
         return
     kind = values.get("gas", "kind")

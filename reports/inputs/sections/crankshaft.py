@@ -14,7 +14,7 @@ class WebSection(Strictly):
     """[[crankshaft.webs]]: a web and its counterweight; masses reduced to the crank radius."""
 
     mass_kg: Annotated[
-        float | None, number("Щека {n}: приведенная масса", "m_щ{n}", KG, 0, 5000)
+        float | None, number("Щека {n}: приведённая масса", "m_щ{n}", KG, 0, 5000)
     ] = None
     actual_mass_kg: Annotated[
         float | None, number("Щека {n}: действительная масса", "m_щ{n}", KG, 0, 5000)
@@ -26,7 +26,7 @@ class WebSection(Strictly):
         float, number("Щека {n}: угол против вращения от кривошипа", "α_щ{n}", DEG, -360, 360)
     ] = 0.0
     counterweight_kg: Annotated[
-        float, number("Щека {n}: приведенная масса противовеса", "m_пр{n}", KG, 0, 5000)
+        float, number("Щека {n}: приведённая масса противовеса", "m_пр{n}", KG, 0, 5000)
     ] = 0.0
     counterweight_angle_deg: Annotated[
         float,
@@ -121,7 +121,7 @@ class CrankshaftSection(Strictly):
         Strict(False),
     ]
     pin_mass_kg: Annotated[
-        float | None, number("Приведенная масса шатунной шейки", "m_ш.ш", KG, 0, 5000)
+        float | None, number("Приведённая масса шатунной шейки", "m_ш.ш", KG, 0, 5000)
     ] = None
     oil_hole_deg: Annotated[
         float | None,
@@ -134,7 +134,7 @@ class CrankshaftSection(Strictly):
         ),
     ] = None
     nose_mass_kg: Annotated[
-        float, number("Внешний противовес на носке: приведенная масса", "m_вп1", KG, 0, 5000)
+        float, number("Внешний противовес на носке: приведённая масса", "m_вп1", KG, 0, 5000)
     ] = 0.0
     nose_angle_deg: Annotated[
         float,
@@ -144,7 +144,7 @@ class CrankshaftSection(Strictly):
         0.0
     )
     rear_mass_kg: Annotated[
-        float, number("Внешний противовес сзади: приведенная масса", "m_вп2", KG, 0, 5000)
+        float, number("Внешний противовес сзади: приведённая масса", "m_вп2", KG, 0, 5000)
     ] = 0.0
     rear_angle_deg: Annotated[
         float,

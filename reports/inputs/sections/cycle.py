@@ -36,7 +36,7 @@ FUEL_NAMES = {
 ROUNDINGS = {"nearest": "до ближайшего", "up": "вверх"}
 PUMPING = {"no": "не вычитать", "yes": "вычитать"}
 SPEED_LAWS = {
-    "diesel": "дизель с неразделенной камерой",
+    "diesel": "дизель с неразделённой камерой",
     "diesel_prechamber": "предкамерный дизель",
     "diesel_swirl": "вихрекамерный дизель",
     "petrol": "бензиновый двигатель",
@@ -127,7 +127,7 @@ class CycleSection(Strictly):
     ] = None
     pumping: Annotated[
         Literal["no", "yes"],
-        choice("Насосные потери pr − pa при расчете pi", PUMPING, structural=False),
+        choice("Насосные потери pr − pa при расчёте pi", PUMPING, structural=False),
     ] = "no"
     friction_a_mpa: Annotated[
         float | None, _limited("Механические потери A + B·cm: A", "A", MPA, "mechanical.a")
@@ -166,7 +166,7 @@ class CycleSection(Strictly):
     ] = None
     exhaust_heat_kj_kg_k: Annotated[
         float | None,
-        _limited("Теплоемкость отработавших газов", "c_pг", KJ_KG_K, "boost.exhaust_cp"),
+        _limited("Теплоёмкость отработавших газов", "c_pг", KJ_KG_K, "boost.exhaust_cp"),
     ] = None
     speed_law: Annotated[
         Literal["diesel", "diesel_prechamber", "diesel_swirl", "petrol"] | None,

@@ -13,8 +13,8 @@ from reports.inputs.units import DEG, MPA, NONE
 SOURCES = {
     "polytropic": "по политропам",
     "table": "по точкам диаграммы",
-    "cycle": "по расчету цикла",
-    "rounded": "скругленная действительная диаграмма",
+    "cycle": "по расчёту цикла",
+    "rounded": "скруглённая действительная диаграмма",
 }
 INTERPOLATIONS = {"linear": "прямыми", "monotone": "гладко, без выбросов"}
 PEAK_SHARE = {"petrol": 0.85, "diesel": 1.0}
@@ -142,7 +142,7 @@ class RoundedGasSection(_Ignition, _Pressures, _Kind):
         float, number("Давление в точке c'' к давлению конца сжатия", "p_c''/p_c", NONE, 1, 2)
     ] = 1.2
     peak_share: Annotated[
-        float | None, number("Действительное давление z_д к расчетному", "p_zд/p_z", NONE, 0.5, 1)
+        float | None, number("Действительное давление z_д к расчётному", "p_zд/p_z", NONE, 0.5, 1)
     ] = None
     peak_after_tdc_deg: Annotated[
         float | None, number("Точка z_д после ВМТ", "φ_zд", DEG, 2, 45)

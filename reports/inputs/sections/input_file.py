@@ -63,7 +63,7 @@ class Calculation(Strictly):
     """[calculation]: method and grid."""
 
     method: Annotated[
-        Literal["textbook", "exact"], choice("Метод расчета", METHODS, structural=False)
+        Literal["textbook", "exact"], choice("Метод расчёта", METHODS, structural=False)
     ] = "textbook"
     step_deg: Annotated[
         Literal[1, 2, 3, 5, 10, 15, 30],
@@ -131,7 +131,7 @@ class Regime(Strictly):
     speed_rpm: Annotated[float, number("Частота вращения", "n", RPM, 10, 30000)]
     mechanical_efficiency: Annotated[float, number("Механический КПД", "η_м", NONE, 0.1, 1)] = 1.0
     indicated_power_kw: Annotated[
-        float | None, number("Индикаторная мощность по расчету цикла", "N_i", KW, 0.01, 1e5)
+        float | None, number("Индикаторная мощность по расчёту цикла", "N_i", KW, 0.01, 1e5)
     ] = None
     fullness: Annotated[float, number("Коэффициент полноты диаграммы", "φ_п", NONE, 0.5, 1)] = 1.0
 

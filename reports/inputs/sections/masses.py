@@ -39,7 +39,7 @@ class MassesSection(Strictly):
         float | None, number("Масса возвратно-движущихся деталей", "m_j", KG, 0.001, 5000)
     ] = None
     rod_big_end_kg: Annotated[
-        float | None, number("Масса шатуна, отнесенная к кривошипу", "m_2", KG, 0.001, 5000)
+        float | None, number("Масса шатуна, отнесённая к кривошипу", "m_2", KG, 0.001, 5000)
     ] = None
     piston_group_kg: Annotated[
         float | None, number("Масса поршневой группы", "m_п", KG, 0.001, 5000)

@@ -13,7 +13,7 @@ from reports.inputs.units import NONE
 DETAILS = {
     "course": "главы курсового проекта, таблицы через 30°",
     "full": "все главы, все строки таблиц",
-    "short": "расчет до коренных шеек с выводами, без приложений",
+    "short": "расчёт до коренных шеек с выводами, без приложений",
 }
 # Chapters that a report may do without; the introduction, the input data, the conclusion and
 # the sources always stand.
@@ -41,8 +41,8 @@ ChapterName = Literal[
 ]  # fmt: skip
 FORMATS = {
     "xlsx": "книга Excel",
-    "pdf": "отчет PDF",
-    "html": "отчет HTML",
+    "pdf": "отчёт PDF",
+    "html": "отчёт HTML",
     "docx": "записка Word",
     "sheet": "лист динамики: PDF и DXF",
 }
@@ -80,9 +80,9 @@ class Report(Strictly):
     frame: Annotated[
         Literal["none", "eskd"], choice("Рамка листов отчёта", FRAMES, structural=False)
     ] = "none"
-    detail: Annotated[Detail, choice("Объем отчета", DETAILS, structural=False)] = "course"
+    detail: Annotated[Detail, choice("Объём отчёта", DETAILS, structural=False)] = "course"
     chapters: Annotated[
-        tuple[Annotated[ChapterName, choice("Глава отчета {n}", CHAPTERS, structural=False)], ...]
+        tuple[Annotated[ChapterName, choice("Глава отчёта {n}", CHAPTERS, structural=False)], ...]
         | None,
         Strict(False),
     ] = None

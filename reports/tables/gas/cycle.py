@@ -148,7 +148,7 @@ def _heat(section: CycleSection) -> ScalarTable:
 
     return _table(
         "heat",
-        "Средняя мольная теплоемкость продуктов сгорания при V = const",
+        "Средняя мольная теплоёмкость продуктов сгорания при V = const",
         _s("heat_a", mixed("lower", 0)),
         _s("heat_b", mixed("lower", 1)),
         _s("heat_c", mixed("lower", 2)),
@@ -284,7 +284,7 @@ def _temperature_passes(section: CycleSection) -> Grid:
         rows["pass_t_z"].append(
             f"{t} - (cyc_mu*({mean}{extra})*{t} - cyc_content)/(cyc_mu*({true}{extra}))"
         )
-    title = "Температура tz при корне ниже 1500 °C (иначе берется корень)"
+    title = "Температура tz при корне ниже 1500 °C (иначе берётся корень)"
     return passes("tz", title, TEMPERATURE_PASSES, rows)
 
 

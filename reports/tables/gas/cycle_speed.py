@@ -83,7 +83,7 @@ def _diagram() -> TableSpec:
             cd_T_K = {temperature} | {SOURCE}
         """),
         tuple(float(x) for x in diagram_rows()),
-        note="Нескругленная диаграмма; при 360° стоит точка z′, конец сжатия c — на листе «Цикл».",
+        note="Нескруглённая диаграмма; при 360° стоит точка z′, конец сжатия c — на листе «Цикл».",
         step=DIAGRAM_STEP,
     )
 
@@ -222,9 +222,9 @@ def _charts() -> tuple[ChartSpec, ...]:
         ("Gf", "Часовой расход топлива", "часовой расход топлива", "Gт, кг/ч"),
     )
     return (
-        line("cycle_pv", DIAGRAM_SHEET, "Диаграмма цикла p–V: расчетная и принятая в динамике",
+        line("cycle_pv", DIAGRAM_SHEET, "Диаграмма цикла p–V: расчётная и принятая в динамике",
              ("V, дм³", "p, МПа"),
-             Series("cycle_diagram.cd_V_dm3", "cycle_diagram.cd_p_MPa", "расчетный цикл"),
+             Series("cycle_diagram.cd_V_dm3", "cycle_diagram.cd_p_MPa", "расчётный цикл"),
              Series("gas.volume_dm3", "gas.p_MPa", "принято в динамике", only="workbook"),
              caption="Нескруглённая индикаторная диаграмма рассчитанного цикла",
              levels=("gas_ambient_pressure_mpa",)),

@@ -193,7 +193,7 @@ def _nodes() -> Grid:
     numbers = range(1, last + 1)
     return Grid(
         "nodes",
-        "Точки скругленной диаграммы и наклоны в них",
+        "Точки скруглённой диаграммы и наклоны в них",
         SHEET,
         NODES,
         (

@@ -75,7 +75,7 @@ def _pin_note(shape: Shape, group: tuple[int, ...]) -> str:
     notes = ["K положительна к оси вала; центробежная сила массы m2 направлена от оси вала."]
     if len(group) > 1:
         notes.append(
-            f"На шейке шатуны цилиндров {group[0]} и {group[1]}; их силы сложены без учета "
+            f"На шейке шатуны цилиндров {group[0]} и {group[1]}; их силы сложены без учёта "
             "расстояния между ними вдоль шейки."
         )
     if shape.split:
@@ -95,8 +95,9 @@ def _rods(shape: Shape, throw: int, rows: tuple[float, ...]) -> TableSpec:
     left, right = (cylinder_table_id(i) for i in shape.groups[throw - 1])
     turned = {"T": f"{right}.T_MPa", "K": f"{right}.K_MPa"}
     # Half of the pin's mass stands in the direction of each half of a split pin.
-    up, ahead = "1", ""
+    ahead = ""
     pin, rods = "crankshaft_pin_mass_kg", "2*K_r_rod"
+    on_throw = pin
     if shape.articulated:
         rods = "K_r_rod"
     if shape.split:
@@ -105,10 +106,10 @@ def _rods(shape: Shape, throw: int, rows: tuple[float, ...]) -> TableSpec:
             "T": f"{right}.T_MPa*{cos} - {right}.K_MPa*{sin}",
             "K": f"{right}.K_MPa*{cos} + {right}.T_MPa*{sin}",
         }
-        up, rods = f"(1 + {cos})/2", f"(1 + {cos})*K_r_rod"
+        on_throw, rods = f"{pin}*(1 + {cos})/2", f"(1 + {cos})*K_r_rod"
         own = f"to_MPa({pin}/2*r_crank*omega**2/F_piston)"
         ahead = f" + {sin}*(K_r_rod + {own})"
-    mass = f"({pin}*{up} + web_{2 * throw - 1}_mass_kg + web_{2 * throw}_mass_kg)"
+    mass = f"({on_throw} + web_{2 * throw - 1}_mass_kg + web_{2 * throw}_mass_kg)"
     throw_force = f"to_MPa({mass}*r_crank*omega**2/F_piston)"
     source = "Гоц, 2.7, рис. 36"
     return TableSpec(

@@ -31,8 +31,11 @@ def left_out(model: InputFile) -> tuple[Block, ...]:
     return tuple(block for block in blocks if block.id not in known)
 
 
-def left_out_note(model: InputFile) -> str:
-    """What is not calculated and why, in a line; empty where all is."""
+def left_out_note(model: InputFile, *, keys: bool = False) -> str:
+    """What is not calculated and why, in a line; empty where all is.
+
+    ``keys`` names the tables as files of numbers do.
+    """
     blocks = left_out(model)
     if not blocks:
         return ""
@@ -41,7 +44,9 @@ def left_out_note(model: InputFile) -> str:
         *(["смещения оси цилиндра или пальца"] if shape.offset else []),
         *(["прицепных шатунов"] if shape.articulated else []),
     ]
-    tables = "; ".join(f"{block.id} «{block.title}»" for block in blocks)
+    tables = "; ".join(
+        f"{block.id} «{block.title}»" if keys else f"«{block.title}»" for block in blocks
+    )
     return (
         f"Не рассчитано из-за {' и '.join(reasons)} (ряды по порядкам описывают центральный "
         f"механизм с одинаковыми шатунами): {tables}"

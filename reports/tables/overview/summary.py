@@ -183,7 +183,7 @@ def checks(model: InputFile, shape: Shape) -> ScalarTable:
          "lam", "{value} >= 0.15 and {value} <= 0.45"),
         ("phases", "Углы колен согласованы с началом рабочих ходов: наибольшее расхождение, °",
          "col_max(ranks.rank_phase)", "{value} <= 0.01"),
-        ("symmetry", "Колена симметричны: наибольшее |aп/l − 0,5|",
+        ("symmetry", "Колена симметричны: наибольшее отличие доли правой опоры от половины",
          f"max({', '.join(_asymmetry(shape, i) for i in range(1, throws + 1))})",
          "{value} <= 0.000001"),
     ]  # fmt: skip

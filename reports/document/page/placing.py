@@ -1,0 +1,249 @@
+"""Where the blocks of a chapter stand: figures and small tables float, text goes on.
+
+Of the orders that keep figures and tables each in their own order the one is taken that costs
+least: blank feet of pages, figures reduced or far from their text or in the next section, and
+the risk that an estimate was wrong.  The search keeps the best few layouts after each block.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Literal, NamedTuple
+
+Kind = Literal["chapter", "heading", "text", "tied", "float", "table", "other"]
+
+_HEADING = re.compile(r"<h[1-3]")
+WIDTH = re.compile(r'<(?:svg|img) class="fig"[^>]*?style="width:([\d.]+)mm')
+_LEAST = 0.7  # to which a figure may be reduced to fit the foot of a page
+_ROWS = 60.0  # px of a table's margin and first rows, which stand with its head
+_LAST = 3  # rows of a table that stand together at its end
+_LAYOUTS = 16  # that are followed
+# What a layout costs: the square of the share of a page that stays blank, and beside it
+_TOO_BLANK = 0.25  # the share from which a page looks like the end of a chapter
+_HOLE = 4.0  # for each page's height of the blank beyond it
+_FAR = 0.0006  # for each block that a figure lets pass
+_NEXT = 0.015  # for each figure that lets a heading pass
+_SMALLER = 0.2  # for the square of the share that a figure loses
+_WRONG = 0.1  # the chance that what is left is less by a line than estimated
+_SPARE = 2.0  # px left below a figure that was reduced
+
+
+class Spot(NamedTuple):
+    """Where on a page the last block ends and the margin that it asks for below [px].
+
+    ``page`` counts the pages of the body from one; ``cost`` is that of all before.
+    """
+
+    used: float
+    margin: float = 0.0
+    page: int = 1
+    cost: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """A block of the text and its estimated height without margins [px].
+
+    ``tied`` blocks continue what stands before them, a formula or a line of its sentence.
+    """
+
+    html: str
+    kind: Kind
+    height: float
+    above: float = 0.0  # margins; the larger of two that meet is kept
+    below: float = 0.0
+    figure: float = 0.0  # of it the picture, which may be reduced
+    head: float = 0.0  # of it what a table repeats on each page that it goes on to
+    rows: tuple[float, ...] = ()
+    line: float = 0.0  # of a paragraph
+    tail: float = 0.0  # of what follows and must stand on the same page
+
+
+class _Layout(NamedTuple):
+    """Blocks placed so far, the last one first, and those that wait."""
+
+    spot: Spot
+    waiting: tuple[Block, ...] = ()
+    placed: tuple[str, Any] | None = None
+
+    def then(self, html: str, spot: Spot, waiting: tuple[Block, ...]) -> _Layout:
+        return _Layout(spot, waiting, (html, self.placed))
+
+
+def filled(blocks: Sequence[Block], spot: Spot, room: float, line: float) -> tuple[list[str], Spot]:
+    """The blocks of one chapter in their new order, and where its last page ends.
+
+    Args:
+        blocks: They, in the order of the text.
+        spot: Where the chapter begins.
+        room: Height of a page [px].
+        line: Height of a line of the text [px].
+    """
+    layouts = [_Layout(spot._replace(cost=0.0))]
+    headed = True  # between a heading and its text stands no figure
+    for block in _with_tails(blocks):
+        if block.kind not in ("tied", "other") and not headed:
+            layouts = [way for layout in layouts for way in _ways(layout, room, line)]
+        layouts = _best([_followed(layout, block, room) for layout in layouts])
+        headed = block.kind in ("chapter", "heading") or (
+            headed and block.kind in ("float", "table")
+        )
+    best = min((_all_placed(layout, room, line) for layout in layouts),
+               key=lambda layout: layout.spot.cost)  # fmt: skip
+    return _in_order(best), best.spot
+
+
+def _with_tails(blocks: Sequence[Block]) -> list[Block]:
+    """A line that leads to a formula stands with it, a heading with what follows."""
+    kept: list[Block] = []
+    after = Block("", "other", 0.0)
+    for block in reversed(blocks):
+        told = block
+        if block.kind in ("heading", "chapter"):
+            told = replace(block, tail=max(block.below, after.above) + _beginning(after))
+        elif block.kind == "text" and block.height == block.line and _is_formula(after):
+            html = block.html.replace("<p", '<p class="lead"', 1)
+            told = replace(block, html=html, tail=after.above + after.height)
+        kept.append(told)
+        after = after if block.kind == "float" else told
+    return kept[::-1]
+
+
+def _is_formula(block: Block) -> bool:
+    return block.kind == "tied" and not block.line
+
+
+def _beginning(block: Block) -> float:
+    """The least of a block that stands below a heading [px]."""
+    if block.kind == "table":
+        return block.head + _ROWS
+    return block.tail + (min(block.height, 2 * block.line) if block.line else block.height)
+
+
+def _ways(layout: _Layout, room: float, line: float) -> Iterator[_Layout]:
+    """Some, none or all of the waiting blocks placed here, each series in its order."""
+    yield layout
+    for place, block in enumerate(layout.waiting):
+        if any(bool(block.figure) == bool(other.figure) for other in layout.waiting[:place]):
+            continue
+        waiting = layout.waiting[:place] + layout.waiting[place + 1 :]
+        for html, spot in _put(block, layout.spot, room, line):
+            yield from _ways(layout.then(html, spot, waiting), room, line)
+
+
+def _put(block: Block, spot: Spot, room: float, line: float) -> Iterator[tuple[str, Spot]]:
+    """A floating block here: as it is, or smaller so that it fits."""
+    begin = spot.used + max(spot.margin, block.above)
+    spare = room - begin - block.height
+    placed = after(block, spot, room)
+    near = spot.used and block.kind == "float" and 0 <= spare < line
+    risk = _WRONG * _blank(spot.used, room) if near else 0.0
+    yield block.html, placed._replace(cost=placed.cost + risk)
+    lost = (_SPARE - spare) / block.figure if spot.used and block.figure else 1.0
+    if 0 < lost <= 1 - _LEAST:
+        end = begin + block.height - lost * block.figure
+        cost = spot.cost + _SMALLER * lost**2
+        yield _reduced(block, 1 - lost), Spot(end, block.below, spot.page, cost)
+
+
+def _followed(layout: _Layout, block: Block, room: float) -> _Layout:
+    """The next block of the text, waiting if it floats."""
+    spot, waiting, _ = layout
+    if block.kind == "float" or (waiting and block.kind == "table"):
+        return layout._replace(waiting=(*waiting, block))
+    passed = _NEXT if block.kind == "heading" else _FAR
+    placed = after(block, spot, room)
+    placed = placed._replace(cost=placed.cost + passed * len(waiting))
+    return layout.then(_paged(block, placed.page), placed, waiting)
+
+
+def _best(layouts: Sequence[_Layout]) -> list[_Layout]:
+    """The cheapest layouts, one for each place on the page and each set that waits."""
+    cheapest: dict[tuple[object, ...], _Layout] = {}
+    for layout in sorted(layouts, key=lambda each: each.spot.cost):
+        spot = layout.spot
+        key = (spot.page, round(spot.used), tuple(map(id, layout.waiting)))
+        cheapest.setdefault(key, layout)
+    return list(cheapest.values())[:_LAYOUTS]
+
+
+def _all_placed(layout: _Layout, room: float, line: float) -> _Layout:
+    """The cheapest way to place all that waits."""
+    ways = (way for way in _ways(layout, room, line) if not way.waiting)
+    return min(ways, key=lambda way: way.spot.cost)
+
+
+def _in_order(layout: _Layout) -> list[str]:
+    out: list[str] = []
+    placed = layout.placed
+    while placed is not None:
+        html, placed = placed
+        out.append(html)
+    return out[::-1]
+
+
+def after(block: Block, spot: Spot, room: float) -> Spot:
+    """Where a block ends on its last page, and what the pages left behind cost."""
+    begin = spot.used + max(spot.margin, block.above)
+    total = begin + block.height
+    if total + block.tail <= room:
+        return Spot(total, block.below, spot.page, spot.cost)
+    divides = not block.tail and (block.kind in ("text", "table") or block.line > 0)
+    end, pages, whole = _over(block, begin, room) if divides else (0.0, 1, True)
+    if not divides:
+        end = min(block.above + block.height, room)
+    cost = spot.cost + (_blank(spot.used, room) if whole else 0.0)
+    return Spot(end, block.below, spot.page + pages, cost)
+
+
+def _blank(used: float, room: float) -> float:
+    """Cost of a page that ends here."""
+    share = 1 - used / room
+    return share**2 + _HOLE * max(0.0, share - _TOO_BLANK)
+
+
+def _over(block: Block, begin: float, room: float) -> tuple[float, int, bool]:
+    """A block that goes on over the page's end: its height on its last page, further pages.
+
+    Also whether nothing of it stands on the page where it was to begin.
+    """
+    if block.kind == "table":
+        end = block.height - sum(block.rows)
+        whole = room - begin < block.head + _ROWS
+        end, pages = (end + block.above, 1) if whole else (end + begin, 0)
+        first = 0
+        for place, row in enumerate(block.rows):
+            if end + row > room:
+                end, pages, first = block.head, pages + 1, place
+            end += row
+        if 0 < len(block.rows) - first < _LAST <= first:
+            end = block.head + sum(block.rows[-_LAST:])
+        return end, pages, whole
+    over, whole = begin + block.height - room, True
+    if block.line:  # no line of a paragraph stands alone
+        free = int((room - begin) / block.line)
+        lines = round(block.height / block.line)
+        free = 0 if free < 2 or lines < 4 else min(free, lines - 2)
+        over, whole = (lines - free) * block.line, free == 0
+    return over % room, 1 + int(over // room), whole
+
+
+def _reduced(block: Block, share: float) -> str:
+    """The figure smaller."""
+
+    def smaller(match: re.Match[str]) -> str:
+        width = float(match[1])
+        head = match.group()[: match.start(1) - match.start()]
+        return f"{head}{width * share:.1f}mm"
+
+    return WIDTH.sub(smaller, block.html, count=1)
+
+
+def _paged(block: Block, page: int) -> str:
+    """A heading told its page as estimated: contents that nobody has renewed show it."""
+    heading = block.kind in ("chapter", "heading")
+    return (
+        _HEADING.sub(rf'\g<0> data-page="{page}"', block.html, count=1) if heading else block.html
+    )

@@ -1,0 +1,165 @@
+"""Where figures and tables float to, and how many lines WeasyPrint makes of a paragraph."""
+
+import re
+
+import pytest
+import weasyprint
+from bare_pages import bare_page
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from report_samples import terms
+from weasyprint.text.fonts import FontConfiguration
+
+from reports.document.page import render
+from reports.document.page.blocks import DocumentInfo
+from reports.document.page.placing import Block, Spot, after, filled
+from reports.document.page.style import USUAL
+from reports.document.text.lines import line_count
+
+ROOM, LINE = 900.0, 28.0
+
+
+def text(name, lines=3):
+    return Block(f"<p>{name}</p>", "text", lines * LINE, line=LINE)
+
+
+def heading(name):
+    return Block(f"<h2>{name}</h2>", "heading", 24.0, 18.0, 10.0)
+
+
+def figure(name, height=300.0):
+    picture = f'<svg class="fig" style="width:100.0mm">{name}</svg>'
+    return Block(picture, "float", height + 30, 13.0, 13.0, figure=height)
+
+
+def table(name, rows=10, *, keep=False):
+    kind = "float" if keep else "table"
+    height = 70 + 22.0 * rows
+    return Block(f"<table>{name}</table>", kind, height, 13.0, 13.0, head=60.0, rows=(22.0,) * rows)
+
+
+def formula(name):
+    return Block(f'<div class="eq">{name}</div>', "tied", 40.0, 8.0, 8.0)
+
+
+def names(placed):
+    return [re.sub("<[^>]+>", "", html) for html in placed]
+
+
+def in_order(blocks):
+    """What it costs to leave everything where it is."""
+    spot = Spot(0.0)
+    for block in blocks:
+        spot = after(block, spot, ROOM)
+    return spot.cost
+
+
+blocks = st.lists(
+    st.one_of(
+        st.builds(text, st.just("t"), st.integers(1, 9)),
+        st.builds(figure, st.just("f"), st.floats(100, 600)),
+        st.builds(table, st.just("b"), st.integers(1, 60), keep=st.just(False)),
+        st.builds(table, st.just("b"), st.integers(1, 20), keep=st.just(True)),
+        st.builds(heading, st.just("h")),
+        st.builds(formula, st.just("e")),
+    ),
+    min_size=1,
+    max_size=25,
+)
+
+
+def numbered(drawn):
+    """The same blocks, each with a name of its own; a chapter ends with text."""
+    made = [*drawn, text("t")]
+    return [
+        Block(block.html.replace(">" + block.html.split(">")[1][0], f">{kind}{place} ", 1),
+              *(getattr(block, key) for key in Block.__slots__[1:]))
+        for place, block in enumerate(made)
+        for kind in [block.html.split(">")[1][0]]
+    ]  # fmt: skip
+
+
+@settings(max_examples=30, deadline=None)
+@given(blocks)
+def test_everything_stands_once_and_each_series_in_its_order(drawn):
+    made = numbered(drawn)
+    before, (placed, spot) = names(b.html for b in made), filled(made, Spot(0.0), ROOM, LINE)
+    shown = names(placed)
+    assert sorted(shown) == sorted(before)
+    for series in ("f", "b", "the"):
+        assert [n for n in shown if n[0] in series] == [n for n in before if n[0] in series]
+    places = {name: place for place, name in enumerate(before)}
+    for place, name in enumerate(shown[1:], 1):
+        above = shown[place - 1]
+        if above[0] == "h" and places[name] < places[above]:
+            raise AssertionError(f"{name} of the section before stands below {above}")
+        if name[0] == "e":  # a formula stays with its sentence
+            assert places[above] == places[name] - 1 or before[places[name] - 1][0] in "fb"
+    assert spot.cost <= in_order(made) + 0.1
+
+
+def test_a_table_does_not_wait_for_a_tall_figure():
+    made = [text("a", 12), figure("tall", 850.0), table("long", 40), text("b", 6)]
+    placed, spot = filled(made, Spot(0.0), ROOM, LINE)
+    assert names(placed)[:2] == ["a", "long"] and spot.page == 3
+
+
+def test_text_goes_on_where_a_figure_has_no_room():
+    made = [text("a", 20), figure("f", 500.0), *(text(f"t{n}", 4) for n in range(5))]
+    shown = names(filled(made, Spot(0.0), ROOM, LINE)[0])
+    assert 2 <= shown.index("f") <= 5
+
+
+def test_a_figure_that_misses_by_little_is_made_smaller():
+    made = [text("a", 20), figure("f", 330.0), text("b", 2)]
+    placed, spot = filled(made, Spot(0.0), ROOM, LINE)
+    width = float(re.search(r"width:([\d.]+)mm", placed[1])[1])
+    assert 70.0 <= width < 100.0 and spot.page == 2
+
+
+@pytest.mark.parametrize("lines", range(24, 33))
+def test_a_line_that_leads_to_a_formula_stands_with_it(lines):
+    made = [text("a", lines), text("При φ = 30°", 1), formula("x = 1"), text("b", 3)]
+    placed, _ = filled(made, Spot(0.0), ROOM, LINE)
+    assert '<p class="lead">' in placed[1]
+    first = after(made[0], Spot(0.0), ROOM)
+    fits = first.used + LINE + 48.0 <= ROOM
+    lead = after(Block("", "text", LINE, line=LINE, tail=48.0), first, ROOM)
+    assert (lead.page == first.page) == fits
+
+
+def lines_of(page):
+    """Lines of each paragraph as WeasyPrint sets it: its text and how many."""
+    html = weasyprint.HTML(string=page, base_url=None, url_fetcher=render._fetcher())
+    document = html.render(font_config=FontConfiguration())
+    found = {}
+    waiting = [sheet._page_box for sheet in document.pages]
+    while waiting:
+        box = waiting.pop()
+        children = getattr(box, "children", None) or ()
+        if getattr(box, "element_tag", "") == "p" and type(box).__name__ == "BlockBox":
+            number = int(box.element.get("id"))
+            found[number] = found.get(number, 0) + len(children)
+            continue
+        waiting += children
+    return found
+
+
+@pytest.mark.usefixtures("nothing_is_drawn")
+def test_paragraphs_have_the_lines_that_were_counted():
+    """All but one or two in a hundred: letters are not set closer here as they are there."""
+    told = bare_page(terms("one").model.input).partition("Введение</h1>")[2]
+    paragraphs = re.findall(r"<p>(?:(?!<svg).)*?</p>", told, re.DOTALL)
+    body = "\n".join(p.replace("<p", f'<p id="{n}"', 1) for n, p in enumerate(paragraphs))
+    source = '{% extends "report/base.html.j2" %}{% block body %}' + body + "{% endblock %}"
+    page = render.environment().from_string(source).render(doc=DocumentInfo("x"))
+    found = lines_of(page)
+    em = USUAL.em_px
+    counted = [
+        line_count(p, USUAL.width_px / em, indent=USUAL.indent_cm * 96 / 2.54 / em)
+        for p in paragraphs
+    ]
+    wrong = [n for n, lines in enumerate(counted) if lines != found[n]]
+    assert len(paragraphs) > 60 and sum(counted) > 150
+    assert len(wrong) <= 0.03 * len(paragraphs)
+    assert all(abs(counted[n] - found[n]) == 1 for n in wrong)

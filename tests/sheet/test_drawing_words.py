@@ -1,0 +1,66 @@
+"""Sizes on drawings: no line through a value, no value over another, axes broken for them."""
+
+import itertools
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from sheet_samples import terms
+
+from reports.document.figures.parts import mechanism_of, throw_of
+from reports.drawing.lettering import parts_of, plain, width_of
+from reports.drawing.parts import Mechanism, Throw, mechanism_drawing, throw_drawing
+from reports.drawing.primitives import AXES, Canvas, Line, Words, interrupted, overlap
+from reports.drawing.svg import svg_of
+
+
+def crossed(items) -> list[str]:
+    canvas = Canvas(list(items))
+    texts = [item for item in items if isinstance(item, Words)]
+    found = [words.text for words in texts if not canvas.clear(words)]
+    return found + [one.text + other.text for one, other in itertools.combinations(texts, 2)
+                    if overlap(one.box, other.box)]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["ecoboost-10", "gots-diesel", "two-stroke", "yamz-236"])
+def test_no_line_runs_through_a_size(name):
+    t = terms(name)
+    for scale in (0.3, 1.0):
+        assert crossed(throw_drawing(throw_of(t), letters=2.5, scale=scale)) == []
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.lists(st.integers(8, 60), min_size=6, max_size=6), st.integers(0, 40),
+       st.integers(30, 90), st.booleans())  # fmt: skip
+def test_no_line_runs_through_a_size_of_any_throw(arms, web, radius, heavy):
+    throw = Throw(tuple(arms), (web, web), radius, 60.0, (70.0, 70.0), (30.0, 30.0), (heavy, heavy))
+    lengths = [w for w in throw_drawing(throw, letters=2.5) if isinstance(w, Words)]
+    texts = crossed(throw_drawing(throw, letters=2.5))
+    assert not [text for text in texts if "_" in text]
+    assert {words.text for words in lengths} >= {f"l_{n} = {arm}" for n, arm in enumerate(arms, 1)}
+
+
+def test_axes_are_broken_where_a_size_stands():
+    canvas = Canvas()
+    canvas.line((0, 0), (100, 0), layer=AXES)
+    canvas.words((50, -1), "Ø44", 3.5, align=0.5)
+    lines = [item for item in interrupted(canvas.items) if isinstance(item, Line)]
+    assert len(lines) == 2 and lines[0].points[1][0] < 47 and lines[1].points[0][0] > 53
+
+
+def test_an_offset_mechanism_keeps_its_sizes():
+    t = terms("ecoboost-10")
+    texts = {
+        i.text for i in mechanism_drawing(mechanism_of(t), letters=2.5) if isinstance(i, Words)
+    }
+    assert texts >= {"ØD = 71,9", "L = 137", "r = 41", "e = 8"}
+    small = [i.text for i in mechanism_drawing(Mechanism(60, 20, 80), letters=2.5, scale=0.4)
+             if isinstance(i, Words)]  # fmt: skip
+    assert "r = 20" in small
+
+
+def test_an_index_stands_lower_and_smaller():
+    assert parts_of("h_Л = 26") == [("h", False), ("Л", True), (" = 26", False)]
+    assert plain("l_1 = 18") == "l1 = 18" and width_of("l_1", 3) < width_of("l1", 3)
+    svg = svg_of([Words((0, 0), "l_1 = 18", 3.0)], (-5, -5, 40, 10))
+    assert svg.count("<text") == 3 and ">1</text>" in svg

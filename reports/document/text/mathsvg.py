@@ -274,8 +274,7 @@ def _wide(node: Node) -> int:
 
 
 def _parse(tex: str) -> tuple[float, float, float, Iterable[Any], Iterable[Any]]:
-    from matplotlib.font_manager import FontProperties
-    from matplotlib.mathtext import MathTextParser
+    from reports.document.text.mathtext import read
 
     try:
         source = "" if "$" in tex or _DECIMAL_POINT.search(tex) else for_mathtext(tex).strip()
@@ -284,10 +283,9 @@ def _parse(tex: str) -> tuple[float, float, float, Iterable[Any], Iterable[Any]]
     if not source:
         msg = f"Формула пуста, содержит $, десятичную точку или непарные скобки: {tex!r}"
         raise FormulaError(msg)
-    font = FontProperties(family="STIXGeneral", size=_UNITS, math_fontfamily="stix")
     with complaints("matplotlib.mathtext") as lines:  # a sign without a glyph is no formula
         try:
-            parsed = MathTextParser("path").parse(f"${source}$", dpi=72, prop=font)
+            parsed = read(f"${source}$", _UNITS)
         except (ValueError, RuntimeError) as error:
             reason = str(error).strip().splitlines()[-1]
             msg = f"Формула не набирается: {tex!r}: {reason}"

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Literal, cast
 
 from markupsafe import Markup
 
-from reports.document import store
 from reports.document.chapters import (
     bearings,
     closing,
@@ -193,11 +192,10 @@ def _page(model: Model, values: Values, env: Environment, further: Further) -> s
     _write(Chapter(terms, Writer(env, absent), env), CHAPTERS.keys() - names)
     numbering = draft.numbering(elsewhere=_elsewhere(terms, absent))
     chapter = Chapter(terms, Writer(env, numbering), env)
-    body = chapter.writer.drawn(_write(chapter, names, further))
+    body = _write(chapter, names, further)
     if env.globals["media"] == "print":
         body = Markup(arranged(body, style, run_on=_run_on(chapter, style)))
     numbering.check()
-    store.store().save()
     return texts.unbroken_initials(texts.spaces_inside(_whole(env, chapter, body)))
 
 

@@ -11,6 +11,7 @@ with the library's own reading, so another version that acts otherwise is notice
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from typing import Any
 
 from matplotlib import _mathtext
@@ -43,10 +44,10 @@ def read(text: str, size: float) -> VectorParse:
     """
     font = FontProperties(family="STIXGeneral", size=size, math_fontfamily="stix")
     try:
-        boxes = lib.ship(_Reader(text, font).boxes())
+        drawn: VectorParse = lib.ship(_Reader(text, font).boxes()).to_vector()
     except Exception:  # the library says what is wrong, or sets it
         return MathTextParser("path").parse(text, dpi=72, prop=font)
-    return boxes.to_vector()
+    return drawn
 
 
 class _Reader(lib.Parser):  # type: ignore[misc]
@@ -198,12 +199,12 @@ def _one(made: Any) -> Any:  # noqa: ANN401
     return made[0] if isinstance(made, list) else made
 
 
-def _fraction(reader: _Reader, of: str) -> Any:  # noqa: ANN401
+def _fraction(reader: Any, of: str) -> Any:  # noqa: ANN401
     parts = {"num": reader._part(), "den": reader._part()}
     return getattr(reader, of)(parts)
 
 
-_RULES = {
+_RULES: dict[str, Callable[[Any, int], Any]] = {
     "{": lambda reader, _: reader._group(),
     r"\frac": lambda reader, _: _fraction(reader, "frac"),
     r"\dfrac": lambda reader, _: _fraction(reader, "dfrac"),

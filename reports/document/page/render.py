@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal
 
 from markupsafe import Markup
 
-from reports.document.page import fitting
+from reports.document.page import fitting, quick
 from reports.document.page.finish import finish
 from reports.document.page.style import USUAL, Style
 from reports.document.text import fonts, texts
@@ -94,7 +94,7 @@ def render(
         import weasyprint
         from weasyprint.text.fonts import FontConfiguration
 
-    with _quiet_gc(), complaints("weasyprint") as warnings:
+    with _quiet_gc(), quick.drawing(), complaints("weasyprint") as warnings:
         page = weasyprint.HTML(string=html, base_url=None, url_fetcher=_fetcher())
         # The same configuration for parsing and layout, or @font-face is dropped silently.
         document = page.render(font_config=FontConfiguration(), pdf_variant=variant, pdf_tags=True)

@@ -17,7 +17,6 @@ from reports.document.figures.style import FONT_SIZE, HALO, MM, Look
 from reports.document.text.fonts import FAMILY
 from reports.document.text.mathsvg import texts_of
 
-_ANCHORS = {0.0: "", 0.5: ' text-anchor="middle"', 1.0: ' text-anchor="end"'}
 _CURVE = 0.5522847498  # of the radius: handles of a quarter of a circle
 
 
@@ -79,17 +78,17 @@ class Sheet:
             place: Where it stands [pt].
             text: The text.
             size: Of the type [pt].
-            align: Share of the text left of the place: 0, 0.5 or 1.
+            align: Share of the text left of the place.
             middle: Half of the text stands above the place, otherwise all of it.
             halo: White below the text.
             layer: Order among other elements.
         """
         words = shown(text)
         width, above, below = line_box(words, size)
-        x, y = place[0], self.height - place[1]
+        # Not text-anchor, for which WeasyPrint makes a drawing of its own.
+        left, y = place[0] - align * width, self.height - place[1]
         if middle:
             y += (above - below) / 2
-        left = x - align * width
         if halo:
             box = (left - HALO, y - above - HALO, width + 2 * HALO, above + below + 2 * HALO)
             across, down, wide, tall = map(_n, box)
@@ -105,7 +104,7 @@ class Sheet:
             return
         self._add(
             layer,
-            f'<text x="{_n(x)}" y="{_n(y)}" font-size="{size:g}"{_ANCHORS[align]}>'
+            f'<text x="{_n(left)}" y="{_n(y)}" font-size="{size:g}">'
             f"{escape(words, quote=False)}</text>",
         )
 

@@ -3,10 +3,10 @@
 * A letter in a picture is laid out by pango three times wherever it stands; here once for each
   face and size.
 * A path is taken apart number by number; one of straight lines alone is rewritten whole.
-* The list of all pages is made anew for each tag; every object of the file is written twice,
-  once for the hash in its identifier.
+* Every element gets six styles for footnotes and list markers; here list items get one.
+* The list of all pages is made anew for each tag.
 
-The first two reach into WeasyPrint, so they are done for the versions named here and for no
+These reach into the libraries, so they are done for the versions named here and for no
 others; ``tests/document/test_page_quick.py`` compares the files byte for byte and asks for a new
 look when another version is installed.  ``./run bench document`` says what it gains.
 """
@@ -16,6 +16,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from copy import copy
 from dataclasses import dataclass
 from math import inf
 from typing import Any
@@ -28,12 +29,15 @@ _UNUSUAL |= {"dominant-baseline", "alignment-baseline", "display-anchor"}
 _WEIGHTS = {"normal": 400, "bold": 700}
 _LINES = re.compile(r"(?:[ML]-?\d+(?:\.\d\d?)? -?\d+(?:\.\d\d?)?)+z?")
 _STEP = re.compile(r"([ML])([^MLz]+)(z?)")
+_NOTES = re.compile("footnote|note-call|note\(|list-item|<summary")
+_RARE = {"marker", "footnote-call", "footnote-marker", "note-call", "note-marker", "note-callback"}
+_PSEUDO = 3  # place of the pseudo-element in an entry of a matcher
 _OPERATOR = {"M": " m", "L": " l"}
 
 
 @contextmanager
-def drawing() -> Iterator[None]:
-    """Draw pictures quickly as long as this lasts."""
+def setting(html: str) -> Iterator[None]:
+    """Set a page quickly as long as this lasts."""
     import pydyf
     import weasyprint
     from weasyprint import svg
@@ -47,8 +51,23 @@ def drawing() -> Iterator[None]:
         mock.patch.object(svg, "text", text),
         mock.patch.dict(svg.TAGS, tags | {"path": path}),
         mock.patch.object(pydyf.PDF, "page_references", property(_pages)),
+        mock.patch.object(weasyprint, "UA_STYLESHEET", _lean(weasyprint.UA_STYLESHEET, html)),
     ):
         yield
+
+
+def _lean(sheet: Any, html: str) -> Any:  # noqa: ANN401
+    """The browser's style sheet without six styles that each element gets for notes and lists."""
+    if _NOTES.search(html):
+        return sheet
+    lean, matcher = copy(sheet), copy(sheet.matcher)
+    universal = matcher.other_selectors
+    of_lists = [entry for entry in universal if entry[_PSEUDO] == "marker"]
+    matcher.other_selectors = [entry for entry in universal if entry[_PSEUDO] not in _RARE]
+    by_name = matcher.lower_local_name_selectors
+    matcher.lower_local_name_selectors = by_name | {"li": [*by_name.get("li", ()), *of_lists]}
+    lean.matcher = matcher
+    return lean
 
 
 def _pages(pdf: Any) -> tuple[bytes, ...]:  # noqa: ANN401

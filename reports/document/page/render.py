@@ -94,7 +94,7 @@ def render(
         import weasyprint
         from weasyprint.text.fonts import FontConfiguration
 
-    with _quiet_gc(), quick.drawing(), complaints("weasyprint") as warnings:
+    with _quiet_gc(), quick.setting(html), complaints("weasyprint") as warnings:
         page = weasyprint.HTML(string=html, base_url=None, url_fetcher=_fetcher())
         # The same configuration for parsing and layout, or @font-face is dropped silently.
         document = page.render(font_config=FontConfiguration(), pdf_variant=variant, pdf_tags=True)

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import gc
 import io
 import zipfile
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from math import ceil
 
 from lxml.etree import SerialisationError
@@ -19,6 +17,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from openpyxl.writer.excel import ExcelWriter
 
 from reports.shared.files import temporary_failure
+from reports.shared.garbage import uncollected
 from reports.spec.blocks import Grid, Model, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec
 from reports.spec.evaluation import Values, evaluate_model
@@ -67,20 +66,8 @@ def workbook_bytes(model: Model, values: Values | None = None) -> bytes:
     layout = Layout.of(model)
     check_names(layout)
     writer = Writer(layout, values or evaluate_model(model))
-    with _uncollected():
+    with uncollected():
         return saved(assemble(model, writer), writer.caches)
-
-
-@contextmanager
-def _uncollected() -> Iterator[None]:
-    """No search for garbage among many small objects that all stay until the book is written."""
-    running = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if running:
-            gc.enable()
 
 
 def assemble(

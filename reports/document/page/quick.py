@@ -20,7 +20,6 @@ from copy import copy
 from dataclasses import dataclass
 from math import inf
 from typing import Any
-from unittest import mock
 
 VERSIONS = ("70.0", "0.13.0")  # of WeasyPrint and pydyf
 
@@ -29,7 +28,7 @@ _UNUSUAL |= {"dominant-baseline", "alignment-baseline", "display-anchor"}
 _WEIGHTS = {"normal": 400, "bold": 700}
 _LINES = re.compile(r"(?:[ML]-?\d+(?:\.\d\d?)? -?\d+(?:\.\d\d?)?)+z?")
 _STEP = re.compile(r"([ML])([^MLz]+)(z?)")
-_NOTES = re.compile("footnote|note-call|note\(|list-item|<summary")
+_NOTES = re.compile(r"footnote|note-call|note\(|list-item|<summary")
 _RARE = {"marker", "footnote-call", "footnote-marker", "note-call", "note-marker", "note-callback"}
 _PSEUDO = 3  # place of the pseudo-element in an entry of a matcher
 _OPERATOR = {"M": " m", "L": " l"}
@@ -47,13 +46,20 @@ def setting(html: str) -> Iterator[None]:
         return
     text, path = _text(svg.text), _path(svg.path)
     tags = {tag: text if known is svg.text else known for tag, known in svg.TAGS.items()}
-    with (
-        mock.patch.object(svg, "text", text),
-        mock.patch.dict(svg.TAGS, tags | {"path": path}),
-        mock.patch.object(pydyf.PDF, "page_references", property(_pages)),
-        mock.patch.object(weasyprint, "UA_STYLESHEET", _lean(weasyprint.UA_STYLESHEET, html)),
-    ):
+    ours = (
+        (svg, "text", text),
+        (svg, "TAGS", tags | {"path": path}),
+        (pydyf.PDF, "page_references", property(_pages)),
+        (weasyprint, "UA_STYLESHEET", _lean(weasyprint.UA_STYLESHEET, html)),
+    )
+    theirs = [(owner, name, getattr(owner, name)) for owner, name, _ in ours]
+    try:
+        for owner, name, value in ours:
+            setattr(owner, name, value)
         yield
+    finally:
+        for owner, name, value in theirs:
+            setattr(owner, name, value)
 
 
 def _lean(sheet: Any, html: str) -> Any:  # noqa: ANN401
@@ -158,7 +164,8 @@ def _text(usual: Callable[..., None]) -> Callable[..., None]:
             across, down = ([float(n) for n in node.get(axis, "").split()] for axis in "xy")
         except ValueError:
             weight = 0
-        if not weight or not node.text or _UNUSUAL & node.attrib.keys():
+        shifted = any(svg.cursor_d_position) or _UNUSUAL & node.attrib.keys()
+        if not weight or not node.text or shifted:
             usual(svg, node, font_size)
             return
         family = node.get("font-family", "sans-serif")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import gc
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -21,6 +20,7 @@ from reports.document.text import fonts, texts
 from reports.document.text.complaints import complaints
 from reports.document.text.mathsvg import formula_lines
 from reports.document.text.symbols import inline_html
+from reports.shared.garbage import uncollected
 from reports.shared.russian import NBSP, joined
 
 if TYPE_CHECKING:
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from weasyprint.urls import URLFetcher, URLFetcherResponse
 
 _EPOCH = datetime(2000, 1, 1, tzinfo=UTC)
-_GC_THRESHOLD = (200_000, 50, 100)
 _DATA_TYPES = ("data:image/png", "data:image/svg+xml", "data:image/jpeg")
 
 
@@ -90,11 +89,24 @@ def render(
     identifier: bytes | None = None,
 ) -> Rendered:
     """Render like :func:`render_pdf`, handing the warnings back instead of raising."""
+    with uncollected(), complaints("weasyprint") as warnings:
+        # In a function of its own: what it made is gone before garbage is looked for again.
+        pdf, pages = _rendered(html, attachments, variant, identifier)
+    return Rendered(pdf, pages, tuple(warnings))
+
+
+def _rendered(
+    html: str,
+    attachments: Iterable[AttachedFile],
+    variant: str | None,
+    identifier: bytes | None,
+) -> tuple[bytes, int]:
+    """The file and the number of its pages."""
     with _libraries_by_name():
         import weasyprint
         from weasyprint.text.fonts import FontConfiguration
 
-    with _quiet_gc(), quick.setting(html), complaints("weasyprint") as warnings:
+    with quick.setting(html):
         page = weasyprint.HTML(string=html, base_url=None, url_fetcher=_fetcher())
         # The same configuration for parsing and layout, or @font-face is dropped silently.
         document = page.render(font_config=FontConfiguration(), pdf_variant=variant, pdf_tags=True)
@@ -105,7 +117,7 @@ def render(
             attachments=[_attachment(item) for item in attachments],
             finisher=lambda _, made: finish(made),
         )
-    return Rendered(pdf, len(document.pages), tuple(warnings))
+    return pdf, len(document.pages)
 
 
 def environment(
@@ -238,14 +250,3 @@ def _libraries_by_name() -> Iterator[None]:
         yield
     finally:
         ctypes.util.find_library = before
-
-
-@contextmanager
-def _quiet_gc() -> Iterator[None]:
-    """Collect rarely: layout makes millions of small objects that all live to the end."""
-    before = gc.get_threshold()
-    gc.set_threshold(*_GC_THRESHOLD)
-    try:
-        yield
-    finally:
-        gc.set_threshold(*before)

@@ -24,6 +24,9 @@ def nothing_is_drawn(monkeypatch):
     empty = (Formula("<svg></svg>", 1.0, 1.0, 0.0, "x"),)
     monkeypatch.setattr(render, "formula_lines", lambda tex, room: empty)
     monkeypatch.setattr(writer, "drawn", lambda plan: "<svg></svg>")
+    render._own_environment.cache_clear()
+    yield
+    render._own_environment.cache_clear()
 
 
 @pytest.fixture

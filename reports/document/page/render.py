@@ -140,6 +140,17 @@ def environment(
             ``kshm-font:``; "screen" writes plain tables and embeds the fonts.
         style: What a department's style file asks for.
     """
+    if overrides is None:  # our own templates do not change: one environment compiles them
+        return _own_environment(media, style)
+    return _environment(overrides, media, style)
+
+
+@functools.lru_cache(maxsize=4)
+def _own_environment(media: str, style: Style) -> Environment:
+    return _environment(None, media, style)
+
+
+def _environment(overrides: Path | None, media: str, style: Style) -> Environment:
     import jinja2
     from jinja2.sandbox import ImmutableSandboxedEnvironment
 

@@ -9,11 +9,15 @@ from __future__ import annotations
 import io
 import math
 import zipfile
+from pathlib import Path
 from posixpath import join, normpath
+from typing import Protocol
 from xml.sax.saxutils import escape
 
 from lxml import etree
+from openpyxl import Workbook
 from openpyxl.utils import coordinate_to_tuple, get_column_letter
+from openpyxl.writer.excel import ExcelWriter
 
 from reports.formula.excel import is_array
 from reports.workbook import shared_form
@@ -34,7 +38,14 @@ class CacheError(ValueError):
     """A formula cell has no finite value to be cached."""
 
 
-def sheet_parts(archive: zipfile.ZipFile) -> dict[str, str]:
+class Readable(Protocol):
+    """What gives a part of a package by its name."""
+
+    def read(self, name: str, /) -> bytes:
+        """The part."""
+
+
+def sheet_parts(archive: Readable) -> dict[str, str]:
     """Sheet title → name of its part, found through the relations of the workbook."""
     book = etree.fromstring(archive.read("xl/workbook.xml"))
     rels = etree.fromstring(archive.read("xl/_rels/workbook.xml.rels"))
@@ -47,27 +58,50 @@ def sheet_parts(archive: zipfile.ZipFile) -> dict[str, str]:
     return parts
 
 
-def finish(book: bytes, caches: CacheValues | None = None) -> bytes:
-    """Fill the cached value of every formula cell and fix all times.
+class _Parts(dict[str, bytes]):
+    """What openpyxl writes into a zip, without the zip: every part is read and written again."""
+
+    def writestr(self, name: str, data: bytes | str) -> None:
+        """Keep a part."""
+        self[name] = data.encode() if isinstance(data, str) else data
+
+    def write(self, file: str, name: str) -> None:
+        """Keep a part from a file."""
+        self[name] = Path(file).read_bytes()
+
+    def read(self, name: str) -> bytes:
+        """A part."""
+        return self[name]
+
+    def namelist(self) -> list[str]:
+        """Names of the parts."""
+        return list(self)
+
+    def close(self) -> None:
+        """Nothing to do."""
+
+
+def finish(book: Workbook, caches: CacheValues | None = None) -> bytes:
+    """The bytes of a workbook with the cached value of every formula cell and fixed times.
 
     Raises:
         CacheError: a formula without a value, or a value that is not finite.
+        OSError, SerialisationError: there is no room for temporary files.
     """
     caches = caches or CacheValues()
+    parts = _Parts()
+    ExcelWriter(book, parts).save()
+    titles = {part: title for title, part in sheet_parts(parts).items()}
     result = io.BytesIO()
-    with (
-        zipfile.ZipFile(io.BytesIO(book)) as source,
-        zipfile.ZipFile(result, "w") as target,
-    ):
-        titles = {part: title for title, part in sheet_parts(source).items()}
-        for name in source.namelist():
-            data = source.read(name)
+    with zipfile.ZipFile(result, "w") as target:
+        for name, made in parts.items():
+            data = made
             if name in titles:
                 data = _fill(data, titles[name], caches)
             elif name.startswith(_CHARTS):
                 data = _fill_chart(data, caches.ranges)
             elif name.startswith(_DRAWINGS):
-                data = _written(shared_form.described(source, name))
+                data = _written(shared_form.described(parts, name))
             elif name.endswith(".rels"):
                 data = _written(shared_form.relative(data, name))
             elif name == "xl/styles.xml":

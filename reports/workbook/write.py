@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-import zipfile
 from collections.abc import Sequence
 from math import ceil
 
@@ -14,7 +12,6 @@ from openpyxl.styles import Alignment, Font, PatternFill
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.worksheet import Worksheet
-from openpyxl.writer.excel import ExcelWriter
 
 from reports.shared.files import temporary_failure
 from reports.shared.garbage import uncollected
@@ -119,14 +116,10 @@ def saved(book: Workbook, caches: CacheValues) -> bytes:
     Raises:
         OutputError: there is no room for temporary files.
     """
-    stream = io.BytesIO()
     try:
-        # As ``book.save`` does, but for the compression, which the finishing pass brings.
-        with zipfile.ZipFile(stream, "w", zipfile.ZIP_STORED) as archive:
-            ExcelWriter(book, archive).save()
+        return finish(book, caches)
     except (OSError, SerialisationError) as error:  # each sheet is a temporary file before
         raise temporary_failure(error) from None
-    return finish(stream.getvalue(), caches)
 
 
 def _heading(sheet: Worksheet, title: str) -> None:

@@ -107,9 +107,7 @@ def gradebook_xlsx(rows: Sequence[dict[str, Any]], maximum: float) -> bytes:
     sheet.col_breaks.append(Break(id=len(head)))
     sheet.oddFooter.center.text = "Лист &P из &N"
     sheet.page_margins.left = sheet.page_margins.right = 0.4
-    stream = io.BytesIO()
-    book.save(stream)
-    return finish(stream.getvalue())
+    return finish(book)
 
 
 def _blocks(rows: Sequence[dict[str, Any]]) -> list[str]:

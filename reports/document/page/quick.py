@@ -40,13 +40,16 @@ def setting(html: str) -> Iterator[None]:
     import pydyf
     import weasyprint
     from weasyprint import svg
+    from weasyprint.layout import absolute, block, column, float, grid, inline, page, percent, table
 
+    rooms = (absolute, block, column, float, grid, inline, page, table)
     if (weasyprint.__version__, pydyf.VERSION) != VERSIONS:
         yield
         return
     text, path = _text(svg.text), _path(svg.path)
     tags = {tag: text if known is svg.text else known for tag, known in svg.TAGS.items()}
     ours = (
+        *((room, "resolve_percentages", _sizes(percent)) for room in rooms),
         (svg, "text", text),
         (svg, "TAGS", tags | {"path": path}),
         (pydyf.PDF, "page_references", property(_pages)),
@@ -74,6 +77,36 @@ def _lean(sheet: Any, html: str) -> Any:  # noqa: ANN401
     matcher.lower_local_name_selectors = by_name | {"li": [*by_name.get("li", ()), *of_lists]}
     lean.matcher = matcher
     return lean
+
+
+_SIDES = ("top", "right", "bottom", "left")
+_BORDERS = tuple(f"border_{side}_width" for side in _SIDES)
+_SIZES = (
+    *(f"{kind}_{side}" for kind in ("margin", "padding") for side in _SIDES),
+    *(f"{limit}{axis}" for limit in ("", "min_", "max_") for axis in ("width", "height")),
+)
+
+
+def _sizes(percent: Any) -> Callable[..., None]:  # noqa: ANN401
+    """Lengths of a box, found once for a style within so wide and high a block."""
+    known: dict[tuple[Any, ...], tuple[Any, dict[str, Any]]] = {}
+
+    def resolve(box: Any, containing_block: Any) -> None:  # noqa: ANN401
+        style, around = box.style, containing_block
+        size = around if type(around) is tuple else (around.width, around.height)
+        # Borders of cells that were settled with their neighbours' stay.
+        settled = style["border_collapse"] == "collapse" and hasattr(box, _BORDERS[0])
+        key = (id(style), *size, isinstance(box, percent.boxes.PageBox), settled)
+        if key in known:
+            box.__dict__.update(known[key][1])
+            return
+        percent.resolve_percentages(box, around)
+        if style["box_sizing"] == "content-box":
+            names = _SIZES if settled else _SIZES + _BORDERS
+            # The style is kept, so that no other gets its number.
+            known[key] = style, {name: box.__dict__[name] for name in names}
+
+    return resolve
 
 
 def _pages(pdf: Any) -> tuple[bytes, ...]:  # noqa: ANN401

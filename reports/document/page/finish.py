@@ -23,9 +23,8 @@ def finish(pdf: Any) -> None:  # noqa: ANN401
             _typed(pdf, item)
     if "AF" in pdf.catalog:
         pdf.catalog["AF"][:] = dict.fromkeys(pdf.catalog["AF"])
-    pdf.objects[1:] = [
-        (_Stream if isinstance(item, pydyf.Stream) else _Object)(item) for item in pdf.objects[1:]
-    ]
+    for number, item in enumerate(pdf.objects[1:], 1):  # one by one: each takes room
+        pdf.objects[number] = (_Stream if isinstance(item, pydyf.Stream) else _Object)(item)
 
 
 class _Written:

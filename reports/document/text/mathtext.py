@@ -44,7 +44,11 @@ def read(text: str, size: float) -> VectorParse:
     """
     font = FontProperties(family="STIXGeneral", size=size, math_fontfamily="stix")
     try:
-        drawn: VectorParse = lib.ship(_Reader(text, font).boxes()).to_vector()
+        fonts = lib.StixFonts(font, LoadFlags.NO_HINTING)
+        placed = lib.ship(_Reader(text, font, fonts).boxes())
+        drawn: VectorParse = placed.to_vector()
+        for kept_by_itself in (fonts, placed):  # and all boxes with them
+            vars(kept_by_itself).clear()
     except Exception:  # the library says what is wrong, or sets it
         return MathTextParser("path").parse(text, dpi=72, prop=font)
     return drawn
@@ -53,9 +57,8 @@ def read(text: str, size: float) -> VectorParse:
 class _Reader(lib.Parser):  # type: ignore[misc]
     """The library's parser with another reading: one look at the next sign."""
 
-    def __init__(self, text: str, font: FontProperties) -> None:
+    def __init__(self, text: str, font: FontProperties, fonts: Any) -> None:  # noqa: ANN401
         # Not the library's, which builds its grammar.
-        fonts = lib.StixFonts(font, LoadFlags.NO_HINTING)
         self._state_stack = [lib.ParserState(fonts, "default", "rm", font.get_size(), 72)]
         self._em_width_cache: dict[Any, float] = {}
         self._needs_space_after_subsuper = False

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import atexit
+import gc
 import signal
 import sys
 
@@ -15,6 +17,9 @@ def start() -> None:
     # While the program is loading there is nothing to clean up: Ctrl-C ends it without a word.
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
+    if sys.argv[1:2] == ["build"]:
+        gc.disable()  # what a build makes stays to its end; between builds garbage is looked for
+    atexit.register(gc.freeze)  # a process that ends need not be searched
     from reports.cli import main
 
     main()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 
 from openpyxl import Workbook
@@ -61,9 +60,7 @@ def book_bytes(engines: Sequence[Compared]) -> bytes:
     _data(made)
     _results(made)
     _charts(made, charts(engines))
-    stream = io.BytesIO()
-    made.book.save(stream)
-    return finish(stream.getvalue(), made.caches)
+    return finish(made.book, made.caches)
 
 
 def _data(made: _Book) -> None:

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Literal, cast
 
 from markupsafe import Markup
 
-from reports.document import store
 from reports.document.chapters import (
     bearings,
     closing,
@@ -175,13 +174,16 @@ def report_page(
         style: margins, type and what else a department asks for.
         further: chapters from rooms above this one.
     """
-    if style.tagged_tables is None:
-        # Cells for everyone's reader where they are few; lines are fast where they are many.
-        tagged = model.input.report.detail != "full"
-        style = style.model_copy(update={"tagged_tables": tagged})
     with overrides.told(templates):
-        env = environment(templates, media=media, style=style)
+        env = environment(templates, media=media, style=_with_tags(style, model))
         return _page(model, values, env, further)
+
+
+def _with_tags(style: Style, model: Model) -> Style:
+    """Cells for everyone's reader where they are few; lines are fast where they are many."""
+    if style.tagged_tables is not None:
+        return style
+    return style.model_copy(update={"tagged_tables": model.input.report.detail != "full"})
 
 
 def _page(model: Model, values: Values, env: Environment, further: Further) -> str:
@@ -193,12 +195,11 @@ def _page(model: Model, values: Values, env: Environment, further: Further) -> s
     _write(Chapter(terms, Writer(env, absent), env), CHAPTERS.keys() - names)
     numbering = draft.numbering(elsewhere=_elsewhere(terms, absent))
     chapter = Chapter(terms, Writer(env, numbering), env)
-    body = chapter.writer.drawn(_write(chapter, names, further))
+    body = _write(chapter, names, further)
     if env.globals["media"] == "print":
         sheets = style.framed if front.has_frame(chapter.input, style.frame) else style
         body = Markup(arranged(body, sheets, run_on=_run_on(chapter, style)))
     numbering.check()
-    store.store().save()
     return texts.unbroken_initials(texts.spaces_inside(_whole(env, chapter, body)))
 
 
@@ -209,7 +210,7 @@ def with_figures(
     report = model.input.report
     folder = overrides.find(report.templates, source.parent)
     look = find_style(report, source.parent, style)
-    env = environment(folder, media="print", style=look)
+    env = environment(folder, media="print", style=_with_tags(look, model))
     draft = Draft(by_chapter=look.numbering == "chapter")
     with overrides.told(folder):
         chapter = Chapter(Terms(model, values), Writer(env, draft), env)

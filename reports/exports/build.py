@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cache, partial
 from pathlib import Path
@@ -166,8 +166,12 @@ class _Making:
 
     def workbook(self, *, beside: bool) -> Callable[[], bytes]:
         """What gives the workbook; a report takes longer, so both are made at the same time."""
+        from reports.document.report import with_figures
+
         self.progress.step("Книга Excel")
-        make = partial(_workbook, self.model, self.values, self._how())
+        # Before the process is split: what this reads and compiles serves the report too.
+        model = with_figures(self.model, self.values, **self._how())
+        make = partial(_workbook, model, self.values)
         return cache(aside(make) if beside else make)
 
     def pdf(self, book: Callable[[], bytes]) -> None:
@@ -199,12 +203,10 @@ class _Making:
         return {"source": self.path, "style": self.style, "further": self.further}
 
 
-def _workbook(model: Model, values: Values, how: Mapping[str, Any]) -> bytes:
-    """The workbook, whose charts have the numbers of the report's figures."""
-    from reports.document.report import with_figures
+def _workbook(model: Model, values: Values) -> bytes:
     from reports.workbook.write import workbook_bytes
 
-    return workbook_bytes(with_figures(model, values, **how), values)
+    return workbook_bytes(model, values)
 
 
 def remarks_of(loaded: Loaded) -> tuple[str, ...]:

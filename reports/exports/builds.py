@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
@@ -64,7 +65,9 @@ def build_each(
     results = [folder / f"{path.stem}{ending}" for path, _ in inputs for ending in endings]
     refuse_own(results, [file for path, loaded in inputs for file in (path, *loaded.beside)])
     if dask is None:
-        for path, loaded in inputs:
+        for number, (path, loaded) in enumerate(inputs):
+            if number:
+                gc.collect()  # see reports/__main__.py
             kinds = kinds_of(loaded, only)
             yield build(path, loaded, folder, kinds, chapters(path, loaded), style)
         return

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -130,9 +129,7 @@ class StudyBook:
         """The finished workbook."""
         self._summary()
         ranges = self._charts()
-        stream = io.BytesIO()
-        self._book.save(stream)
-        return finish(stream.getvalue(), CacheValues(ranges=ranges))
+        return finish(self._book, CacheValues(ranges=ranges))
 
     def _summary(self) -> None:
         sheet = self._first

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from openpyxl.chart import ScatterChart
@@ -251,7 +252,7 @@ def _legend(chart: ScatterChart, *, shown: bool) -> None:
 
 def _title(text: str, size: int) -> Title:
     """A title of moderate size (hundredths of a point) that leaves the plot its room."""
-    look = CharacterProperties(sz=size, b=False)
+    look = _font(size)
     paragraph = Paragraph(
         pPr=ParagraphProperties(defRPr=look), r=[RegularTextRun(rPr=look, t=text)]
     )
@@ -267,9 +268,7 @@ def _titles(chart: ScatterChart, x_title: str, y_title: str) -> None:
         axis.majorTickMark = "out"
         axis.number_format = "General"
         axis.numFmt.sourceLinked = False
-        axis.majorGridlines.spPr = GraphicalProperties(
-            ln=LineProperties(solidFill="D9D9D9", w=6350)
-        )
+        axis.majorGridlines.spPr = _grid()
         if title:
             axis.title = _title(title, 900)
 
@@ -337,8 +336,24 @@ def _curve(number: int, curve: Curve, line: LineProperties) -> XYSeries:
     made.yVal = NumDataSource(numRef=NumRef(f=curve.y))
     made.smooth = False
     made.spPr = GraphicalProperties(ln=line)
-    made.marker = Marker(symbol="none")
+    made.marker = _unmarked()
     return made
+
+
+@cache
+def _unmarked() -> Marker:
+    """No marker; one object serves all curves."""
+    return Marker(symbol="none")
+
+
+@cache
+def _grid() -> GraphicalProperties:
+    return GraphicalProperties(ln=LineProperties(solidFill="D9D9D9", w=6350))
+
+
+@cache
+def _font(size: int) -> CharacterProperties:
+    return CharacterProperties(sz=size, b=False)
 
 
 def _hidden() -> LineProperties:

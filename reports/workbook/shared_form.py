@@ -8,7 +8,7 @@ openpyxl knows no alternative text for charts.
 from __future__ import annotations
 
 import posixpath
-import zipfile
+from collections.abc import Mapping
 
 from lxml import etree
 
@@ -35,15 +35,15 @@ def relative(data: bytes, name: str) -> etree._Element:
     return root
 
 
-def described(archive: zipfile.ZipFile, name: str) -> etree._Element:
+def described(archive: Mapping[str, bytes], name: str) -> etree._Element:
     """A drawing whose charts say in words what they show."""
-    root = etree.fromstring(archive.read(name))
+    root = etree.fromstring(archive[name])
     folder, file = posixpath.split(name)
-    relations = etree.fromstring(archive.read(f"{folder}/_rels/{file}.rels"))
+    relations = etree.fromstring(archive[f"{folder}/_rels/{file}.rels"])
     targets = {relation.get("Id"): relation.get("Target") for relation in relations}
     for frame in root.iter(f"{{{_XDR}}}graphicFrame"):
         target = targets[frame.find(f".//{{{_C}}}chart").get(f"{{{_R}}}id")]
-        chart = etree.fromstring(archive.read(posixpath.join(folder, target).lstrip("/")))
+        chart = etree.fromstring(archive[posixpath.join(folder, target).lstrip("/")])
         frame.find(f".//{{{_XDR}}}cNvPr").set("descr", _words(chart))
     hoist(root)
     return root

@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-import gc
-import io
-import zipfile
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 
 from lxml.etree import SerialisationError
 from openpyxl import Workbook
@@ -15,9 +11,9 @@ from openpyxl.styles import Alignment, Font, PatternFill
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.worksheet import Worksheet
-from openpyxl.writer.excel import ExcelWriter
 
 from reports.shared.files import temporary_failure
+from reports.shared.garbage import uncollected
 from reports.spec.blocks import Grid, Model, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec
 from reports.spec.evaluation import Values, evaluate_model
@@ -70,20 +66,8 @@ def workbook_bytes(model: Model, values: Values | None = None) -> bytes:
     layout = Layout.of(model)
     check_names(layout)
     writer = Writer(layout, values or evaluate_model(model))
-    with _uncollected():
+    with uncollected():
         return saved(assemble(model, writer), writer.caches)
-
-
-@contextmanager
-def _uncollected() -> Iterator[None]:
-    """No search for garbage among many small objects that all stay until the book is written."""
-    running = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if running:
-            gc.enable()
 
 
 def assemble(
@@ -136,14 +120,10 @@ def saved(book: Workbook, caches: CacheValues) -> bytes:
     Raises:
         OutputError: there is no room for temporary files.
     """
-    stream = io.BytesIO()
     try:
-        # As ``book.save`` does, but for the compression, which the finishing pass brings.
-        with zipfile.ZipFile(stream, "w", zipfile.ZIP_STORED) as archive:
-            ExcelWriter(book, archive).save()
+        return finish(book, caches)
     except (OSError, SerialisationError) as error:  # each sheet is a temporary file before
         raise temporary_failure(error) from None
-    return finish(stream.getvalue(), caches)
 
 
 def _heading(sheet: Worksheet, title: str) -> None:

@@ -1,4 +1,4 @@
-"""The textbook's diesel: workbook and report in each profile, the first time and again."""
+"""The textbook's diesel: workbook and report in each profile."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from pathlib import Path
 from reports.inputs.sections.report import DETAILS
 from reports.shared.resources import samples_dir
 from tests.bench._figure import Figure, costs
-from tests.bench._process import kshm, median, run
+from tests.bench._process import kshm, median
 
 
 def figures() -> Iterator[Figure]:
-    """Times of whole commands; medians of three but for the first report; pages and size."""
+    """Times of whole commands, medians of three; pages and size."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         text = (samples_dir() / "gots-diesel.toml").read_text(encoding="utf-8")
@@ -28,9 +28,7 @@ def figures() -> Iterator[Figure]:
 
         yield from costs("только книга", median(build("full", "xlsx")))
         for kind in DETAILS:
-            keep = {"KSHM_CACHE": str(folder / f"cache-{kind}")}
-            yield from costs(f"{kind}: книга и отчёт, первый раз", run(build(kind), keep))
-            yield from costs(f"{kind}: книга и отчёт, снова", median(build(kind), env=keep))
+            yield from costs(f"{kind}: книга и отчёт", median(build(kind)))
             pdf = (folder / "out" / f"{kind}.pdf").read_bytes()
             yield Figure(f"{kind}: страниц", _pages(pdf))
             yield Figure(f"{kind}: отчёт с вложенной книгой", len(pdf) / 1024, "КБ")

@@ -13,7 +13,7 @@ def test_wear_is_to_scale():
     sums = np.array([4.0, 3.0, 2.0, 1.0, 2.0, 3.0])
     svg = wear_diagram(sums, np.arange(6) * 60.0, None)
     tree = ET.fromstring(svg)
-    paths = [node.attrib["d"] for node in tree.iter() if node.attrib.get("fill") == "#ffffff"]
+    paths = [node.get("d", "") for node in tree.iter() if node.get("fill") == "#ffffff"]
     outline = max(paths, key=lambda d: d.count("L"))
     points = np.array(re.findall(r"[ML] ?(-?[\d.]+) (-?[\d.]+)", outline), dtype=float)
     width = float(tree.attrib["viewBox"].split()[2])

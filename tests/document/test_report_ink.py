@@ -12,7 +12,6 @@ import pytest
 from pdftools import poppler
 from report_samples import terms_of, text_of, with_detail
 
-from reports.document import store
 from reports.document.page import writer
 from reports.document.page.render import render
 from reports.document.report import report_page
@@ -127,11 +126,7 @@ def engine(seed: int) -> Terms:
 
 @pytest.mark.parametrize("seed", range(ENGINES))
 def test_no_random_engine_leaves_its_page(seed, tmp_path, monkeypatch):
-    kept = store.kept
-    monkeypatch.setattr(writer, "draw_all", lambda jobs: None)
-    monkeypatch.setattr(
-        store, "kept", lambda kind, data, make: BOX if kind == "figure" else kept(kind, data, make)
-    )
+    monkeypatch.setattr(writer, "drawn", lambda plan: BOX)
     page, path = looked_at(engine(seed), tmp_path)
     assert faults(ink.words(path), ink.sheets(path)) == []
     assert broken(page, poppler("pdftotext", "-layout", str(path), "-")) == []

@@ -8,7 +8,6 @@ import pytest
 from pdftools import fonts_of, pages_of
 from report_samples import ONE, html_page, terms, terms_of
 
-from reports.document import store
 from reports.document.chapters.dynamics import _pressure_at, _pressure_tex
 from reports.document.page.render import render
 from reports.document.report import report_html, report_page
@@ -58,11 +57,10 @@ def test_html_is_one_self_contained_page(hostile):
     assert 'class="tbox"' in page and "viewport" in page
 
 
-def test_the_same_input_gives_the_same_page(monkeypatch):
+def test_the_same_input_gives_the_same_page():
     # Equal pages give equal PDF files: see test_document_render.
     t = terms("one")
     first = html_page("one")
-    monkeypatch.setattr(store, "store", lambda: store.Store(None))
     formula.cache_clear()
     formula_lines.cache_clear()
     assert report_html(t.model, t.values, source=Path("t.toml")) == first

@@ -2,74 +2,98 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
 
-from reports.document.figures.labels import shown
-from reports.document.figures.style import AXIS, FONT_SIZE, GRID, HALO, SMALL
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from reports.document.figures.labels import Box
+from reports.document.figures.sheet import Sheet
+from reports.document.figures.style import AXIS, EDGE, FONT_SIZE, GRID, SMALL, Look
 from reports.document.figures.ticks import Ticks
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+_TOP = 0.75  # of the type above the baseline, which half a number's height stands off its mark
 
 
-def dress(
-    axes: Axes,
-    x_ticks: Ticks,
-    y_ticks: Ticks,
-    *,
-    reverse: tuple[bool, bool] = (False, False),
-    zero_lines: tuple[bool, bool] = (False, True),
-) -> None:
-    """Grid, limits, marks with decimal comma, heavier lines through zero."""
-    axes.set_xticks(x_ticks.places, x_ticks.texts)
-    axes.set_yticks(y_ticks.places, y_ticks.texts)
-    axes.set_xlim(x_ticks.low, x_ticks.high)
-    axes.set_ylim(y_ticks.low, y_ticks.high)
-    axes.xaxis.set_inverted(reverse[0])
-    axes.yaxis.set_inverted(reverse[1])
-    axes.tick_params(length=0, pad=3, labelsize=SMALL)
-    axes.grid(visible=True, clip_on=False, **GRID)
-    axes.set_axisbelow(True)
-    axes.spines[["top", "right", "bottom"]].set(**GRID)
-    axes.spines["left"].set(**AXIS)
-    if y_ticks.low >= 0:
-        axes.spines["bottom"].set(**AXIS)
-    if zero_lines[1] and y_ticks.low < 0 < y_ticks.high:
-        axes.axhline(0, zorder=1.5, clip_on=False, **AXIS)
-    if zero_lines[0] and x_ticks.low < 0 < x_ticks.high:
-        axes.axvline(0, zorder=1.5, clip_on=False, **AXIS)
+@dataclass(frozen=True, slots=True)
+class Axes:
+    """A field of a sheet with marks on both axes.
 
+    Attributes:
+        page: the sheet.
+        field: left, bottom, right and top on it [pt].
+        x: marks of the horizontal axis.
+        y: marks of the vertical axis.
+        reverse: positive x to the left, positive y downwards.
+    """
 
-def beside(
-    axes: Axes, text: str, corner: tuple[float, float], shift: tuple[float, float], ha: str
-) -> None:
-    """A text set off from a place of the axes (0 … 1) by points."""
-    axes.annotate(
-        shown(text), corner, xytext=shift, xycoords="axes fraction", textcoords="offset points",
-        ha=ha, va="baseline", fontsize=FONT_SIZE,
-    )  # fmt: skip
+    page: Sheet
+    field: Box
+    x: Ticks
+    y: Ticks
+    reverse: tuple[bool, bool] = (False, False)
 
+    def at(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+        """Places on the sheet of some points, shape (n, 2)."""
+        left, low, right, high = self.field
+        ends = (
+            (left, right, self.x, self.reverse[0], np.asarray(x, dtype=np.float64)),
+            (low, high, self.y, self.reverse[1], np.asarray(y, dtype=np.float64)),
+        )
+        places = []
+        for start, end, ticks, turned, values in ends:
+            share = (values - ticks.low) / (ticks.high - ticks.low)
+            places.append(start + (end - start) * (1 - share if turned else share))
+        return np.stack(np.broadcast_arrays(*places), axis=-1)
 
-def y_title(axes: Axes, text: str) -> None:
-    """Name and unit of the vertical axis above its upper end."""
-    beside(axes, text, (0.0, 1.0), (-8, 7), "left")
+    def level(self, y: float, look: Look, layer: float = 2) -> None:
+        """A line across the field."""
+        self.page.line(self.at([self.x.low, self.x.high], [y, y]), look, layer)
 
+    def dress(
+        self,
+        *,
+        pads: tuple[float, float] = (3, 3),
+        edges: tuple[Look, Look] = (EDGE, EDGE),
+        zeros: bool = False,
+    ) -> None:
+        """Grid, edges, numbers with decimal comma, heavier lines through zero.
 
-def x_title(axes: Axes, text: str) -> None:
-    """Name and unit of the horizontal axis at its right end, in line with the numbers."""
-    beside(axes, text, (1.0, 0.0), (11, -3 - 0.76 * SMALL), "left")
+        Args:
+            pads: room between the field and the numbers of x and of y [pt].
+            edges: looks of the left and of the lower edge where no axis crosses the field.
+            zeros: a line through zero of the abscissa too.
+        """
+        page, (left, low, right, high) = self.page, self.field
+        xs = self.at(self.x.places, self.y.low)[:, 0].tolist()
+        ys = self.at(self.x.low, self.y.places)[:, 1].tolist()
+        grid = [[(x, low), (x, high)] for x in xs] + [[(left, y), (right, y)] for y in ys]
+        page.lines(grid, GRID, 0.5)
+        down = self.reverse[1]
+        height = high + pads[0] + (1 - _TOP) * SMALL if down else low - pads[0] - _TOP * SMALL
+        for x, text in zip(xs, self.x.texts, strict=True):
+            if text:
+                page.text((x, height), text, SMALL, middle=False, layer=0.6)
+        left_side = not self.reverse[0]
+        side = left - pads[1] if left_side else right + pads[1]
+        for y, text in zip(ys, self.y.texts, strict=True):
+            place = (side, y - _TOP * SMALL / 2)
+            page.text(place, text, SMALL, middle=False, align=float(left_side), layer=0.6)
+        corners = [(left, low), (right, low), (right, high), (left, high)]
+        page.line(corners[1:], GRID, 0.6)
+        for edge, look in zip((corners[::3], corners[:2]), edges, strict=True):
+            page.line(edge, look, 2.5 if look is not GRID else 0.6)
+        if self.y.low < 0 < self.y.high:
+            self.level(0.0, AXIS, 1.5)
+        if zeros and self.x.low < 0 < self.x.high:
+            page.line(self.at([0.0, 0.0], [self.y.low, self.y.high]), AXIS, 1.5)
 
+    def name_y(self, text: str) -> None:
+        """Name and unit of the vertical axis above its upper end."""
+        place = (self.field[0] - 8, self.field[3] + 7)
+        self.page.text(place, text, FONT_SIZE, align=0.0, middle=False)
 
-def put(
-    axes: Axes,
-    place: tuple[float, float],
-    text: str,
-    size: float = FONT_SIZE,
-    *,
-    halo: bool = True,
-) -> None:
-    """A text centred at a place of the sheet [pt]."""
-    axes.annotate(
-        shown(text), place, xycoords="figure points", ha="center", va="center", fontsize=size,
-        bbox=HALO if halo else None, annotation_clip=False,
-    )  # fmt: skip
+    def name_x(self, text: str) -> None:
+        """Name and unit of the horizontal axis at its right end, in line with the numbers."""
+        place = (self.field[2] + 11, self.field[1] - 3 - 0.76 * SMALL)
+        self.page.text(place, text, FONT_SIZE, align=0.0, middle=False)

@@ -4,31 +4,37 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from reports.document.figures import axes as ax
+from reports.document.figures.axes import Axes
 from reports.document.figures.labels import (
     Points,
     Room,
     dense,
     label_curve,
     label_point,
-    shown,
     text_size,
 )
-from reports.document.figures.style import FONT_SIZE, PAGE_WIDTH, PATTERNS, SMALL, sheet
-from reports.document.figures.ticks import Ticks, angle_ticks, bounds, value_ticks
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+from reports.document.figures.sheet import Sheet
+from reports.document.figures.style import (
+    EDGE,
+    FONT_SIZE,
+    GRID,
+    PAGE_WIDTH,
+    PATTERNS,
+    SMALL,
+    Look,
+)
+from reports.document.figures.ticks import angle_ticks, bounds, value_ticks
 
 LETTERS = "абвгдежиклмнпрстуфхцшщэюя"  # without з, о, ё, й, ъ, ы, ь, as the standard lists them
 _BOTTOM, _TOP, _BETWEEN = 20.0, 22.0, 38.0  # pt below, above and between the panels
-_DOT: dict[str, Any] = {"linewidth": 2.2, "solid_capstyle": "round", "label": "_"}
-_LEVEL: dict[str, Any] = {"color": "#000000", "linewidth": 0.9, "linestyle": (0, (12, 3, 2, 3))}
+_LEVEL = Look(0.9, (12, 3, 2, 3))
+# Of a legend [pt]: length of its lines, the gap before a name, between columns, between rows.
+_SAMPLE, _GAP, _COLUMNS_GAP, _ROW = 30.8, 8.8, 15.4, 16.5
+_IN_ROW, _INSET = 4, 3.3
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,63 +132,51 @@ def curves_figure(
     ]
     left = max(ticks.width() for ticks in y_ticks) + 8
     right = text_size(x_title, FONT_SIZE)[0] + 14
-    with sheet(PAGE_WIDTH, height * len(panels)) as page:
-        room = page.height - _BOTTOM - _TOP - _BETWEEN * (len(panels) - 1)
-        tall = room / len(panels)
-        for index, (panel, ticks) in enumerate(zip(panels, y_ticks, strict=True)):
-            base = page.height - _TOP - tall - index * (tall + _BETWEEN)
-            axes = page.axes(left, base, page.width - left - right, tall)
-            _plot(axes, abscissa, panel, (x_ticks, ticks))
-            if len(panels) > 1:
-                ax.beside(axes, f"{LETTERS[index]})", (0.5, 1.0), (0, 7), "center")
-        ax.x_title(axes, x_title)
-        return page.svg()
+    page = Sheet(PAGE_WIDTH, height * len(panels))
+    room = page.height - _BOTTOM - _TOP - _BETWEEN * (len(panels) - 1)
+    tall = room / len(panels)
+    for index, (panel, ticks) in enumerate(zip(panels, y_ticks, strict=True)):
+        base = page.height - _TOP - tall - index * (tall + _BETWEEN)
+        field = (left, base, page.width - right, base + tall)
+        axes = Axes(page, field, x_ticks, ticks)
+        _plot(axes, abscissa, panel)
+        if len(panels) > 1:
+            middle = ((field[0] + field[2]) / 2, field[3] + 7)
+            page.text(middle, f"{LETTERS[index]})", middle=False)
+    axes.name_x(x_title)
+    return page.svg()
 
 
-def _plot(
-    axes: Axes, x: NDArray[np.float64], panel: Panel, ticks: tuple[Ticks, Ticks]
-) -> None:  # fmt: skip
-    ax.dress(axes, *ticks)
-    ax.y_title(axes, panel.y_title)
-    columns = panel.ordinates(x.size)
-    for number, (curve, y) in enumerate(zip(panel.curves, columns, strict=True)):
-        dash, width, colour = PATTERNS[number % len(PATTERNS)]
-        look = {"linestyle": dash, "linewidth": width, "color": colour}
-        axes.plot(x, y, label=shown(curve.name), clip_on=False, **look)
+def _plot(axes: Axes, x: NDArray[np.float64], panel: Panel) -> None:
+    axes.dress(edges=(EDGE, EDGE if axes.y.low >= 0 else GRID))
+    axes.name_y(panel.y_title)
+    lines = [axes.at(x, y) for y in panel.ordinates(x.size)]
+    for number, line in enumerate(lines):
+        axes.page.line(line, PATTERNS[number % len(PATTERNS)])
     for number, points in enumerate(panel.points):
-        colour = PATTERNS[number % len(PATTERNS)][2]
-        dots = axes.plot(*map(_dotted, points), color=colour, clip_on=False, **_DOT)
-        dots[0].get_path().should_simplify = False
+        # Segments of no length, which round caps make dots.
+        dots = np.repeat(axes.at(*points), 2, axis=0).reshape(-1, 2, 2)
+        colour = PATTERNS[number % len(PATTERNS)].colour
+        axes.page.lines(dots, Look(2.2, colour=colour, cap="round"))
     for level in panel.levels:
-        axes.axhline(level.y, clip_on=False, **_LEVEL)
-    _name(axes, panel, [np.column_stack([x, y]) for y in columns])
+        axes.level(level.y, _LEVEL)
+    _name(axes, panel, lines)
 
 
-def _dotted(values: ArrayLike) -> NDArray[np.float64]:
-    """Segments of no length, which round caps make dots; markers would be copies by reference."""
-    places = np.repeat(np.asarray(values, dtype=np.float64), 3)
-    places[2::3] = np.nan
-    return places
-
-
-def _name(axes: Axes, panel: Panel, curves: Sequence[Points]) -> None:
+def _name(axes: Axes, panel: Panel, lines: Sequence[Points]) -> None:
     """Names of marks, levels and curves, in this order of right to the room."""
-    to_sheet = axes.transData.transform
-    left, low, right, high = axes.get_window_extent().extents
+    left, low, right, high = axes.field
     room = Room((left + 2, low + 2, right - 2, high - 2))
-    lines = [dense(to_sheet(curve)) for curve in curves]
-    ends = axes.get_xlim()
-    across = [
-        dense(to_sheet(np.array([(ends[0], y), (ends[1], y)])))
-        for y in (*(level.y for level in panel.levels), 0.0)
-    ]
+    lines = [dense(line) for line in lines]
+    ends = (axes.x.low, axes.x.high)
+    across = [dense(axes.at(ends, y)) for y in (*(level.y for level in panel.levels), 0.0)]
     room.curves += [*lines, *across]
     for mark in panel.marks:
-        _mark(axes, room, to_sheet((mark.x, mark.y)).tolist(), mark.name)
+        _mark(axes, room, axes.at(mark.x, mark.y).tolist(), mark.name)
     for level, line in zip(panel.levels, across, strict=False):
         place = label_curve(room, line, lines, text_size(level.name, FONT_SIZE))
         if place:
-            ax.put(axes, place, level.name)
+            axes.page.text(place, level.name, halo=True)
     if len(panel.curves) < 2:
         return
     places = []
@@ -191,22 +185,28 @@ def _name(axes: Axes, panel: Panel, curves: Sequence[Points]) -> None:
         places.append(label_curve(room, line, others, text_size(curve.name, FONT_SIZE)))
     if all(places):
         for curve, place in zip(panel.curves, places, strict=True):
-            ax.put(axes, place or (0, 0), curve.name)
+            axes.page.text(place or (0, 0), curve.name, halo=True)
     else:
-        axes.legend(
-            loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=4, frameon=False,
-            fontsize=FONT_SIZE, handlelength=2.8, borderaxespad=0.1, borderpad=0.2,
-            columnspacing=1.4,
-        )  # fmt: skip
+        _legend(axes, [curve.name for curve in panel.curves])
+
+
+def _legend(axes: Axes, names: Sequence[str]) -> None:
+    """Samples of the lines with their names above the field, four to a row."""
+    shares = np.array_split(np.arange(len(names)), min(_IN_ROW, len(names)))
+    columns = [share.tolist() for share in shares]
+    x, top = axes.field[2] - _INSET, axes.field[3] + _INSET / 3 + len(columns[0]) * _ROW
+    for column in reversed(columns):
+        x -= max(text_size(names[n], FONT_SIZE)[0] for n in column)
+        for row, n in enumerate(column):
+            y = top - (row + 0.7) * _ROW
+            axes.page.text((x, y), names[n], align=0.0, middle=False)
+            sample = [(x - _GAP - _SAMPLE, y + 3.85), (x - _GAP, y + 3.85)]
+            axes.page.line(sample, PATTERNS[n % len(PATTERNS)])
+        x -= _GAP + _SAMPLE + _COLUMNS_GAP
 
 
 def _mark(axes: Axes, room: Room, point: tuple[float, float], name: str) -> None:
-    from matplotlib.patches import Circle
-    from matplotlib.transforms import IdentityTransform
-
-    disc = Circle(point, 1.6, facecolor="#000000", edgecolor="none", clip_on=False, zorder=4)
-    disc.set_transform(IdentityTransform())
-    axes.add_artist(disc).set_clip_path(None)
+    axes.page.circle((point[0], point[1]), 1.6, "#000000", None, 4)
     place = label_point(room, (point[0], point[1]), text_size(name, SMALL))
     if place:
-        ax.put(axes, place, name, SMALL)
+        axes.page.text(place, name, SMALL, halo=True)

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from reports.document.text.fonts import FAMILY, face
 from reports.document.text.texts import raised
 from reports.document.text.texwords import for_mathtext
 
@@ -17,16 +18,38 @@ Box = tuple[float, float, float, float]  # left, bottom, right, top [pt]
 Place = tuple[float, float]
 
 
-@functools.lru_cache(maxsize=2048)
+_ASCENT, _DESCENT = 0.75, 0.25  # of the type: the least that a line takes in STIX
+_SCALE = 100.0  # pt at which texts are measured
+
+
 def text_size(text: str, size: float) -> tuple[float, float]:
     """Width and height of a text in STIX [pt]; ``$…$`` is set as mathtext."""
-    from matplotlib.font_manager import FontProperties
-    from matplotlib.textpath import text_to_path
+    width, height, _ = _measured(shown(text))
+    return width * size, height * size
 
-    font = FontProperties(family="STIXGeneral", size=size, math_fontfamily="stix")
-    written = shown(text)
-    width, height, _ = text_to_path.get_text_width_height_descent(written, font, "$" in written)
-    return float(width), float(height)
+
+def line_box(words: str, size: float) -> tuple[float, float, float]:
+    """Width of a line in mathtext's words, its height above and below the baseline [pt]."""
+    width, height, depth = _measured(words)
+    return width * size, max(height - depth, _ASCENT) * size, max(depth, _DESCENT) * size
+
+
+@functools.lru_cache(maxsize=2048)
+def _measured(words: str) -> tuple[float, float, float]:
+    """Width, height and depth of a text [em]."""
+    if "$" in words:
+        from reports.document.text.mathtext import read
+
+        parsed = read(words, _SCALE)
+        return parsed.width / _SCALE, parsed.height / _SCALE, parsed.depth / _SCALE
+    from matplotlib.ft2font import LoadFlags
+
+    font = face(FAMILY)
+    font.set_size(_SCALE, 72)
+    font.set_text(words, 0.0, flags=LoadFlags.NO_HINTING)
+    width, height = font.get_width_height()
+    unit = 64 * _SCALE
+    return width / unit, height / unit, font.get_descent() / unit
 
 
 @functools.lru_cache(maxsize=2048)

@@ -15,7 +15,8 @@ from reports.document.figures.pen import (
     polar,
     shifted,
 )
-from reports.document.figures.style import MM, SMALL, sheet
+from reports.document.figures.sheet import Sheet
+from reports.document.figures.style import MM, SMALL
 
 _GREY = "#e4e4e4"
 _FAINT = "#b4b4b4"
@@ -39,19 +40,19 @@ def mechanism_sketch(lam: float, phi: float = 50.0, *, k: float = 0.0, width: fl
     radius = 45.0
     rod = radius / lam
     height = 2 * radius + rod + 78 + 22
-    with sheet(width, height / MM) as page:
-        pen = Pen(page)
-        for share, letter in ((0.27, "а)"), (0.75, "б)")):
-            origin = (page.width * share, radius + 36)
-            part = _Mechanism(pen, origin, radius, rod, math.radians(phi), k * radius)
-            if letter == "а)":
-                part.links()
-                part.geometry()
-            else:
-                part.links(faint=True)
-                part.forces()
-            pen.text((origin[0], 9), letter)
-        return page.svg()
+    page = Sheet(width, height / MM)
+    pen = Pen(page)
+    for share, letter in ((0.27, "а)"), (0.75, "б)")):
+        origin = (page.width * share, radius + 36)
+        part = _Mechanism(pen, origin, radius, rod, math.radians(phi), k * radius)
+        if letter == "а)":
+            part.links()
+            part.geometry()
+        else:
+            part.links(faint=True)
+            part.forces()
+        pen.text((origin[0], 9), letter)
+    return page.svg()
 
 
 class _Mechanism:
@@ -183,28 +184,28 @@ def velocity_sketch(lam: float, phi: float = 50.0, *, width: float = 90.0) -> st
     lift = radius * (math.cos(turn) + math.cos(beta) / lam)
     cut = radius * math.sin(turn + beta) / math.cos(beta)
     height = lift + radius + 60
-    with sheet(width, height / MM) as page:
-        pen = Pen(page)
-        origin = (page.width * 0.42, radius + 30)
-        x, y = origin
-        pin, piston = polar(origin, radius, turn), (x, y + lift)
-        across = (x + cut, y)
-        pen.line([(x, y - radius - 14), (x, piston[1] + 18)], HAIR)
-        pen.line([(x - radius - 14, y), (x + max(radius, cut) + 14, y)], HAIR)
-        pen.circle(origin, radius, width=HAIR)
-        pen.line([piston, pin, origin], THICK)
-        pen.line([pin, across] if phi < 90 else [piston, across], HAIR, DASHED)
-        pen.line([origin, across], 2.6)
-        for joint in (origin, pin, piston, across):
-            pen.circle(joint, 2.8, fill="#ffffff", width=1.1)
-        pen.text((x - 9, y - 9), "$O$")
-        pen.text((pin[0] + 10, pin[1] + 4), "$B$")
-        pen.text((x - 10, piston[1] + 3), "$A$")
-        pen.text((across[0] + 9, y - 9), "$H$")
-        pen.text((x + cut / 2, y - 10), "$OH$", SMALL)
-        pen.arc(origin, 18, 0.0, turn, arrow=True)
-        pen.text(polar(origin, 26, turn * 0.5), r"$\varphi$")
-        return page.svg()
+    page = Sheet(width, height / MM)
+    pen = Pen(page)
+    origin = (page.width * 0.42, radius + 30)
+    x, y = origin
+    pin, piston = polar(origin, radius, turn), (x, y + lift)
+    across = (x + cut, y)
+    pen.line([(x, y - radius - 14), (x, piston[1] + 18)], HAIR)
+    pen.line([(x - radius - 14, y), (x + max(radius, cut) + 14, y)], HAIR)
+    pen.circle(origin, radius, width=HAIR)
+    pen.line([piston, pin, origin], THICK)
+    pen.line([pin, across] if phi < 90 else [piston, across], HAIR, DASHED)
+    pen.line([origin, across], 2.6)
+    for joint in (origin, pin, piston, across):
+        pen.circle(joint, 2.8, fill="#ffffff", width=1.1)
+    pen.text((x - 9, y - 9), "$O$")
+    pen.text((pin[0] + 10, pin[1] + 4), "$B$")
+    pen.text((x - 10, piston[1] + 3), "$A$")
+    pen.text((across[0] + 9, y - 9), "$H$")
+    pen.text((x + cut / 2, y - 10), "$OH$", SMALL)
+    pen.arc(origin, 18, 0.0, turn, arrow=True)
+    pen.text(polar(origin, 26, turn * 0.5), r"$\varphi$")
+    return page.svg()
 
 
 def _beside(start: Point, end: Point, share: float, offset: float) -> Point:

@@ -5,39 +5,33 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
-from reports.document.figures.axes import put
 from reports.document.figures.labels import text_size
-from reports.document.figures.style import FONT_SIZE, Sheet
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.patches import Patch
+from reports.document.figures.sheet import Sheet
+from reports.document.figures.style import FONT_SIZE, Look
 
 Point = tuple[float, float]
-Dash = str | tuple[int, tuple[float, ...]]
+Dash = tuple[float, ...]
 THICK, THIN, HAIR = 2.2, 0.9, 0.6
-CENTRE: Dash = (0, (10, 2.5, 1.5, 2.5))  # centre line
-DASHED: Dash = (0, (4, 2.5))
+CENTRE: Dash = (10, 2.5, 1.5, 2.5)  # centre line
+DASHED: Dash = (4, 2.5)
 
 
 class Pen:
     """Draws on a sheet in points from its lower left corner."""
 
-    def __init__(self, page: Sheet) -> None:
-        self.axes: Axes = page.plane()
+    def __init__(self, page: Sheet, layer: float = 0.0) -> None:
+        self.page, self.layer = page, layer
 
     def line(
         self,
         points: Sequence[Sequence[float]],
         width: float = THIN,
-        dash: Dash = "-",
+        dash: Dash = (),
         colour: str = "#000000",
     ) -> None:
         """Polyline through points."""
-        xs, ys = zip(*points, strict=True)
-        self.axes.plot(xs, ys, color=colour, linewidth=width, linestyle=dash, clip_on=False)
+        self.page.line(points, Look(width, dash, colour), self.layer + 2)
 
     def shape(
         self,
@@ -48,9 +42,7 @@ class Pen:
         order: float = 3,
     ) -> None:
         """Closed polygon; one of a lower order lies under the others."""
-        from matplotlib.patches import Polygon
-
-        self._add(Polygon(points, closed=True), fill, width, order)
+        self.page.shape(points, fill, _edge(width), self.layer + order)
 
     def circle(
         self,
@@ -62,10 +54,8 @@ class Pen:
         order: float | None = None,
     ) -> None:
         """Circle; a filled one lies above lines."""
-        from matplotlib.patches import Circle
-
-        above = 2 if fill == "none" else 4
-        self._add(Circle(centre, radius), fill, width, above if order is None else order)
+        above = (2 if fill == "none" else 4) if order is None else order
+        self.page.circle(centre, radius, fill, _edge(width), self.layer + above)
 
     def arc(
         self, centre: Point, radius: float, start: float, end: float, *, arrow: bool = False
@@ -92,7 +82,7 @@ class Pen:
 
     def text(self, place: Point, text: str, size: float = FONT_SIZE, *, halo: bool = True) -> None:
         """Text centred at a place, on white unless ``halo`` is off."""
-        put(self.axes, place, text, size, halo=halo)
+        self.page.text(place, text, size, halo=halo, layer=self.layer + 3)
 
     def throws(
         self, centre: Point, radius: float, angles: Sequence[float], size: float, *, lean: float = 0
@@ -116,11 +106,10 @@ class Pen:
         sides = [shifted(back, across, share * length) for share in (0.2, -0.2)]
         self.shape([tip, *sides], fill="#000000", width=0)
 
-    def _add(self, patch: Patch, fill: str, width: float, order: float) -> None:
-        patch.set(facecolor=fill, edgecolor="#000000" if width else "none", linewidth=width)
-        patch.set_zorder(order)
-        self.axes.add_patch(patch)
-        patch.set_clip_on(False)
+
+def _edge(width: float) -> Look | None:
+    """The outline of a shape."""
+    return Look(width, cap="butt", miter=True) if width else None
 
 
 def polar(centre: Point, radius: float, angle: float) -> Point:

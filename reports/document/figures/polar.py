@@ -9,10 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from reports.document.figures import axes as ax
+from reports.document.figures.axes import Axes
 from reports.document.figures.labels import Box, Place, Points, Room, dense, label_point, text_size
 from reports.document.figures.pen import THIN, Pen
-from reports.document.figures.style import FONT_SIZE, GRID, MM, PAGE_WIDTH, sheet
+from reports.document.figures.sheet import Sheet
+from reports.document.figures.style import FONT_SIZE, GRID, MM, PAGE_WIDTH
 from reports.document.figures.ticks import Ticks, at_steps, bounds, value_ticks
 from reports.shared.russian import fixed
 
@@ -75,28 +76,22 @@ def polar_path(
     width, height = spans[0] * scale, spans[1] * scale
     left, right = (name, side) if reverse[0] else (side, name)
     low, high = (26.0, 18.0) if reverse[1] else (18.0, 26.0)
-    with sheet((left + width + right) / MM, (low + height + high) / MM) as page:
-        axes = page.axes(left, low, width, height)
-        ax.dress(axes, x_ticks, y_ticks, reverse=reverse, zero_lines=(True, True))
-        axes.spines[:].set(**GRID)
-        if reverse[0]:
-            axes.yaxis.tick_right()
-        if reverse[1]:
-            axes.xaxis.tick_top()
-        axes.tick_params(axis="x", length=0, pad=6)
-        axes.tick_params(axis="y", length=0, pad=4)
-        pen, to_sheet = Pen(page), axes.transData.transform
-        path = to_sheet(np.column_stack([xs, ys]))
-        room = Room((left + 1, low + 1, left + width - 1, low + height - 1), [dense(path)])
-        pen.line(path.tolist(), 1.3)
-        _ends(pen, to_sheet((0.0, 0.0)), (left, low, left + width, low + height), reverse, titles)
-        for pole in poles:
-            _pole(pen, room, to_sheet((pole.x, pole.y)), pole.name, reverse)
-        rows = _rows(degrees, marked)
-        for row in rows.tolist() if marked is not None else ():
-            pen.circle(tuple(path[row].tolist()), 0.8, fill="#000000", width=0)
-        _angles(pen, room, path, degrees, (rows, least_step))
-        return page.svg()
+    page = Sheet((left + width + right) / MM, (low + height + high) / MM)
+    field = (left, low, left + width, low + height)
+    axes = Axes(page, field, x_ticks, y_ticks, reverse)
+    axes.dress(pads=(6, 4), edges=(GRID, GRID), zeros=True)
+    pen = Pen(page, layer=10)
+    path = axes.at(xs, ys)
+    room = Room((left + 1, low + 1, left + width - 1, low + height - 1), [dense(path)])
+    pen.line(path.tolist(), 1.3)
+    _ends(pen, axes.at(0.0, 0.0), field, reverse, titles)
+    for pole in poles:
+        _pole(pen, room, axes.at(pole.x, pole.y), pole.name, reverse)
+    rows = _rows(degrees, marked)
+    for row in rows.tolist() if marked is not None else ():
+        pen.circle(tuple(path[row].tolist()), 0.8, fill="#000000", width=0)
+    _angles(pen, room, path, degrees, (rows, least_step))
+    return page.svg()
 
 
 def _equal_ticks(*ranges: tuple[float, float]) -> list[Ticks]:

@@ -7,7 +7,8 @@ import math
 from collections.abc import Sequence
 
 from reports.document.figures.pen import CENTRE, DASHED, HAIR, THICK, Pen, Point, polar
-from reports.document.figures.style import FONT_SIZE, MM, SMALL, sheet
+from reports.document.figures.sheet import Sheet
+from reports.document.figures.style import FONT_SIZE, MM, SMALL
 
 _GREY = "#e4e4e4"
 _ROW = 17.0
@@ -39,14 +40,14 @@ def engine_scheme(
         msg = "Схема двигателя: нет цилиндров или списки разной длины"
         raise ValueError(msg)
     bars = len(axes) * _ROW + 34
-    with sheet(width, max(184.0, bars + 14) / MM) as page:
-        pen = Pen(page)
-        half = page.width * 0.42
-        # Banks stand symmetrically: the axis of cylinder 1 leans to the left.
-        lean = -max(math.remainder(axis, 360.0) % 360 for axis in axes) / 2
-        _front(pen, (half / 2, page.height * 0.42), axes, throw_angles, lean)
-        _strokes(pen, (half + 30, page.height / 2), page.width - half - 40, offsets, throws, period)
-        return page.svg()
+    page = Sheet(width, max(184.0, bars + 14) / MM)
+    pen = Pen(page)
+    half = page.width * 0.42
+    # Banks stand symmetrically: the axis of cylinder 1 leans to the left.
+    lean = -max(math.remainder(axis, 360.0) % 360 for axis in axes) / 2
+    _front(pen, (half / 2, page.height * 0.42), axes, throw_angles, lean)
+    _strokes(pen, (half + 30, page.height / 2), page.width - half - 40, offsets, throws, period)
+    return page.svg()
 
 
 def _front(
@@ -121,13 +122,13 @@ def crank_scheme(throw_angles: Sequence[float], *, width: float = 150.0) -> str:
         msg = "Схема вала: нет ни одного колена"
         raise ValueError(msg)
     radius, star = 40.0, 34.0
-    with sheet(width, (2 * radius + 62) / MM) as page:
-        pen = Pen(page)
-        level = page.height / 2 + 4
-        right = page.width - star - 34
-        _side_view(pen, (12.0, level), right - star - 42, radius, throw_angles)
-        _star_view(pen, (right, level), star, throw_angles)
-        return page.svg()
+    page = Sheet(width, (2 * radius + 62) / MM)
+    pen = Pen(page)
+    level = page.height / 2 + 4
+    right = page.width - star - 34
+    _side_view(pen, (12.0, level), right - star - 42, radius, throw_angles)
+    _star_view(pen, (right, level), star, throw_angles)
+    return page.svg()
 
 
 def _side_view(

@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 from kshm.nomenclature.quantity import roman
 from reports.document.figures.labels import text_size
 from reports.document.figures.pen import CENTRE, HAIR, THIN, Pen, Point, polar
-from reports.document.figures.style import FONT_SIZE, MM, SMALL, sheet
+from reports.document.figures.sheet import Sheet
+from reports.document.figures.style import FONT_SIZE, MM, SMALL
 from reports.document.figures.ticks import value_ticks
 from reports.shared.russian import fixed
 
@@ -50,29 +51,29 @@ def wear_diagram(
         raise ValueError(msg)
     radius = size * MM / 2 - 34
     above, below = 30 + (13 if top else 0), 52
-    with sheet(size, (2 * radius + above + below) / MM) as page:
-        pen = Pen(page)
-        centre = (page.width / 2, page.height - radius - above)
-        factor = _DEPTH * radius / (float(values.max()) or 1.0)
-        curve = [
-            polar(centre, radius - depth * factor, -math.radians(angle))
-            for angle, depth in outline(values, degrees)
-        ]
-        # The disc lies below; the polygon takes its inside out again.
-        pen.circle(centre, radius, fill=_FILL, width=0, order=0.5)
-        pen.shape(curve, fill="#ffffff", width=1.3, order=0.6)
-        rays = (-np.radians(degrees)).tolist()
-        for number, (ray, value) in enumerate(zip(rays, values.tolist(), strict=True), 1):
-            pen.line([centre, polar(centre, radius + 8, ray)], HAIR, CENTRE)
-            pen.text(polar(centre, radius + 19, ray), roman(number))
-            pen.circle(polar(centre, radius - value * factor, ray), 1.6, fill="#000000", width=0)
-        pen.circle(centre, radius, width=1.6)
-        if hole_angle is not None:
-            _hole(pen, centre, radius, hole_angle)
-        if top:
-            pen.text((centre[0], centre[1] + radius + 33), top, SMALL)
-        _scale(pen, (centre[0], 12.0), factor, float(values.max()) or 1.0)
-        return page.svg()
+    page = Sheet(size, (2 * radius + above + below) / MM)
+    pen = Pen(page)
+    centre = (page.width / 2, page.height - radius - above)
+    factor = _DEPTH * radius / (float(values.max()) or 1.0)
+    curve = [
+        polar(centre, radius - depth * factor, -math.radians(angle))
+        for angle, depth in outline(values, degrees)
+    ]
+    # The disc lies below; the polygon takes its inside out again.
+    pen.circle(centre, radius, fill=_FILL, width=0, order=0.5)
+    pen.shape(curve, fill="#ffffff", width=1.3, order=0.6)
+    rays = (-np.radians(degrees)).tolist()
+    for number, (ray, value) in enumerate(zip(rays, values.tolist(), strict=True), 1):
+        pen.line([centre, polar(centre, radius + 8, ray)], HAIR, CENTRE)
+        pen.text(polar(centre, radius + 19, ray), roman(number))
+        pen.circle(polar(centre, radius - value * factor, ray), 1.6, fill="#000000", width=0)
+    pen.circle(centre, radius, width=1.6)
+    if hole_angle is not None:
+        _hole(pen, centre, radius, hole_angle)
+    if top:
+        pen.text((centre[0], centre[1] + radius + 33), top, SMALL)
+    _scale(pen, (centre[0], 12.0), factor, float(values.max()) or 1.0)
+    return page.svg()
 
 
 def outline(values: NDArray[np.float64], degrees: NDArray[np.float64]) -> list[tuple[float, float]]:

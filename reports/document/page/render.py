@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import gc
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -14,13 +13,14 @@ from typing import TYPE_CHECKING, Literal
 
 from markupsafe import Markup
 
-from reports.document.page import fitting
+from reports.document.page import fitting, quick
 from reports.document.page.finish import finish
 from reports.document.page.style import USUAL, Style
 from reports.document.text import fonts, texts
 from reports.document.text.complaints import complaints
 from reports.document.text.mathsvg import formula_lines
 from reports.document.text.symbols import inline_html
+from reports.shared.garbage import uncollected
 from reports.shared.russian import NBSP, joined
 
 if TYPE_CHECKING:
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from weasyprint.urls import URLFetcher, URLFetcherResponse
 
 _EPOCH = datetime(2000, 1, 1, tzinfo=UTC)
-_GC_THRESHOLD = (200_000, 50, 100)
 _DATA_TYPES = ("data:image/png", "data:image/svg+xml", "data:image/jpeg")
 
 
@@ -90,11 +89,24 @@ def render(
     identifier: bytes | None = None,
 ) -> Rendered:
     """Render like :func:`render_pdf`, handing the warnings back instead of raising."""
+    with uncollected(), complaints("weasyprint") as warnings:
+        # In a function of its own: what it made is gone before garbage is looked for again.
+        pdf, pages = _rendered(html, attachments, variant, identifier)
+    return Rendered(pdf, pages, tuple(warnings))
+
+
+def _rendered(
+    html: str,
+    attachments: Iterable[AttachedFile],
+    variant: str | None,
+    identifier: bytes | None,
+) -> tuple[bytes, int]:
+    """The file and the number of its pages."""
     with _libraries_by_name():
         import weasyprint
         from weasyprint.text.fonts import FontConfiguration
 
-    with _quiet_gc(), complaints("weasyprint") as warnings:
+    with quick.setting(html):
         page = weasyprint.HTML(string=html, base_url=None, url_fetcher=_fetcher())
         # The same configuration for parsing and layout, or @font-face is dropped silently.
         document = page.render(font_config=FontConfiguration(), pdf_variant=variant, pdf_tags=True)
@@ -105,7 +117,7 @@ def render(
             attachments=[_attachment(item) for item in attachments],
             finisher=lambda _, made: finish(made),
         )
-    return Rendered(pdf, len(document.pages), tuple(warnings))
+    return pdf, len(document.pages)
 
 
 def environment(
@@ -128,6 +140,17 @@ def environment(
             ``kshm-font:``; "screen" writes plain tables and embeds the fonts.
         style: What a department's style file asks for.
     """
+    if overrides is None:  # our own templates do not change: one environment compiles them
+        return _own_environment(media, style)
+    return _environment(overrides, media, style)
+
+
+@functools.lru_cache(maxsize=4)
+def _own_environment(media: str, style: Style) -> Environment:
+    return _environment(None, media, style)
+
+
+def _environment(overrides: Path | None, media: str, style: Style) -> Environment:
     import jinja2
     from jinja2.sandbox import ImmutableSandboxedEnvironment
 
@@ -238,14 +261,3 @@ def _libraries_by_name() -> Iterator[None]:
         yield
     finally:
         ctypes.util.find_library = before
-
-
-@contextmanager
-def _quiet_gc() -> Iterator[None]:
-    """Collect rarely: layout makes millions of small objects that all live to the end."""
-    before = gc.get_threshold()
-    gc.set_threshold(*_GC_THRESHOLD)
-    try:
-        yield
-    finally:
-        gc.set_threshold(*before)

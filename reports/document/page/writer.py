@@ -7,38 +7,34 @@ right.
 
 from __future__ import annotations
 
-import pickle  # our own calls, for the key of a figure only
-import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from functools import partial
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 from markupsafe import Markup
 
-from reports.document import store
 from reports.document.page.blocks import TableBlock
-from reports.document.page.drawing import Job, draw_all
 from reports.document.page.numbering import Draft, Numbering
-from reports.document.page.style import Style
-from reports.document.text.mathsvg import LINES, formula_lines, lines_of
 from reports.document.text.terms import WhereItem
 
 if TYPE_CHECKING:
     from jinja2 import Environment
 
-_PLACE = "\ue000"  # a private sign: foreign text has none, see ``fonts.printable``
-_PLACES = re.compile(f"{_PLACE}(\\d+){_PLACE}")
 _KEPT_ROWS = 10  # a longer table that must not break would leave half a page empty
 
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """A figure to draw: what draws it (picklable), its caption and alternative text."""
+    """A figure to draw: what draws it, its caption and alternative text."""
 
     draw: Callable[[], str]
     caption: str
     alt: str = ""
+
+
+def drawn(figure: Figure) -> str:
+    """The figure as SVG."""
+    return figure.draw()
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,9 +55,6 @@ class Writer:
     def __init__(self, environment: Environment, numbering: Numbering) -> None:
         self.n = numbering
         self.draft = isinstance(numbering, Draft)
-        self._style = cast(Style, environment.globals["style"])
-        self._jobs: list[Job] = []
-        self._places: list[Callable[[], str]] = []
         self._macros: Any = environment.get_template("report/macros.html.j2").module
 
     def heading(
@@ -76,9 +69,7 @@ class Writer:
         label = None if key is None else self.n.place("formula", key)
         if self.draft:
             return Markup("")
-        room = self._style.formula_em(numbered=label is not None)
-        job = Job(LINES, lines_of(tex, room), partial(formula_lines, tex, room))
-        return self._later(job, partial(self._macros.formula, tex, label, end))
+        return Markup(self._macros.formula(tex, label, end))
 
     def where(self, items: Sequence[WhereItem]) -> Markup:
         """The «где» list under a formula."""
@@ -89,25 +80,7 @@ class Writer:
         label = self.n.place("figure", key)
         if self.draft or plan is None:
             return Markup("")
-        content = pickle.dumps(plan.draw, protocol=5)
-        draw = partial(store.kept, "figure", content, plan.draw)
-
-        def placed() -> str:
-            return str(self._macros.figure(Markup(draw()), label, plan.caption, plan.alt))
-
-        return self._later(Job("figure", content, draw), placed)
-
-    def _later(self, job: Job, write: Callable[[], str]) -> Markup:
-        """A place for what is drawn when everything to draw is known."""
-        self._jobs.append(job)
-        self._places.append(write)
-        return Markup(f"{_PLACE}{len(self._places) - 1}{_PLACE}")
-
-    def drawn(self, text: str) -> Markup:
-        """The text with its formulas and figures, drawn by two processes where that helps."""
-        draw_all(self._jobs)
-        written = [write() for write in self._places]
-        return Markup(_PLACES.sub(lambda match: written[int(match[1])], str(text)))
+        return Markup(self._macros.figure(Markup(drawn(plan)), label, plan.caption, plan.alt))
 
     def table(self, key: str, plan: TablePlan) -> Markup:
         """A table with its caption."""

@@ -12,9 +12,8 @@ Conventions of the TeX: Cyrillic indices as ``P_{\mathrm{г}}``, decimal comma a
 from __future__ import annotations
 
 import functools
-import json
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from html import escape as escape_html
@@ -22,7 +21,6 @@ from typing import Any
 
 from markupsafe import Markup
 
-from reports.document import store
 from reports.document.text import texcases
 from reports.document.text.complaints import complaints
 from reports.document.text.symbols import SIGNS
@@ -47,7 +45,7 @@ _PAD = 0.04  # em added left and right: slanted letters reach out of their boxes
 # the branches, the height of a relation sign above the baseline.
 _BRACE, _BETWEEN, _LEADING, _AXIS = 450.0, 900.0, 350.0, 250.0
 
-_PRIME = 0x2032
+_PRIME, _SPACE = 0x2032, 0x20
 _PRIME_DROP = 0.5
 _PRIME_GROWTH = 1.25
 _NO_SIGN = {r"\left", r"\right", r"\,", r"\;", r"\:", r"\!"}
@@ -94,16 +92,10 @@ def formula(tex: str) -> Formula:
     Raises:
         FormulaError: mathtext does not understand the TeX; the message shows the place.
     """
-    text = store.kept("formula", tex.encode(), lambda: json.dumps(_set(tex)))
-    svg, width, height, depth = json.loads(text)
-    return Formula(svg, width, height, depth, tex)
-
-
-def _set(tex: str) -> tuple[str, float, float, float]:
-    """SVG, width, height and depth [em] of one line."""
     width, height, depth, glyphs, rects = _parse(tex)
     baseline = height - depth
-    return _svg(tex, width, height, depth, [*_texts(glyphs, baseline), *_rules(rects, baseline)])
+    parts = [*_texts(glyphs, baseline), *_rules(rects, baseline)]
+    return Formula(*_svg(tex, width, height, depth, parts), tex)
 
 
 def _svg(
@@ -180,19 +172,6 @@ def formula_lines(tex: str, max_em: float = 28.0) -> tuple[Formula, ...]:
     Raises:
         FormulaError: The TeX is wrong.
     """
-    kept = store.kept(LINES, lines_of(tex, max_em), lambda: _lines(tex, max_em))
-    return tuple(Formula(*line) for line in json.loads(kept))
-
-
-LINES = "lines"  # kind of what is kept of a formula broken into lines
-
-
-def lines_of(tex: str, max_em: float) -> bytes:
-    """What the lines of a formula are made from, for the key under which they are kept."""
-    return f"{max_em} {tex}".encode()
-
-
-def _lines(tex: str, max_em: float) -> str:
     lines: list[Formula] = []
     if texcases.is_cases(tex):
         lines = [_cases(tex)]
@@ -200,7 +179,7 @@ def _lines(tex: str, max_em: float) -> str:
             lines, tex = [], texcases.apart(tex)
     for forced in tex.split(r"\\") if not lines else ():
         lines.extend(_fit(forced.strip(), max_em))
-    return json.dumps([[x.svg, x.width_em, x.height_em, x.depth_em, x.tex] for x in lines])
+    return tuple(lines)
 
 
 def _fit(tex: str, max_em: float) -> list[Formula]:
@@ -274,8 +253,7 @@ def _wide(node: Node) -> int:
 
 
 def _parse(tex: str) -> tuple[float, float, float, Iterable[Any], Iterable[Any]]:
-    from matplotlib.font_manager import FontProperties
-    from matplotlib.mathtext import MathTextParser
+    from reports.document.text.mathtext import read
 
     try:
         source = "" if "$" in tex or _DECIMAL_POINT.search(tex) else for_mathtext(tex).strip()
@@ -284,10 +262,9 @@ def _parse(tex: str) -> tuple[float, float, float, Iterable[Any], Iterable[Any]]
     if not source:
         msg = f"Формула пуста, содержит $, десятичную точку или непарные скобки: {tex!r}"
         raise FormulaError(msg)
-    font = FontProperties(family="STIXGeneral", size=_UNITS, math_fontfamily="stix")
     with complaints("matplotlib.mathtext") as lines:  # a sign without a glyph is no formula
         try:
-            parsed = MathTextParser("path").parse(f"${source}$", dpi=72, prop=font)
+            parsed = read(f"${source}$", _UNITS)
         except (ValueError, RuntimeError) as error:
             reason = str(error).strip().splitlines()[-1]
             msg = f"Формула не набирается: {tex!r}: {reason}"
@@ -299,25 +276,47 @@ def _parse(tex: str) -> tuple[float, float, float, Iterable[Any], Iterable[Any]]
 
 
 def _texts(glyphs: Iterable[Any], baseline: float) -> list[str]:
+    return texts_of(map(_primed, glyphs), (0.0, baseline), _number)
+
+
+def _primed(glyph: tuple[Any, ...]) -> tuple[Any, ...]:
+    """STIX draws the prime raised already; as an index mathtext raises it once more."""
+    font, size, code, *more, x, y = glyph
+    if code == _PRIME and size < _UNITS:
+        return font, _PRIME_GROWTH * size, code, *more, x, y - _PRIME_DROP * size
+    return glyph
+
+
+def texts_of(
+    glyphs: Iterable[Any],
+    origin: tuple[float, float],
+    number: Callable[[float], str],
+    *,
+    inherited: str = "",
+) -> list[str]:
     """One ``<text>`` for all glyphs of one face and size, each glyph with its own place.
 
     Few elements with many glyphs: HTML parsing, styles and drawing cost by the element.
+
+    Args:
+        glyphs: What mathtext has set.
+        origin: Where the baseline begins.
+        number: How numbers are written.
+        inherited: Family of the type around, which need not be named.
     """
-    runs: dict[tuple[str, str, str], list[tuple[str, str, str]]] = {}
+    runs: dict[tuple[str, str], list[tuple[str, str, str]]] = {}
     for font, size, code, *_, x, y in glyphs:
-        drop = 0.0
-        if code == _PRIME and size < _UNITS:
-            # STIX draws the prime raised already; as an index mathtext raises it once more.
-            drop, size = _PRIME_DROP * size, _PRIME_GROWTH * size  # noqa: PLW2901
-        style = ' font-style="italic"' if "Italic" in font.style_name else ""
+        family = font.family_name
+        style = "" if family == inherited else f' font-family="{family}"'
+        style += ' font-style="italic"' if "Italic" in font.style_name else ""
         style += ' font-weight="bold"' if "Bold" in font.style_name else ""
-        key = (font.family_name, style, _number(size))
-        place = (_number(x), _number(baseline - y + drop), escape_html(chr(code)))
-        runs.setdefault(key, []).append(place)
+        char = NBSP if code == _SPACE else escape_html(chr(code))
+        place = (number(origin[0] + x), number(origin[1] - y), char)
+        runs.setdefault((style, number(size)), []).append(place)
     return [
-        f'<text font-family="{family}"{style} font-size="{size}" x="{_list(run, 0)}" '
+        f'<text{style} font-size="{size}" x="{_list(run, 0)}" '
         f'y="{_list(run, 1)}">{"".join(char for _, _, char in run)}</text>'
-        for (family, style, size), run in runs.items()
+        for (style, size), run in runs.items()
     ]
 
 

@@ -109,9 +109,7 @@ def gradebook_xlsx(rows: Sequence[dict[str, Any]], maximum: float) -> bytes:
     sheet.oddFooter.center.text = "Лист &P из &N"
     sheet.page_margins.left = sheet.page_margins.right = 0.4
     add_printed(book, rows, [_shares(row) for row in rows], blocks)
-    stream = io.BytesIO()
-    book.save(stream)
-    return finish(stream.getvalue())
+    return finish(book)
 
 
 def _blocks(rows: Sequence[dict[str, Any]]) -> list[str]:

@@ -33,7 +33,7 @@ LETTERS = "абвгдежиклмнпрстуфхцшщэюя"  # without з, о
 _BOTTOM, _TOP, _BETWEEN = 20.0, 22.0, 38.0  # pt below, above and between the panels
 _LEVEL = Look(0.9, (12, 3, 2, 3))
 # Of a legend [pt]: length of its lines, the gap before a name, between columns, between rows.
-_SAMPLE, _GAP, _COLUMNS_GAP, _ROW = 30.8, 8.8, 15.4, 16.5
+_SAMPLE, _GAP, _COLUMNS_GAP, LEGEND_ROW = 30.8, 8.8, 15.4, 16.5
 _IN_ROW, _INSET = 4, 3.3
 
 
@@ -187,18 +187,21 @@ def _name(axes: Axes, panel: Panel, lines: Sequence[Points]) -> None:
         for curve, place in zip(panel.curves, places, strict=True):
             axes.page.text(place or (0, 0), curve.name, halo=True)
     else:
-        _legend(axes, [curve.name for curve in panel.curves])
+        legend(axes, [curve.name for curve in panel.curves])
 
 
-def _legend(axes: Axes, names: Sequence[str]) -> None:
-    """Samples of the lines with their names above the field, four to a row."""
-    shares = np.array_split(np.arange(len(names)), min(_IN_ROW, len(names)))
+def legend(axes: Axes, names: Sequence[str], *, in_row: int = _IN_ROW, above: float = 0.0) -> None:
+    """Samples of the lines with their names so far above the field [pt], four to a row."""
+    shares = np.array_split(np.arange(len(names)), min(in_row, len(names)))
     columns = [share.tolist() for share in shares]
-    x, top = axes.field[2] - _INSET, axes.field[3] + _INSET / 3 + len(columns[0]) * _ROW
+    x, top = (
+        axes.field[2] - _INSET,
+        axes.field[3] + above + _INSET / 3 + len(columns[0]) * LEGEND_ROW,
+    )
     for column in reversed(columns):
         x -= max(text_size(names[n], FONT_SIZE)[0] for n in column)
         for row, n in enumerate(column):
-            y = top - (row + 0.7) * _ROW
+            y = top - (row + 0.7) * LEGEND_ROW
             axes.page.text((x, y), names[n], align=0.0, middle=False)
             sample = [(x - _GAP - _SAMPLE, y + 3.85), (x - _GAP, y + 3.85)]
             axes.page.line(sample, PATTERNS[n % len(PATTERNS)])

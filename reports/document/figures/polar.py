@@ -10,15 +10,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from reports.document.figures.axes import Axes
+from reports.document.figures.curves import LEGEND_ROW, legend
 from reports.document.figures.labels import Box, Place, Points, Room, dense, label_point, text_size
 from reports.document.figures.pen import THIN, Pen
 from reports.document.figures.sheet import Sheet
-from reports.document.figures.style import FONT_SIZE, GRID, MM, PAGE_WIDTH
+from reports.document.figures.style import FONT_SIZE, GRID, MM, PAGE_WIDTH, PATTERNS
 from reports.document.figures.ticks import Ticks, at_steps, bounds, value_ticks
 from reports.shared.russian import fixed
 
 _PRIORITIES = (90.0, 60.0, 30.0, 20.0, 10.0, 5.0)
 _LABEL = 8.5
+_IN_ROW = 2  # names of a legend
 Sides = tuple[bool, bool]  # positive x to the left, positive y downwards
 
 
@@ -31,6 +33,15 @@ class Pole:
     y: float = 0.0
 
 
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """A closed line with a name (``$…$`` for symbols)."""
+
+    name: str
+    x: ArrayLike
+    y: ArrayLike
+
+
 def polar_path(
     x: ArrayLike,
     y: ArrayLike,
@@ -39,6 +50,7 @@ def polar_path(
     *,
     reverse: Sides = (False, False),
     poles: Sequence[Pole] = (Pole("$O$"),),
+    named: Sequence[Loop] = (),
     most: float = 150.0,
     least_step: float = 10.0,
     marked: ArrayLike | None = None,
@@ -51,6 +63,7 @@ def polar_path(
         angles: Crank angles of the points [deg], shape (n,).
         titles: Names and units of the two components.
         reverse: Positive x to the left, positive y downwards.
+        named: The path itself with its name and other lines in the same axes, for a legend.
         poles: Points from which the vector is measured.
         most: Greatest width and height of the field [mm].
         least_step: Finest division of angles to label [deg].
@@ -65,8 +78,20 @@ def polar_path(
         msg = f"Полярная диаграмма: длины {xs.shape}, {ys.shape}, {degrees.shape} не равны"
         raise ValueError(msg)
     x_ticks, y_ticks = _equal_ticks(
-        bounds([xs.tolist(), [pole.x for pole in poles]]),
-        bounds([ys.tolist(), [pole.y for pole in poles]]),
+        bounds(
+            [
+                xs.tolist(),
+                [pole.x for pole in poles],
+                *(np.asarray(loop.x).tolist() for loop in named),
+            ]
+        ),
+        bounds(
+            [
+                ys.tolist(),
+                [pole.y for pole in poles],
+                *(np.asarray(loop.y).tolist() for loop in named),
+            ]
+        ),
     )
     spans = (x_ticks.high - x_ticks.low, y_ticks.high - y_ticks.low)
     side = y_ticks.width() + 10
@@ -76,6 +101,8 @@ def polar_path(
     width, height = spans[0] * scale, spans[1] * scale
     left, right = (name, side) if reverse[0] else (side, name)
     low, high = (26.0, 18.0) if reverse[1] else (18.0, 26.0)
+    legends = LEGEND_ROW * math.ceil(len(named) / _IN_ROW)
+    high += legends
     page = Sheet((left + width + right) / MM, (low + height + high) / MM)
     field = (left, low, left + width, low + height)
     axes = Axes(page, field, x_ticks, y_ticks, reverse)
@@ -84,6 +111,10 @@ def polar_path(
     path = axes.at(xs, ys)
     room = Room((left + 1, low + 1, left + width - 1, low + height - 1), [dense(path)])
     pen.line(path.tolist(), 1.3)
+    for place, loop in enumerate(named[1:], 1):
+        page.line(axes.at(loop.x, loop.y).tolist(), PATTERNS[place % len(PATTERNS)], 10)
+    if named:
+        legend(axes, [loop.name for loop in named], in_row=_IN_ROW, above=high - legends)
     _ends(pen, axes.at(0.0, 0.0), field, reverse, titles)
     for pole in poles:
         _pole(pen, room, axes.at(pole.x, pole.y), pole.name, reverse)

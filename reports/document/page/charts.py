@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reports.document.figures.curves import LETTERS, Curve, Level, Mark, Panel, curves_figure
-from reports.document.figures.polar import Pole, polar_path
+from reports.document.figures.polar import Loop, Pole, polar_path
 from reports.document.figures.wear import wear_diagram
 from reports.document.page.writer import Figure
 from reports.document.text import numbers
@@ -140,9 +140,11 @@ def _panel(
 def _path(
     terms: Terms, chart: ChartSpec, size: float, *, least_step: float = 10.0
 ) -> Callable[[], str]:
-    (drawn,) = chart.drawn_by("report")
+    drawn, *others = chart.drawn_by("report")
     table = drawn.x.partition(".")[0]
     titles = (chart.x_tex or _axis(terms, drawn.x), chart.y_tex or _axis(terms, drawn.y))
+    if others:
+        titles = (_tex(chart.x_title), _tex(chart.y_title))
     poles = (Pole(f"${tex}$", 0.0, float(evaluate(expr, terms.value))) for tex, expr in chart.poles)
     rows = terms.model.tables[table].rows
     x, y = terms.curves([drawn.x, drawn.y])
@@ -151,6 +153,10 @@ def _path(
         polar_path, x, y, terms.fine[table]["phi_deg"] if fine else rows, titles,
         marked=rows if fine else None, reverse=(chart.x_reversed, chart.y_reversed),
         poles=(Pole("$O$"), *poles),
+        named=[
+            Loop(_name(terms, series), *terms.curves([series.x, series.y]))
+            for series in (drawn, *others) if others
+        ],
         most=size, least_step=least_step,
     )  # fmt: skip
 

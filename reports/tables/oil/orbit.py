@@ -151,13 +151,12 @@ def _charts(bearing: int) -> tuple[ChartSpec, ...]:
     return (
         polar(t, sheet, f"Орбита {of} и нагрузка",
               ("x (по вращению)", "y"), f"{t}_box.oil_box",
-              Series(f"{t}.oil_circle_x", f"{t}.oil_circle_y", "круг зазора",
-                     only="workbook"),
-              Series(f"{t}.oil_x1", f"{t}.oil_y1", "Δmin", only="workbook"),
-              Series(f"{t}.oil_x2", f"{t}.oil_y2", "Δmax"),
-              Series(f"{t}.oil_load_x", f"{t}.oil_load_y", "нагрузка",
-                     only="workbook"),
-              caption=f"Орбита центра шейки в круге зазора {of}, наибольший зазор"),
+              Series(f"{t}.oil_x2", f"{t}.oil_y2", "Δmax"),  # the one whose angles are named
+              Series(f"{t}.oil_x1", f"{t}.oil_y1", "Δmin"),
+              Series(f"{t}.oil_load_x", f"{t}.oil_load_y", "нагрузка"),
+              Series(f"{t}.oil_circle_x", f"{t}.oil_circle_y", "круг зазора"),
+              caption=f"Орбиты центра шейки в круге зазора {of} при наибольшем (с углами φ) и "
+                      "наименьшем зазоре; нагрузка — в долях наибольшей"),
         over_phi(f"{t}_gap", sheet, f"Плёнка {of} за цикл", "h, мкм",
                  Series("", f"{t}.oil_h1_um", "Δmin"), Series("", f"{t}.oil_h2_um", "Δmax"),
                  levels=("oil_hcr_um",),

@@ -149,7 +149,7 @@ def _by_rows(
         runs = [run for node in item.nodes for run in student.runs(node)]
         plain = not any(True for run in runs for _ in student.grid.located(run))
         words = [(TYPED if plain else STILL) if w in (RIGHT, STILL) else w for w in words]
-    if any(good[i] for i, letter in enumerate(letters) if letter == say.PASTED):
+    if any(good[i] and not still[i] for i, let in enumerate(letters) if let == say.PASTED):
         return replace(made, verdict=UNKNOWN, typed=(), reason=_PASTED)
     counts = {word: words.count(word) for word in dict.fromkeys(words)}
     if set(words) == {RIGHT}:

@@ -44,7 +44,6 @@ class Work:
     status: str
     number: int | None
     student: str
-    folder: str
     submitter: int | None
     moodle_id: str
     time: str
@@ -82,7 +81,6 @@ def work_of(result: dict[str, Any], shared: Shared) -> Work:
         status=result["status"],
         number=result.get("number"),
         student=result.get("student") or "",
-        folder=result.get("folder") or "",
         submitter=result.get("submitter"),
         moodle_id=result.get("moodle_id") or "",
         time=result.get("time") or "",

@@ -20,12 +20,20 @@ from kshm.mechanics.oil_film import Film, check_widths
 Complex = NDArray[np.complex128]
 CLOSED = 1e-3  # of the clearance: how near the cycle's end must come to its start
 MOST_CYCLES = 12
-_TOUCHES = 1e-7  # of the clearance
+_TOUCHES = 1e-4  # of the clearance: some nanometres, which no film is
 _TOLERANCE = 2e-4  # of the gap in a step
 _LEAST_STEP = 1e-9
 _MOST_STEP = 0.2
 _MIDDLE = 1e-9
 _D, _E = 1 / (2 + np.sqrt(2)), 6 + np.sqrt(2)
+
+
+class FilmError(ValueError):
+    """A load that no film carries; ``bearing`` is its row among those asked for."""
+
+    def __init__(self, bearing: int) -> None:
+        super().__init__("the oil film does not carry the load")
+        self.bearing = bearing
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,8 +91,8 @@ def orbits(
         most_cycles: when to give up.
 
     Raises:
-        ValueError: numbers that are none, a width outside the closed forms, or a load that the
-            film does not carry.
+        ValueError: numbers that are none, or a width outside the closed forms.
+        FilmError: a load that the film does not carry.
     """
     check_widths(width)
     if not (np.isfinite(load).all() and np.isfinite(half_speed).all()):
@@ -147,8 +155,7 @@ class _Run:
                 whole = ~good | (step >= self.step)
                 self.step = np.where(whole, np.minimum(step * factor, _MOST_STEP), self.step)
                 if (self.step < _LEAST_STEP).any():
-                    msg = "the oil film does not carry the load"
-                    raise ValueError(msg)
+                    raise FilmError(int(np.argmin(self.step)))
         return self._on_grid(points)
 
     def _try(

@@ -15,7 +15,7 @@ from kshm.engine.bearings import Bearings
 from kshm.mechanics import oil_film
 from kshm.mechanics.kinematics import Position
 from kshm.mechanics.oil_balance import Balance, BearingArrays, balance
-from kshm.mechanics.oil_orbit import Complex, Orbits, orbits
+from kshm.mechanics.oil_orbit import Complex, FilmError, Orbits, orbits
 from kshm.mechanics.pin_bearing import rod_bearing
 from kshm.mechanics.wear import ray_angles
 from kshm.results.case import Case
@@ -153,10 +153,18 @@ class Study:
 
     @cached_property
     def orbits(self) -> Orbits:
-        """Orbits of every case over the cycle."""
+        """Orbits of every case over the cycle.
+
+        Raises:
+            FilmError: a load that the film does not carry; ``bearing`` is a main bearing's number,
+                0 of the big end.
+        """
         unit = self.arrays.load_number(np.ones(len(self.mean)), self.steady.viscosity)
         load = self.each(self.loads) * unit[:, None]
-        return orbits(self.case.raw.phi, load, self.ahead / 2, self.arrays.width)
+        try:
+            return orbits(self.case.raw.phi, load, self.ahead / 2, self.arrays.width)
+        except FilmError as error:
+            raise FilmError(self.numbers[error.bearing // CLEARANCES]) from None
 
     def steady_scalars(self) -> Scalars:
         """What course works ask for, SI, by the names of the cases."""

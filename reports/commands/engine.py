@@ -169,16 +169,15 @@ def _as_dict(problem: Any) -> dict[str, str]:  # noqa: ANN401
 @verbose_option
 def solve(source: Path, folder: Path | None, target: str | None, verbose: bool) -> int:
     """Посчитать числа без документов."""
-    from kshm import solve as solve_engine
     from reports.exports.numbers import csv_text, export_tables, json_text
-    from reports.inputs.to_si.engine import engine_and_cycle
+    from reports.inputs.solved import solved
     from reports.shared.files import atomic_path, make_dir, refuse_own, write_text
 
     loaded = load(source)
     own = (source, *loaded.beside)
     if target is not None and target != "-":
         refuse_own([Path(target)], own)
-    solution = solve_engine(*engine_and_cycle(loaded.model))
+    solution = solved(loaded.model)
     if folder is not None:
         tables = {folder / f"{name}.csv": data for name, data in export_tables(solution).items()}
         refuse_own(tables, own)

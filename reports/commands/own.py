@@ -83,10 +83,8 @@ def _alternative(base: Path, cylinders: int, wanted: Mapping[str, Any]) -> str:
 
 def _power_kw(model: Any) -> float:  # noqa: ANN401 - the heavy import waits
     """Effective power N_e = N_i·η_м [kW] of the engine as it is computed."""
-    from kshm import solve
-    from reports.inputs.to_si.engine import engine_and_cycle
+    from reports.inputs.solved import solved
 
-    engine, cycle = engine_and_cycle(model)
-    found = solve(engine, cycle).scalars
+    found = solved(model).scalars
     speed = float(model.regime.speed_rpm)
     return float(found["M_e"]) * speed * math.pi / 30 / 1000

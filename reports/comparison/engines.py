@@ -118,12 +118,11 @@ def read_engines(sources: Sequence[Path], models: Sequence[InputFile]) -> tuple[
     Raises:
         InputError: an engine gives no finite result.
     """
-    from kshm import solve
-    from reports.inputs.to_si.engine import engine_and_cycle
+    from reports.inputs.solved import solved
 
     found = []
     for label, source, model in zip(labels(sources), sources, models, strict=True):
-        found.append(Compared(label, source, model, solve(*engine_and_cycle(model))))
+        found.append(Compared(label, source, model, solved(model)))
     return tuple(found)
 
 

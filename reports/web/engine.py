@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from kshm import quantity, solve
+from kshm import quantity
 from kshm.results.solution import Solution, in_units
 from reports.inputs.checks.grid import grid_remark
 from reports.inputs.fields import iter_fields, tables_shape, to_mapping
@@ -23,8 +23,8 @@ from reports.inputs.own_engine import Made
 from reports.inputs.own_file import file_text
 from reports.inputs.ranges import split_ranges
 from reports.inputs.sections.input_file import InputFile
+from reports.inputs.solved import solved
 from reports.inputs.source import MAX_BYTES, refuse_bomb, refused
-from reports.inputs.to_si.engine import engine_and_cycle
 from reports.inputs.understood import understood
 from reports.inputs.units import MM
 from reports.shared.errors import InputError, KshmError, Problem
@@ -165,7 +165,7 @@ def start(raw: Mapping[str, Any]) -> Data:
 def answer(raw: Mapping[str, Any], sheet: str, cylinder: int = 0) -> Data:
     """Numbers of an engine, the charts of a sheet, what moves, what is odd about the input."""
     loaded = loaded_of(raw)
-    model, solution = _model_for(loaded.model), solve(*engine_and_cycle(loaded.model))
+    model, solution = _model_for(loaded.model), solved(loaded.model)
     formulas = Evaluation(model)
     return {
         "errors": [],

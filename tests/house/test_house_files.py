@@ -80,7 +80,7 @@ def test_a_refusal_is_one_russian_line(tmp_path, monkeypatch, number, reason):
         files.write_bytes(target, b"new")
     assert caught.value.exit_code == 2
     assert caught.value.lines() == [
-        f"{target}: не удается записать: {reason}; укажите другое место"
+        f"{target}: не удаётся записать: {reason}; укажите другое место"
     ]
     assert target.read_bytes() == b"old"
     assert names(tmp_path) == ["a.bin"]
@@ -88,9 +88,9 @@ def test_a_refusal_is_one_russian_line(tmp_path, monkeypatch, number, reason):
 
 def test_the_folder_is_a_file(tmp_path):
     (tmp_path / "f").write_text("x")
-    with pytest.raises(OutputError, match="не удается записать"):
+    with pytest.raises(OutputError, match="не удаётся записать"):
         files.write_text(tmp_path / "f" / "a", "")
-    with pytest.raises(OutputError, match="не удается записать: на этом месте уже есть файл"):
+    with pytest.raises(OutputError, match="не удаётся записать: на этом месте уже есть файл"):
         files.make_dir(tmp_path / "f")
 
 

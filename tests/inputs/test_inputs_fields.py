@@ -68,7 +68,7 @@ def test_a_field_tells_all(raw):
         path=("crankshaft", "webs", 2, "mass_kg"),
         name="web_3_mass_kg",
         section="Щеки и противовесы",
-        title="Щека 3: приведенная масса",
+        title="Щека 3: приведённая масса",
         symbol="m_щ3",
         unit="кг",
         value=0.245,

@@ -83,8 +83,8 @@ REFUSED = {
     ),
     "odd v": (
         "v_six", "engine.cylinders", 5,
-        "engine.cylinders: число цилиндров 5 нечетное, а рядов два; "
-        "задайте четное число или layout = \"inline\"",
+        "engine.cylinders: число цилиндров 5 нечётное, а рядов два; "
+        "задайте чётное число или layout = \"inline\"",
     ),
     "bank angle against offsets": (
         "v_six", "crankshaft.bank_angle_deg", 60.0,
@@ -112,17 +112,17 @@ REFUSED = {
     "offset that locks": (
         "basic", "geometry.crank_offset_mm", 101.0,
         "geometry.crank_offset_mm: смещение 101 мм не меньше L − r = 101 мм: "
-        "механизм не провернется; уменьшите смещение или удлините шатун",
+        "механизм не провернётся; уменьшите смещение или удлините шатун",
     ),
     "pin offset that locks": (
         "basic", "geometry.pin_offset_mm", -150.0,
         "geometry.pin_offset_mm: смещение −150 мм не меньше L − r = 101 мм: "
-        "механизм не провернется; уменьшите смещение или удлините шатун",
+        "механизм не провернётся; уменьшите смещение или удлините шатун",
     ),
     "short articulated rod": (
         "articulated", "articulated.rod_length_mm", 40.0,
-        "articulated.rod_length_mm: прицепной шатун 40 мм не достает до оси своего цилиндра: "
-        "его палец отходит от нее на 49.84 мм; "
+        "articulated.rod_length_mm: прицепной шатун 40 мм не достаёт до оси своего цилиндра: "
+        "его палец отходит от неё на 49.84 мм; "
         "удлините шатун или поставьте палец ближе к углу развала",
     ),
     "articulated pin beyond the master rod": (
@@ -191,7 +191,7 @@ def test_rounded_diagram_only_of_the_central_mechanism(maker, raw, refused):
     raw = MAKERS[maker](raw)
     gas = raw["gas"]
     gas |= {"source": "rounded", "kind": "diesel"}
-    what = "скругленная диаграмма построена только для центрального механизма"
+    what = "скруглённая диаграмма построена только для центрального механизма"
     assert any(what in line for line in refused(raw))
 
 
@@ -215,5 +215,5 @@ def test_a_cycle_knows_no_offset():
     raw["geometry"] |= with_sizes
     for key in ("power_kw", "stroke_bore", "size_step_mm", "rounding"):
         raw["cycle"].pop(key, None)
-    with pytest.raises(InputError, match="расчет цикла ведется для центрального механизма"):
+    with pytest.raises(InputError, match="расчёт цикла ведётся для центрального механизма"):
         loaded(raw)

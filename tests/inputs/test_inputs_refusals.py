@@ -8,7 +8,7 @@ MASS_ADVICE = (
     "задайте либо reciprocating_kg и rod_big_end_kg, "
     "либо piston_group_kg, rod_kg и одно из rod_centre_mm, rod_small_end_share"
 )
-MORE_WAYS = "; еще способы: взвешивание, качания, оценка estimate_fuel"
+MORE_WAYS = "; ещё способы: взвешивание, качания, оценка estimate_fuel"
 TABLE = [[0, 0.1], [180, 0.1], [360, 8], [720, 0.1]]
 
 
@@ -114,7 +114,7 @@ CASES = {
     "rod shorter than crank": (
         {"geometry.rod_length_mm": 40},
         "geometry.rod_length_mm: λ = r/L = 1.175: шатун не длиннее кривошипа, "
-        "механизм не провернется; допустимо λ от 0.01 до 0.99",
+        "механизм не провернётся; допустимо λ от 0.01 до 0.99",
     ),
     "lambda above one": (
         {"geometry.rod_length_mm": GONE, "geometry.lambda": 1.2},
@@ -355,4 +355,4 @@ def test_many_errors_are_capped(raw, refused):
     raw |= {f"zz{i}": 1 for i in range(1000)}
     lines = refused(raw)
     assert len(lines) == 201
-    assert lines[-1] == "f.toml: и еще ошибок: 1800"
+    assert lines[-1] == "f.toml: и ещё ошибок: 1800"

@@ -121,11 +121,11 @@ def test_what_a_beginner_must_know_stands_first():
     ("options", "message"),
     [
         (("--cylinders", 3, "--layout", "opposed"),
-         "--cylinders: число цилиндров 3 нечетное, а рядов у оппозитного двигателя два; задайте "
-         "четное число или --layout inline"),
+         "--cylinders: число цилиндров 3 нечётное, а рядов у оппозитного двигателя два; задайте "
+         "чётное число или --layout inline"),
         (("--cylinders", 1, "--layout", "v"),
-         "--cylinders: число цилиндров 1 нечетное, а рядов у V-образного двигателя два; задайте "
-         "четное число или --layout inline"),
+         "--cylinders: число цилиндров 1 нечётное, а рядов у V-образного двигателя два; задайте "
+         "чётное число или --layout inline"),
         (("--cylinders", 13), "--cylinders: число цилиндров 13; команда знает от 1 до 12"),
         (("--cylinders", 0), "--cylinders: число цилиндров 0; команда знает от 1 до 12"),
         (("--cylinders", 4, "--power", 0), "--power: значение должно быть больше нуля"),
@@ -237,5 +237,5 @@ def test_what_is_known_by_memory_says_so():
 
 def test_an_alternative_of_an_impossible_layout_is_refused():
     old = load_toml(samples_dir() / "yamz-238.toml").model
-    with pytest.raises(InputError, match="число цилиндров 5 нечетное"):
+    with pytest.raises(InputError, match="число цилиндров 5 нечётное"):
         alternative(old, 5)

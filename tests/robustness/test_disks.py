@@ -36,7 +36,7 @@ def test_a_limit_of_the_size_of_files(tmp_path, size, command):
         command[0], small_input(tmp_path), *command[1:], target, temporary=tmp_path / "tmp",
         before=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)),
     )  # fmt: skip
-    assert "не удается записать: файл больше, чем разрешено" in refusal(process)
+    assert "не удаётся записать: файл больше, чем разрешено" in refusal(process)
     assert (out / "engine.xlsx").read_bytes() == b"old"
     assert leftovers(out) == leftovers(tmp_path / "tmp") == []
 
@@ -79,7 +79,7 @@ def test_every_step_of_writing_may_fail(tmp_path, monkeypatch, number, place, co
     done = CliRunner().invoke(main, ["solve", str(source), *command])
     assert done.exit_code == 2, done.output
     (line,) = done.stderr.splitlines()
-    assert "не удается записать" in line
+    assert "не удаётся записать" in line
     assert "English" not in line
     assert (out / "table_1.csv").read_bytes() == b"old"
     assert leftovers(out) == []
@@ -87,7 +87,7 @@ def test_every_step_of_writing_may_fail(tmp_path, monkeypatch, number, place, co
 
 def test_a_folder_that_nobody_can_write_to(tmp_path):
     process = started("solve", small_input(tmp_path), "--csv", "/proc/self/fd")
-    assert "не удается записать" in refusal(process)
+    assert "не удаётся записать" in refusal(process)
 
 
 @pytest.mark.parametrize("full", [False, True])

@@ -182,6 +182,6 @@ def test_a_shaft_without_masses_needs_an_estimate() -> None:
     with pytest.raises(InputError) as caught:
         load_mapping(raw, source="m.toml")
     lines = [problem.line() for problem in caught.value.problems]
-    assert lines[0] == "m.toml: crankshaft.webs: массы щек заданы разными способами; " \
+    assert lines[0] == "m.toml: crankshaft.webs: массы щёк заданы разными способами; " \
         "задайте все щеки одинаково"  # fmt: skip
     assert "crankshaft.pin_mass_kg: масса не задана" in lines[1]

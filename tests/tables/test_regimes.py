@@ -135,7 +135,7 @@ REFUSED: dict[str, tuple[list[Any], str]] = {
     ),
     "gas of the cycle": (
         [{"name": "момент", "speed_rpm": 2400, "gas": {"source": "cycle"}}],
-        "regimes[1].gas.source: расчет цикла есть только у основного режима; задайте давления",
+        "regimes[1].gas.source: расчёт цикла есть только у основного режима; задайте давления",
     ),
     "unknown gas": (
         [{"name": "момент", "speed_rpm": 2400, "gas": {"source": "x"}}],

@@ -10,9 +10,8 @@ import numpy as np
 
 from kshm.arrays import Tables
 from kshm.nomenclature.quantity import Quantity, quantity
-from kshm.results.solution import solve
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.to_si.engine import engine_and_cycle
+from reports.inputs.solved import solved
 from reports.shared.errors import InputError
 from reports.shared.russian import NBSP, fixed, written
 
@@ -81,11 +80,11 @@ def fine_columns(model: InputFile) -> Tables:
     """Tables of the solver at the fine step, in their units; none where the grid is as fine."""
     if model.calculation.step_deg <= FINE:
         return {}
-    return solve(*engine_and_cycle(refined(model))).columns
+    return solved(refined(model)).columns
 
 
 def _results(model: InputFile) -> dict[str, float]:
-    scalars = solve(*engine_and_cycle(model)).scalars
+    scalars = solved(model).scalars
     return {key: float(value) for key, value in scalars.items() if _rank(key) < len(_KINDS)}
 
 

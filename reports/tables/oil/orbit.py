@@ -5,9 +5,8 @@ from __future__ import annotations
 from functools import lru_cache, partial
 
 from kshm.arrays import Columns, Tables
-from kshm.results.solution import solve
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.to_si.engine import engine_and_cycle
+from reports.inputs.solved import solved
 from reports.spec.blocks import Block, Column, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, over_phi, polar
 from reports.spec.listing import column_list, corners, scalar_list
@@ -57,7 +56,7 @@ def values_of(table: str, model: InputFile) -> Columns:
 @lru_cache(maxsize=1)  # the sheets of one workbook ask one after another
 def solve_tables(model: InputFile) -> Tables:
     """Tables of the solver in units of the tables, a table each bearing among them."""
-    return solve(*engine_and_cycle(model)).columns
+    return solved(model).columns
 
 
 def _summary(scope: Scope) -> TableSpec:

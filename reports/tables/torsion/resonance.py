@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from kshm.arrays import Columns
-from kshm.results.solution import solve
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.torsion import DAMPERS, TorsionSection
-from reports.inputs.to_si.engine import engine_and_cycle
+from reports.inputs.solved import solved
 from reports.spec.blocks import Block, Column, Grid, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, line, polar
 from reports.spec.listing import column_list, corners, grid_row, scalar_list
@@ -275,7 +274,7 @@ def _damper(section: TorsionSection) -> ScalarTable:
 
 def forced_values(model: InputFile) -> Columns:
     """What the solver finds for the sheet of the forced vibration, in units of the tables."""
-    return solve(*engine_and_cycle(model)).columns["torsion_response"]
+    return solved(model).columns["torsion_response"]
 
 
 def _forced() -> TableSpec:

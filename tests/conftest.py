@@ -70,6 +70,7 @@ SLOW = (
     "tests/grading/test_hostile_files.py",
     "tests/grading/test_issue.py::test_an_issue_can_be_repeated",
     "tests/grading/test_moodle.py",
+    "tests/grading/test_other_bases.py",
     "tests/grading/test_real_class.py",
     "tests/grading/test_selfcheck.py",
     "tests/house/test_house_run.py::test_the_noise_of_apt",

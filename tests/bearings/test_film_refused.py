@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from kshm.mechanics.oil_orbit import FilmError, orbits
-from reports.inputs.load import load_mapping
 from reports.inputs.solved import solved
 from reports.shared.errors import InputError
-from tests.conftest import load_sample_raw
+from tests.bearings.files import tractor
 
 PHI = np.linspace(0, 4 * np.pi, 73)
 
@@ -22,7 +21,6 @@ def test_a_load_that_no_film_carries_is_refused_with_its_row() -> None:
 
 
 def test_the_input_is_told_which_bearing_gives_way() -> None:
-    raw = load_sample_raw("d-240-bearings")
-    raw["bearings"] |= {"pin_clearance_min_mm": 1.9, "pin_clearance_max_mm": 2.0}
+    loose = tractor(pin_clearance_min_mm=1.9, pin_clearance_max_mm=2.0)
     with pytest.raises(InputError, match="bearings: масляная плёнка шатунного подшипника"):
-        solved(load_mapping(raw, source="").model)
+        solved(loose)

@@ -40,9 +40,10 @@ def setting(html: str) -> Iterator[None]:
     import pydyf
     import weasyprint
     from weasyprint import svg
-    from weasyprint.layout import absolute, block, column, float, grid, inline, page, percent, table  # noqa: A004
+    from weasyprint.layout import absolute, block, column, grid, inline, page, percent, table
+    from weasyprint.layout import float as floats
 
-    rooms = (absolute, block, column, float, grid, inline, page, table)
+    rooms = (absolute, block, column, floats, grid, inline, page, table)
     if (weasyprint.__version__, pydyf.VERSION) != VERSIONS:
         yield
         return

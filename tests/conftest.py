@@ -21,14 +21,6 @@ settings.register_profile("kshm", deadline=None, derandomize=True, print_blob=Tr
 settings.load_profile("kshm")
 
 
-def pytest_configure(config: pytest.Config) -> None:
-    """Formulas and figures are kept for this run only, shared by its processes."""
-    if not hasattr(config, "workerinput"):
-        folder = tempfile.TemporaryDirectory(prefix="kshm-tests-", ignore_cleanup_errors=True)
-        os.environ["KSHM_CACHE"] = folder.name
-        config.add_cleanup(folder.cleanup)
-
-
 # What ./run test --quick leaves out: tests of more than about a second, of which each kind of
 # check keeps one.  Of the checks over all samples this sample's stay.
 QUICK_SAMPLES = {"gots-diesel"}

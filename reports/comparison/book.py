@@ -13,7 +13,8 @@ from openpyxl.worksheet.worksheet import Worksheet
 from reports.comparison.conclusions import conclusions
 from reports.comparison.engines import X_TITLE, Chart, Compared, charts, differences, results
 from reports.workbook.caches import finish
-from reports.workbook.charts import Curve, curves_chart
+from reports.workbook.charts import curves_chart
+from reports.workbook.drawn import Curve
 from reports.workbook.layout import Cell, column_range
 from reports.workbook.sheets import CacheValues
 from reports.workbook.styles import FONT, excel_format

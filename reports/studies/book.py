@@ -19,7 +19,8 @@ from reports.studies.plan import Axis, Plan, span_text
 from reports.studies.points import Chunk
 from reports.studies.quantities import Wanted, described, format_of
 from reports.workbook.caches import finish
-from reports.workbook.charts import Curve, curves_chart
+from reports.workbook.charts import curves_chart
+from reports.workbook.drawn import Curve
 from reports.workbook.layout import Cell, column_range
 from reports.workbook.sheets import CacheValues
 from reports.workbook.styles import FONT

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cache
+from math import floor, isfinite, log10
 
-import numpy as np
 from openpyxl.chart import ScatterChart
 from openpyxl.chart.data_source import AxDataSource, NumData, NumDataSource, NumRef, NumVal
 from openpyxl.chart.label import DataLabel, DataLabelList
@@ -24,14 +23,14 @@ from openpyxl.drawing.text import (
     ParagraphProperties,
     RegularTextRun,
 )
-from openpyxl.utils import get_column_letter
 
-from kshm.nomenclature.quantity import quantity, roman
+from kshm.nomenclature.quantity import quantity
 from reports.spec.charts import ChartSpec
 from reports.spec.charts import Series as SeriesSpec
 from reports.spec.evaluation import Values
 from reports.workbook.chapters import chapter_of
-from reports.workbook.layout import FIRST_ROW, Layout, column_range, quoted
+from reports.workbook.drawn import Curve, Drawn, limits, marks, rays
+from reports.workbook.layout import FIRST_ROW, Layout
 
 WIDE, HIGH = 408, 290  # px: several beside a table
 ROOMY = 480  # px: width of three in a row on a sheet of their own
@@ -41,8 +40,7 @@ _LINE, _DEEP = 19050, 57150  # EMU: 1.5 pt, 4.5 pt
 _DASHES = ("solid", "dash", "sysDot", "dashDot")
 _ZERO = 1e-9  # what rounding leaves of nothing
 _EDGE = 1.2  # of a drawing in a unit square, with room for numbers around it
-_ANGLE, _MOST_NAMES = 30, 8  # degrees, and how many of a polar diagram's points have a name
-_NAME = (0.35, 0.14)  # room of such a name, of the greatest radius: across and down
+_PARTS = 5  # of a half axis of a polar diagram, at most
 _COLOURS = ("1F3864", "C00000", "2E7D32", "7F6000")
 
 
@@ -66,27 +64,15 @@ def make_chart(
     for number, series in enumerate(curves):
         chart.series.append(_series(series, number, layout, smooth=is_smooth(spec)))
     if spec.kind == "wear":
-        for line in _rays(spec, layout):
+        for line in rays(spec, layout):
             chart.series.append(_ray(len(chart.series), line))
     if spec.kind == "polar":
-        for mark in _marks(spec, layout, values):
+        for mark in marks(spec, layout, values):
             chart.series.append(_mark(len(chart.series), mark))
         chart.series.append(_pole(len(chart.series)))
-    _axes(chart, spec, values, oblong)
+    _axes(chart, spec, (layout, values), oblong)
     _legend(chart, shown=not spec.equal_axes and len(curves) > 1)
     return chart
-
-
-def _rays(spec: ChartSpec, layout: Layout) -> list[Curve]:
-    """Worn depth at every ray of a wear diagram, from the wear to the circle."""
-    circle, wear = spec.drawn_by("workbook")[:2]
-    xs, ys = layout.cells_of_run(wear.x)[:-1], layout.cells_of_run(wear.y)[:-1]
-    ends = layout.cells_of_run(circle.x), layout.cells_of_run(circle.y)
-    return [
-        Curve(roman(number), *(column_range(at.sheet, at.column, at.row, to.row)
-                               for at, to in ((x, ends[0][number - 1]), (y, ends[1][number - 1]))))
-        for number, (x, y) in enumerate(zip(xs, ys, strict=True), 1)
-    ]  # fmt: skip
 
 
 def _ray(number: int, line: Curve) -> XYSeries:
@@ -97,35 +83,6 @@ def _ray(number: int, line: Curve) -> XYSeries:
     made.dLbls = DataLabelList(dLbl=[label], showSerName=False, showVal=False)
     made.dLbls.showLegendKey = made.dLbls.showCatName = made.dLbls.showPercent = False
     return made
-
-
-def _marks(spec: ChartSpec, layout: Layout, values: Values) -> list[Curve]:
-    """Points of a polar diagram at round angles, called by them: no name upon another."""
-    path = spec.drawn_by("workbook")[0]
-    if path.y not in layout.columns:
-        return []
-    table = layout.columns[path.y][0]
-    angles = table.rows[:-1]
-    first = layout.rows_of(table)[0]
-    xs, ys = (values.columns[table.id][key.split(".")[1]] for key in (path.x, path.y))
-    radius = max((np.hypot(x, y) for x, y in zip(xs, ys, strict=True)), default=0.0)
-    round_ones = (place for place, angle in enumerate(angles) if angle % _ANGLE == 0)
-    kept: list[int] = []
-    for place in sorted(round_ones, key=lambda place: (angles[place] % (3 * _ANGLE), place)):
-        apart = all(
-            abs(xs[place] - xs[other]) > _NAME[0] * radius
-            or abs(ys[place] - ys[other]) > _NAME[1] * radius
-            for other in kept
-        )
-        if apart and len(kept) < _MOST_NAMES:
-            kept.append(place)
-    return [
-        Curve(f"{angles[place]:g}°", *(
-            f"{quoted(table.sheet)}!${get_column_letter(layout.column_of(key))}${first + place}"
-            for key in (path.x, path.y)
-        ))
-        for place in sorted(kept)
-    ]  # fmt: skip
 
 
 def _mark(number: int, point: Curve) -> XYSeries:
@@ -155,15 +112,6 @@ def is_blank(spec: ChartSpec, layout: Layout, values: Values) -> bool:
     return all(abs(y) < _ZERO for key in ends for y in found[layout.range_of(key)])
 
 
-@dataclass(frozen=True, slots=True)
-class Curve:
-    """A curve by the ranges of its numbers."""
-
-    name: str
-    x: str
-    y: str
-
-
 def curves_chart(
     title: str, x_title: str, y_title: str, curves: Sequence[Curve], ends: tuple[float, float]
 ) -> ScatterChart:
@@ -179,24 +127,14 @@ def curves_chart(
     return chart
 
 
-@dataclass(frozen=True, slots=True)
-class Drawn:
-    """A broken line, or a point that moves, by the ranges of its numbers."""
-
-    name: str
-    x: str
-    y: str
-    point: bool = False
-    hidden: bool = False  # only keeps the axes in proportion
-
-
 def drawing(
     title: str, axes: tuple[str, str], lines: Sequence[Drawn], *,
     shape: float = 0.0, downwards: bool = False, unit: bool = False, wide: int = WIDE,
+    limit: float = 0.0,
 ) -> ScatterChart:  # fmt: skip
     """Lines over axes; ``shape`` is the width of the plot over its height at one scale.
 
-    ``wide`` is the width of the chart [px].
+    ``wide`` is the width of the chart [px], ``limit`` that of both axes where they are alike.
     """
     chart = _empty(title)
     for number, line in enumerate(lines):
@@ -215,6 +153,7 @@ def drawing(
     if downwards:
         chart.y_axis.scaling.orientation = "maxMin"
         chart.x_axis.tickLblPos = "high"
+    _divide_alike(chart, limit)
     if unit:
         for axis in (chart.x_axis, chart.y_axis):
             axis.scaling.min, axis.scaling.max, axis.majorUnit = -1.1, 1.1, 0.55
@@ -273,7 +212,10 @@ def _titles(chart: ScatterChart, x_title: str, y_title: str) -> None:
             axis.title = _title(title, 900)
 
 
-def _axes(chart: ScatterChart, spec: ChartSpec, values: Values, oblong: float) -> None:
+def _axes(
+    chart: ScatterChart, spec: ChartSpec, numbers: tuple[Layout, Values], oblong: float
+) -> None:
+    layout, values = numbers
     _titles(chart, spec.x_title, spec.y_title)
     if spec.x_is_angle:
         table, column = spec.series[0].x.split(".")
@@ -300,11 +242,22 @@ def _axes(chart: ScatterChart, spec: ChartSpec, values: Values, oblong: float) -
             h=0.7,
         )
     )
-    if spec.kind != "polar":  # drawn in a unit square
+    if spec.kind == "polar":
+        _divide_alike(chart, max(map(abs, limits(spec, layout, values))))
+    else:  # drawn in a unit square
         for axis in (chart.x_axis, chart.y_axis):
             axis.scaling.min, axis.scaling.max = -_EDGE, _EDGE
             axis.majorUnit = _EDGE / 2
             axis.number_format = "0.0"
+
+
+def _divide_alike(chart: ScatterChart, limit: float) -> None:
+    """One division on both axes: from equal limits a program then makes equal ends."""
+    if not (limit > 0 and isfinite(limit)):  # nothing yet, or cells still to be filled in
+        return
+    size = 10.0 ** floor(log10(limit))
+    step = next(part * size for part in (0.2, 0.5, 1.0, 2.0) if limit <= _PARTS * part * size)
+    chart.x_axis.majorUnit = chart.y_axis.majorUnit = step
 
 
 def is_smooth(spec: ChartSpec) -> bool:
@@ -382,10 +335,10 @@ def ranges_of(spec: ChartSpec, layout: Layout, values: Values) -> dict[str, list
         circle, wear = (values_of for values_of in spec.drawn_by("workbook")[:2])
         for axis in "xy":
             ends = [found[layout.range_of(getattr(series, axis))] for series in (wear, circle)]
-            for line, depth, edge in zip(_rays(spec, layout), *ends, strict=False):
+            for line, depth, edge in zip(rays(spec, layout), *ends, strict=False):
                 found[getattr(line, axis)] = [depth, edge]
     if spec.kind == "polar":
-        for mark in _marks(spec, layout, values):
+        for mark in marks(spec, layout, values):
             row = int(mark.x.rpartition("$")[2]) - FIRST_ROW
             for at, key in ((mark.x, path.x), (mark.y, path.y)):
                 found[at] = [found[layout.range_of(key)][row]]

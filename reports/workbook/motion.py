@@ -22,7 +22,8 @@ from reports.spec.blocks import Model
 from reports.spec.shape import Shape
 from reports.tables.loads.cylinder import cylinder_table_id
 from reports.workbook import styles
-from reports.workbook.charts import HIGH, Drawn, drawing
+from reports.workbook.charts import HIGH, drawing
+from reports.workbook.drawn import Drawn
 from reports.workbook.layout import NOTE_ROW, Cell, Layout, RowReferences, column_range, quoted
 from reports.workbook.places import GAP, Box, anchor
 from reports.workbook.sheets import Writer
@@ -324,7 +325,8 @@ def _charts(
                 [curve("ΣM", "P4_2.phi_deg", "P4_2.Msum_Nm"), of["момент"]]),
         drawing("Нагрузка шатунной шейки 1", ("T, МПа", "K − Kr ш, МПа"),
                 [curve("R", "crankpin.T_MPa", "crankpin.Krod_MPa"), of["шейка"],
-                 Drawn("оси", limits, limits, hidden=True)], shape=1.0, downwards=True, wide=WIDE),
+                 Drawn("оси", limits, limits, hidden=True)], shape=1.0, downwards=True, wide=WIDE,
+                limit=max(map(abs, writer.caches.ranges[limits]))),
         drawing("Звезда кривошипов с носка вала", ("", ""),
                 [of["колена"], of["первое колено"]], shape=1.0, unit=True, wide=WIDE),
     )  # fmt: skip

@@ -149,6 +149,9 @@ def _polar_problems(root: etree._Element) -> list[str]:
         return found  # its limits follow from a frame of the plot's shape
     if not all(limit is not None for limit in limits) and texts[-1] != texts[-2]:
         found.append("the axes may have different limits")
+    steps = {_val(axis, "majorUnit") for axis in root.findall(f".//{C}valAx")}
+    if len(steps) != 1:  # equal limits end alike where the divisions are the same
+        found.append("the axes are divided differently")
     return found
 
 

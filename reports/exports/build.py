@@ -51,8 +51,14 @@ def load_input(path: Path) -> Loaded:
     if path.suffix.lower() in (".xlsx", ".xlsm", ".xls", ".ods"):
         from reports.workbook.read import load_workbook_input
 
-        return load_workbook_input(path)
-    return load_toml(path)
+        loaded = load_workbook_input(path)
+    else:
+        loaded = load_toml(path)
+    if loaded.model.bearings is not None:
+        from reports.inputs.solved import solved
+
+        solved(loaded.model, path.name)  # whether the oil films carry their loads
+    return loaded
 
 
 def kinds_of(loaded: Loaded, only: Kind | None = None) -> tuple[Kind, ...]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from kshm.mechanics.oil_orbit import FilmError
 from kshm.results.solution import Solution, solve
 from reports.inputs.sections.input_file import InputFile
@@ -9,19 +11,31 @@ from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.errors import InputError, Problem
 
 
-def solved(model: InputFile) -> Solution:
-    """Results of an input.
+def solved(model: InputFile, source: str = "") -> Solution:
+    """Results of an input; `source` names its file in messages.
 
     Raises:
         InputError: the oil film of a bearing does not carry its load.
     """
     try:
-        solution = solve(*engine_and_cycle(model))
-        if model.bearings is not None:
-            _ = solution.columns  # results wait until they are asked for; orbits may refuse
+        return _solution(model)
     except FilmError as error:
-        name = f"коренного подшипника {error.bearing}" if error.bearing else "шатунного подшипника"
-        what = f"масляная плёнка {name} не несёт нагрузки: зазор за цикл исчезает"
-        hint = "проверьте зазоры, вязкость и температуру масла, ширину"
-        raise InputError(Problem("bearings", what, hint)) from None
+        where = ": ".join(part for part in (source, "bearings") if part)
+        raise InputError(Problem(where, film_lost(error), MEND)) from None
+
+
+@lru_cache(maxsize=2)  # the doors, the sheets and the report ask for the same, and for a finer step
+def _solution(model: InputFile) -> Solution:
+    solution = solve(*engine_and_cycle(model))
+    if model.bearings is not None:
+        _ = solution.columns  # results wait until they are asked for; orbits may refuse
     return solution
+
+
+MEND = "проверьте зазоры, вязкость и температуру масла, ширину"
+
+
+def film_lost(error: FilmError) -> str:
+    """Which bearing's oil film gives way."""
+    name = f"коренного подшипника {error.bearing}" if error.bearing else "шатунного подшипника"
+    return f"масляная плёнка {name} не несёт нагрузки: зазор за цикл исчезает"

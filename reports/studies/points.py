@@ -60,11 +60,14 @@ def solved(task: Task) -> Chunk:
     for raw in solve_chunks(engine for engine, _ in engines):
         these = slice(begin, begin + len(raw.batch.engines))
         begin, here = these.stop, places[these]
-        for name, numbers in of_batch(raw, task.wanted, cycles[these]).items():
+        found, reasons = of_batch(raw, task.wanted, cycles[these])
+        for name, numbers in found.items():
             values[name][here] = numbers
+        for row, reason in zip(here, reasons, strict=True):
+            errors[row] = reason
     for row in places:
         if not all(np.isfinite(each[row]) for each in values.values()):
-            errors[row] = NOT_FINITE
+            errors[row] = errors[row] or NOT_FINITE
     return Chunk(task.rows, values, errors)
 
 

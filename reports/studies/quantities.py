@@ -11,11 +11,13 @@ from numpy.typing import NDArray
 
 from kshm.chain.result import ChainArrays
 from kshm.cycle.run import CycleRun
+from kshm.mechanics.oil_orbit import FilmError
 from kshm.nomenclature.quantity import quantity
 from kshm.results.extremes import first_extremes
 from kshm.results.forces import force_tables
 from kshm.results.loads import chain_scalars
 from kshm.results.solution import Solution, in_units
+from reports.inputs.solved import film_lost
 from reports.shared.errors import InputError, Problem, one_line
 from reports.workbook.styles import excel_format
 
@@ -99,27 +101,33 @@ def _unknown(name: str, known: list[str]) -> InputError:
 
 def of_batch(
     raw: ChainArrays, wanted: Wanted, cycles: Sequence[CycleRun | None]
-) -> dict[str, Array]:
-    """Values of all engines of a batch in the units of the tables, by name.
+) -> tuple[dict[str, Array], list[str]]:
+    """Values of all engines of a batch in the units of the tables, by name, and why one has none.
 
     Args:
         raw: the solved engines.
         wanted: what they give.
         cycles: the calculation that the gas of each comes from.
     """
+    reasons = [""] * len(raw.batch.engines)
     if wanted.slow:
-        each = [
-            _of_one(Solution(engine, raw, i, cycle), wanted)
-            for i, (engine, cycle) in enumerate(zip(raw.batch.engines, cycles, strict=True))
-        ]
-        return {name: np.array([one[name] for one in each]) for name in wanted.names}
+        values = {name: np.full(len(reasons), np.nan) for name in wanted.names}
+        for i, (engine, cycle) in enumerate(zip(raw.batch.engines, cycles, strict=True)):
+            try:
+                one = _of_one(Solution(engine, raw, i, cycle), wanted)
+            except FilmError as error:
+                reasons[i] = film_lost(error)
+            else:
+                for name, number in one.items():
+                    values[name][i] = number
+        return values, reasons
     found = chain_scalars(raw)
     values = {key: found[key] / quantity(key).si for key in wanted.scalars}
     tables = force_tables(raw) if wanted.columns else {}
     for table, key in wanted.columns:
         columns = in_units({name: tables[table][name] for name in ("phi_deg", key)})
         values |= _summary(table, key, columns[key], columns["phi_deg"])
-    return values
+    return values, reasons
 
 
 def _of_one(solution: Solution, wanted: Wanted) -> dict[str, float]:

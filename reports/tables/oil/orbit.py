@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from functools import lru_cache, partial
+from functools import partial
 
-from kshm.arrays import Columns, Tables
+from kshm.arrays import Columns
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.solved import solved
 from reports.spec.blocks import Block, Column, ScalarTable, TableSpec
@@ -50,13 +50,7 @@ def sheet_of(bearing: int) -> str:
 
 def values_of(table: str, model: InputFile) -> Columns:
     """What the solver finds for a sheet, in units of the tables."""
-    return solve_tables(model)[table]
-
-
-@lru_cache(maxsize=1)  # the sheets of one workbook ask one after another
-def solve_tables(model: InputFile) -> Tables:
-    """Tables of the solver in units of the tables, a table each bearing among them."""
-    return solved(model).columns
+    return solved(model).columns[table]
 
 
 def _summary(scope: Scope) -> TableSpec:

@@ -117,6 +117,16 @@ def test_a_figure_that_misses_by_little_is_made_smaller():
     assert 70.0 <= width < 100.0 and spot.page == 2
 
 
+@pytest.mark.parametrize(
+    ("rows", "fit", "here"),
+    [(4, 3, 0), (5, 4, 0), (6, 3, 3), (6, 2, 0), (8, 7, 5), (8, 6, 5), (9, 4, 4)],
+)
+def test_three_rows_of_a_table_stand_together_at_both_ends(rows, fit, here):
+    spot = after(table("b", rows), Spot(ROOM - 13 - 70 - 22.0 * fit - 5), ROOM)
+    above = 13 + 70 if here == 0 else 60
+    assert spot[:3] == (above + 22.0 * (rows - here), 13.0, 2)
+
+
 @pytest.mark.parametrize("lines", range(24, 33))
 def test_a_line_that_leads_to_a_formula_stands_with_it(lines):
     made = [text("a", lines), text("При φ = 30°", 1), formula("x = 1"), text("b", 3)]

@@ -17,8 +17,7 @@ Kind = Literal["chapter", "heading", "text", "tied", "float", "table", "other"]
 _HEADING = re.compile(r"<h[1-3]")
 WIDTH = re.compile(r'<(?:svg|img) class="fig"[^>]*?style="width:([\d.]+)mm')
 _LEAST = 0.7  # to which a figure may be reduced to fit the foot of a page
-_ROWS = 60.0  # px of a table's margin and first rows, which stand with its head
-_LAST = 3  # rows of a table that stand together at its end
+_TOGETHER = 3  # rows of a table that stand together at its beginning and at its end
 _LAYOUTS = 16  # that are followed
 # What a layout costs: the square of the share of a page that stays blank, and beside it
 _TOO_BLANK = 0.25  # the share from which a page looks like the end of a chapter
@@ -116,9 +115,10 @@ def _is_formula(block: Block) -> bool:
 
 
 def _beginning(block: Block) -> float:
-    """The least of a block that stands below a heading [px]."""
+    """The least of a block that stands together [px]."""
     if block.kind == "table":
-        return block.head + _ROWS
+        divides = len(block.rows) >= 2 * _TOGETHER
+        return block.height - sum(block.rows[_TOGETHER:] if divides else ())
     return block.tail + (min(block.height, 2 * block.line) if block.line else block.height)
 
 
@@ -210,16 +210,13 @@ def _over(block: Block, begin: float, room: float) -> tuple[float, int, bool]:
     Also whether nothing of it stands on the page where it was to begin.
     """
     if block.kind == "table":
-        end = block.height - sum(block.rows)
-        whole = room - begin < block.head + _ROWS
-        end, pages = (end + block.above, 1) if whole else (end + begin, 0)
-        first = 0
+        whole = begin + _beginning(block) > room
+        end, pages = block.height - sum(block.rows) + (block.above if whole else begin), int(whole)
         for place, row in enumerate(block.rows):
             if end + row > room:
-                end, pages, first = block.head, pages + 1, place
+                first = max(0, min(place, len(block.rows) - _TOGETHER))
+                end, pages = block.head + sum(block.rows[first:place]), pages + 1
             end += row
-        if 0 < len(block.rows) - first < _LAST <= first:
-            end = block.head + sum(block.rows[-_LAST:])
         return end, pages, whole
     over, whole = begin + block.height - room, True
     if block.line:  # no line of a paragraph stands alone

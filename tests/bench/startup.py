@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import shutil
 import sys
+import tempfile
 from collections.abc import Iterator
+from pathlib import Path
 
+from reports.shared.resources import samples_dir
 from tests.bench._figure import Figure
 from tests.bench._process import kshm, median
+
+ROOT = Path(__file__).parents[2]
 
 
 def figures() -> Iterator[Figure]:
@@ -17,3 +23,19 @@ def figures() -> Iterator[Figure]:
     yield Figure("kshm --help: процессор", help_text.cpu, "с")
     yield Figure("пустой Python", bare.wall, "с")
     yield Figure("kshm --help: память", help_text.memory, "МБ")
+    yield from _uncompiled()
+
+
+def _uncompiled() -> Iterator[Figure]:
+    """What ``./run`` saves each start by keeping compiled modules."""
+    python, *rest = kshm("check", str(samples_dir() / "gots-diesel.toml"))
+    check = [python, "-P", *rest]  # the copy is meant, not the folder in which this is called
+    with tempfile.TemporaryDirectory() as name:
+        for room in ("kshm", "reports", "templates"):
+            bare = shutil.ignore_patterns("__pycache__")
+            shutil.copytree(ROOT / room, Path(name) / room, ignore=bare)
+        for told, never in (("без готовых .pyc", "1"), ("с готовыми .pyc", "")):
+            env = {"PYTHONPATH": name, "PYTHONDONTWRITEBYTECODE": never}
+            median(check, times=1, env=env)  # where they are kept, they are made here
+            cost = median(check, times=5, env=env)
+            yield Figure(f"kshm check {told}: процессор", cost.cpu, "с")

@@ -243,6 +243,11 @@ def test_a_failing_apt_does_not_stop_the_workbook(house):
     assert house.calls()[-1] == "kshm build x"
 
 
+def test_compiled_modules_are_kept(house):
+    house.tool(house.root / ".venv/bin/kshm", 'echo "${PYTHONDONTWRITEBYTECODE-kept}"')
+    assert house.run("check", "x", PYTHONDONTWRITEBYTECODE="1").stdout == "kept\n"
+
+
 @pytest.mark.parametrize("command", ["doctor", "--help"])
 def test_looking_installs_nothing(house, command):
     house.libraries("nothing")

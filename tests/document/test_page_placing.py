@@ -12,9 +12,11 @@ from weasyprint.text.fonts import FontConfiguration
 
 from reports.document.page import render
 from reports.document.page.blocks import DocumentInfo
+from reports.document.page.floating import _title_lines
 from reports.document.page.placing import Block, Spot, after, filled
 from reports.document.page.style import USUAL
 from reports.document.text.lines import line_count
+from tests.conftest import sample
 
 ROOM, LINE = 900.0, 28.0
 
@@ -139,7 +141,7 @@ def test_a_line_that_leads_to_a_formula_stands_with_it(lines):
 
 
 def lines_of(page):
-    """Lines of each paragraph as WeasyPrint sets it: its text and how many."""
+    """Lines of each paragraph or heading that has a number as WeasyPrint sets it."""
     html = weasyprint.HTML(string=page, base_url=None, url_fetcher=render._fetcher())
     document = html.render(font_config=FontConfiguration())
     found = {}
@@ -147,7 +149,8 @@ def lines_of(page):
     while waiting:
         box = waiting.pop()
         children = getattr(box, "children", None) or ()
-        if getattr(box, "element_tag", "") == "p" and type(box).__name__ == "BlockBox":
+        told = getattr(box, "element_tag", "") in ("p", "h1", "h2", "h3")
+        if told and type(box).__name__ == "BlockBox":
             number = int(box.element.get("id"))
             found[number] = found.get(number, 0) + len(children)
             continue
@@ -155,15 +158,36 @@ def lines_of(page):
     return found
 
 
+def set_alone(parts):
+    """Lines of these parts of a page, by their places in the list."""
+    body = "\n".join(re.sub(r'^<(\w+)(?: id="[^"]*")?', rf'<\1 id="{n}"', part)
+                     for n, part in enumerate(parts))  # fmt: skip
+    source = '{% extends "report/base.html.j2" %}{% block body %}' + body + "{% endblock %}"
+    return lines_of(render.environment().from_string(source).render(doc=DocumentInfo("x")))
+
+
+@pytest.mark.usefixtures("nothing_is_drawn")
+def test_headings_have_the_lines_that_were_counted():
+    """Bold and beside the indent; a title that misses a line by little takes two."""
+    told = bare_page(sample("ecoboost-10")).partition("Введение</h1>")[2]
+    parts = re.findall(r'<h([123])(?! [^>]*class="plain)([^>]*)>(.*?)</h', told, re.DOTALL)
+    longer = [(level, look, f"{title} {more}") for level, look, title in parts
+              for more in ("", "механизма", "двигателя внутреннего сгорания")]  # fmt: skip
+    headings = [f"<h{level}{look}>{title}</h{level}>" for level, look, title in longer]
+    found = set_alone(headings)
+    em, width = USUAL.em_px, USUAL.width_px - USUAL.indent_cm * 96 / 2.54
+    counted = [_title_lines(heading, width / (em * (1.15 if heading[2] == "1" else 1)), bold=True)
+               for heading in headings]  # fmt: skip
+    assert len(headings) > 30 and len(set(counted)) > 1
+    assert [headings[n] for n, lines in enumerate(counted) if lines != found[n]] == []
+
+
 @pytest.mark.usefixtures("nothing_is_drawn")
 def test_paragraphs_have_the_lines_that_were_counted():
     """All but one or two in a hundred: letters are not set closer here as they are there."""
     told = bare_page(terms("one").model.input).partition("Введение</h1>")[2]
     paragraphs = re.findall(r"<p>(?:(?!<svg).)*?</p>", told, re.DOTALL)
-    body = "\n".join(p.replace("<p", f'<p id="{n}"', 1) for n, p in enumerate(paragraphs))
-    source = '{% extends "report/base.html.j2" %}{% block body %}' + body + "{% endblock %}"
-    page = render.environment().from_string(source).render(doc=DocumentInfo("x"))
-    found = lines_of(page)
+    found = set_alone(paragraphs)
     em = USUAL.em_px
     counted = [
         line_count(p, USUAL.width_px / em, indent=USUAL.indent_cm * 96 / 2.54 / em)

@@ -26,6 +26,7 @@ _EM = re.compile(r"height:([\d.]+)em")
 _DEPTH = re.compile(r"vertical-align:-([\d.]+)em")
 _ASCENT, _DESCENT = 0.95, 0.35  # of a line of text between formulas [em]
 _NUMBERED = re.compile(r'<span class="hn">(\d+)')
+_AFTER_NUMBER = 0.25  # of a heading [em], beside the space
 _ROW = re.compile(r"<tr.*?</tr>", re.DOTALL)
 _CELL = re.compile(r"<t[dh]([^>]*)>(.*?)</t[dh]>", re.DOTALL)
 _LINED = re.compile(r'<table class="data[^"]* lined')
@@ -109,10 +110,10 @@ def _block(html: str, tag: str, attributes: str, style: Style) -> Block:
     em = style.em_px
     line = em * style.line_spacing
     if tag == "h1":
-        lines = _title_lines(html, style, em * 1.15) + html.count("<br>")
+        lines = _title_lines(html, _beside(style) / em / 1.15, bold=True) + html.count("<br>")
         return Block(html, "chapter", lines * em * 1.5, 0.0, 8 * _PT)
     if tag in ("h2", "h3"):
-        height = _lines(html, style, em) * em * 1.3
+        height = _title_lines(html, _beside(style) / em, bold=True) * em * 1.3
         return Block(html, "heading", height, 14 * _PT, 8 * _PT)
     if tag == "p":
         flush = "flush" in attributes
@@ -125,7 +126,7 @@ def _block(html: str, tag: str, attributes: str, style: Style) -> Block:
     if tag == "figure":
         size = _figure_px(html, style)
         caption = html[html.find("<figcaption") :]
-        lines = _title_lines(caption, style, em)
+        lines = _title_lines(caption, style.width_px / em)
         height = size + lines * em * 1.3 + 4.5 * _PT
         return Block(html, "float", height, 10 * _PT, 10 * _PT, figure=size)
     if 'class="where"' in attributes:
@@ -158,7 +159,8 @@ def _figure_px(html: str, style: Style) -> float:
 def _table(html: str, style: Style) -> Block:
     size = next((name for name in ("dense", "tiny") if f'class="data {name}' in html), "")
     em = style.table_em_px(size)
-    caption = _title_lines(html[: html.find("</div>")], style, style.em_px) * 1.5 * style.em_px
+    title = html[: html.find("</div>")]
+    caption = _title_lines(title, style.width_px / style.em_px) * 1.5 * style.em_px
     widths = [float(share) / 100 * style.width_px for share in _SHARE.findall(html)]
     rows = _ROW.findall(html)
     body = html.find("<tbody")
@@ -190,25 +192,30 @@ def _row_lines(row: str, widths: Sequence[float], em: float) -> int:
     return most
 
 
-def _title_lines(html: str, style: Style, em: float) -> int:
-    """Lines of a heading or a caption, ragged, without indent, its words whole."""
-    lines, rest = 1, style.width_px / em
+def _beside(style: Style) -> float:
+    """Width of the text beside its indent [px], as of a heading."""
+    return style.width_px - style.indent_cm * 96 / 2.54
+
+
+def _title_lines(html: str, width: float, *, bold: bool = False) -> int:
+    """Lines of a heading or a caption within a width [em], ragged, its words whole."""
+    lines, rest = 1, width - _AFTER_NUMBER * bool(_NUMBERED.search(html))
     for word in _TAGS.sub("", html).split(" "):
-        width = _width_em(word)
-        if width > rest:
-            lines, rest = lines + 1, style.width_px / em
-        rest -= width + text_em(" ")
+        long = _width_em(word, bold=bold)
+        if long > rest:
+            lines, rest = lines + 1, width
+        rest -= long + text_em(" ")
     return lines
 
 
 def _lines(html: str, style: Style, em: float, *, indent: bool = True) -> int:
     """Lines of a paragraph at a size of the type [px]."""
-    first = indent * style.indent_cm * 96 / 2.54 / em
+    first = indent * (style.width_px - _beside(style)) / em
     return line_count(html, style.width_px / em, indent=first)
 
 
-def _width_em(html: str) -> float:
+def _width_em(html: str, *, bold: bool) -> float:
     """Length of a text set in one line [em]."""
-    small = sum(text_em(Markup(part).striptags()) for part in _SMALL.findall(html))
+    small = sum(text_em(Markup(part).striptags(), bold=bold) for part in _SMALL.findall(html))
     plain = " ".join(Markup(_SMALL.sub("", html)).striptags().split())
-    return text_em(plain) + 0.7 * small
+    return text_em(plain, bold=bold) + 0.7 * small

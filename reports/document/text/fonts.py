@@ -111,20 +111,23 @@ def _regular() -> FT2Font:
 
 
 @functools.cache
-def advance(char: str, style: str = "normal") -> float:
-    """Width of a character of the regular or slanted face [em]; half an em where it lacks it."""
+def advance(char: str, style: str = "normal", weight: str = "normal") -> float:
+    """Width of a character of a face [em]; half an em where it lacks it."""
     from matplotlib.ft2font import LoadFlags
 
-    font = face(FAMILY, style)
+    font = face(FAMILY, style, weight)
     if ord(char) not in font.get_charmap():
         return 0.5
     glyph = font.load_char(ord(char), flags=LoadFlags.NO_SCALE)
     return float(glyph.horiAdvance) / float(font.units_per_EM)
 
 
-def text_em(text: str, *, slanted: bool = False) -> float:
-    """Width of a line of plain text in the regular or slanted face [em], without kerning."""
-    return sum(advance(char, "italic") for char in text) if slanted else sum(map(advance, text))
+def text_em(text: str, *, slanted: bool = False, bold: bool = False) -> float:
+    """Width of a line of plain text in a face [em], without kerning."""
+    if not (slanted or bold):
+        return sum(map(advance, text))
+    look = ("italic" if slanted else "normal", "bold" if bold else "normal")
+    return sum(advance(char, *look) for char in text)
 
 
 @functools.lru_cache(maxsize=4096)

@@ -71,6 +71,7 @@ SLOW = (
     "tests/manual/test_commands.py::test_commands",
     "tests/manual/test_manual_pages.py::test_every_",
     "tests/manual/test_manual_pages.py::test_html_fits",
+    "tests/manual/test_new_module.py",
     "tests/manual/test_new_table.py",
     "tests/referee/test_evaluate.py::test_a_grid",
     "tests/referee/test_evaluate.py::test_cached_values",

@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 from markupsafe import Markup
 
-from kshm.chain.firing_orders import rank_firing_orders
+from kshm.chain.firing_orders import intervals, rank_firing_orders
 from kshm.nomenclature.digits import scientific
 from reports.document.chapters import facts
 from reports.document.chapters.chapter import Chapter
@@ -115,6 +115,7 @@ def companions(chapter: Chapter) -> Markup:
         shafts=bool({"first_shafts", "second_shafts"} & asked),
         shafts_second="second_shafts" in asked,
         devices=joined([word for key, word in _DEVICES.items() if key in asked] or [""]),
+        round=all(_is_round(terms, f"{letter}1_before") for letter in "FL"),
         over_turn=_over_turn(terms, after=after),
         flywheel=_fine_flywheel(chapter),
         rod_given=chapter.input.masses.rod_kg is not None,
@@ -176,18 +177,23 @@ def _over_turn(terms: Terms, *, after: bool) -> list[str]:
 
 def _vectors(chapter: Chapter, *, after: bool) -> dict[str, TablePlan | None]:
     """Rotating masses and first orders of what is not balanced; after balancing if asked for."""
-    keys = [
-        key
-        for letter in "FL"
-        if not _is_balanced(chapter.terms, letter)
-        for key in (
-            f"{letter}rot_bare", f"{letter}rot",
-            *(f"{letter}1_{name}_{part}" for name in ("before", *(("after",) if after else ()))
-              for part in ("max", "min", "deg")),
-        )
-    ]  # fmt: skip
+    terms, keys = chapter.terms, []
+    for letter in "FL":
+        firsts = [f"{letter}1_{name}" for name in ("before", *(("after",) if after else ()))]
+        # A circle has no direction of its greatest radius.
+        of = [f"{letter}rot_bare", f"{letter}rot"]
+        for first in firsts:
+            parts = ("max", "min") if _is_round(terms, first) else ("max", "min", "deg")
+            of += [f"{first}_{part}" for part in parts]
+        if not _is_balanced(terms, letter) and any(terms.num(key).strip(_ZERO) for key in of):
+            keys += of
     caption = "Вращающиеся массы и векторы первого порядка"
     return {"vectors": chapter.scalars(caption, keys, size="dense", keep=True) if keys else None}
+
+
+def _is_round(terms: Terms, first: str) -> bool:
+    """Whether the vector of the first order goes round a circle, as printed."""
+    return terms.num(f"{first}_max") == terms.num(f"{first}_min")
 
 
 def _devices(chapter: Chapter, asked: set[str]) -> TablePlan | None:
@@ -215,6 +221,7 @@ def _firing(chapter: Chapter) -> TableBlock:
     """The best firing orders with the greatest load of a main journal."""
     columns = [
         Column("Порядок работы", 2.0),
+        Column("Промежутки, °", 2.6),
         Column("Неравномерность чередования", 1.6),
         Column(symbol_head(r"\Sigma_{0{,}5}", ""), 1.2),
         Column(symbol_head(r"R_{\mathrm{к.ш}\,\max}", "кН"), 1.4),
@@ -222,6 +229,7 @@ def _firing(chapter: Chapter) -> TableBlock:
     rows = [
         (
             "–".join(map(str, ranked.order)),
+            ", ".join(fixed(gap, 0) for gap in np.degrees(intervals(np.array(ranked.offsets)))),
             fixed(ranked.unevenness, 3),
             fixed(ranked.half_order if np.abs(ranked.half_order) > 1e-9 else 0.0, 3),
             fixed(ranked.journal_load / 1000, 2),

@@ -74,14 +74,20 @@ _SPACE_BEFORE = re.compile('([ \u00a0])(<(?:a(?! class="ref")|i)\\b[^<>]*>)')
 _SPACE_BEFORE_UNBROKEN = re.compile('([ \u00a0])(<span class="nb">|<a class="ref")')
 
 
-# A lone capital with a point before another capital: initials, «А. Н. Гоц».
-_INITIAL = re.compile(r"(?<![А-ЯЁа-яёA-Za-z])([А-ЯЁ]\.) (?=[А-ЯЁ])")
+# Spaces that no line ends at: of initials, «А. Н. Гоц»; before a reference, «Гоца [1]», and a
+# dash, but not the one of a caption after its number; within «2-е изд.», «а — размеры».
+_UNBROKEN = re.compile(
+    r"(?<=[^А-ЯЁа-яёA-Za-z][А-ЯЁ]\.) (?=[А-ЯЁ])"
+    r'| (?=(?:<span class="nb">)?\[<a class="ref")'
+    r"|(?<!</span>) (?=— )"
+    r"|(?<=\d-е) (?=изд\.)"
+    r"|(?<=[ :;][а-е] —) "
+)
 
 
-def unbroken_initials(page: str) -> str:
-    """Keep initials on the line of their surname, not in the data of the head."""
-    head, body, text = page.partition("<body>")
-    return head + body + _INITIAL.sub(rf"\1{NBSP}", text)
+def unbroken(body: str) -> str:
+    """Make the spaces of a text that no line may end at spaces that do not break."""
+    return _UNBROKEN.sub(NBSP, body)
 
 
 def spaces_inside(page: str) -> str:

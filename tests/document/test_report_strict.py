@@ -106,3 +106,16 @@ def test_the_diagram_of_the_cycle_stands_at_the_step_of_the_profile():
 def test_a_moment_that_the_rows_miss_is_told():
     text = words_of("cycle-petrol")
     assert re.search(r"Наибольший момент −86,7 Н·м \(при шаге 1° — [\d,]+ Н·м\)", text)
+
+
+def test_whole_orders_are_whole_numbers():
+    free, torque = "Свободные силы и моменты", "Гармоники удельной тангенциальной силы"
+    for source, half in (("gots-diesel", True), ("two-stroke", False)):
+        page = page_of(source)
+        captions = [re.search(f"{of}[^<]*", page)[0] for of in (free, torque)]
+        first, harmonic = (printed_rows(page, caption)[0][0] for caption in captions)
+        assert first == "1" and harmonic == ("0,5" if half else "1")
+
+
+def test_only_numbers_of_the_textbook_stand_in_titles():
+    assert "(П4.5)" in words_of() and "П4.5с" not in words_of()

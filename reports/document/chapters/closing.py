@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from functools import partial
 
@@ -65,6 +66,7 @@ SOURCES = {
 
 # Chapters whose results the conclusion repeats.
 _CONCLUDED = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "running"}
+_TEXTBOOKS = re.compile(r"П[\d.]+")  # numbers of the textbook's tables
 _MOST_PERCENT = 1000.0  # of a value near zero a difference in percent says nothing
 
 
@@ -257,7 +259,8 @@ def _plans(
             own_symbols=key in ("gas", "P4_1"),
             step=chapter.printed_step,
         )
-        title = f"{spec.title} ({spec.number})" if spec.number.startswith("П") else spec.title
+        own = _TEXTBOOKS.fullmatch(spec.number)
+        title = f"{spec.title} ({spec.number})" if own else spec.title
         usual = "" if chapter.whole else "dense"
         plan = TablePlan(build, title, number=f"{letter}.{place}", size=size or usual)
         plans.append((key, plan))

@@ -92,8 +92,8 @@ def companions(chapter: Chapter) -> Markup:
             partial(_orders, terms, banks=banks),
             "Свободные силы и моменты инерции по порядкам", keep=True,
         ),
-        "torque": chapter.columns(
-            "torque_orders", _TORQUE,
+        "torque": TablePlan(
+            partial(_counted, terms, "torque_orders", _TORQUE),
             "Гармоники удельной тангенциальной силы и момента двигателя", keep=True,
         ),
         "inverse": chapter.columns(
@@ -122,10 +122,19 @@ def companions(chapter: Chapter) -> Markup:
     )
 
 
+def _counted(terms: Terms, table: str, keys: Sequence[str]) -> TableBlock:
+    """A table over the orders; where none of them is a half they are whole numbers."""
+    block = angle_table(terms, table, keys)
+    ends = {str(row[0])[-2:] for row in block.rows}
+    if ends != {",0"}:
+        return block
+    return replace(block, rows=tuple((str(row[0])[:-2], *row[1:]) for row in block.rows))
+
+
 def _orders(terms: Terms, *, banks: bool) -> TableBlock:
     """Forces and moments by orders; what is printed as zero has no direction."""
     keys = _ORDERS_OF_BANKS if banks else _ORDERS
-    block = angle_table(terms, "balance_orders", keys)
+    block = _counted(terms, "balance_orders", keys)
     directions = {keys.index(key): keys.index(key.replace("dir_deg", unit))
                   for key, unit in (("F_order_dir_deg", "kN"), ("M_order_dir_deg", "Nm"))
                   if key in keys}  # fmt: skip
@@ -220,10 +229,10 @@ def _fine_flywheel(chapter: Chapter) -> Markup | str:
 def _firing(chapter: Chapter) -> TableBlock:
     """The best firing orders with the greatest load of a main journal."""
     columns = [
-        Column("Порядок работы", 2.0),
-        Column("Промежутки, °", 2.6),
-        Column("Неравномерность чередования", 1.6),
-        Column(symbol_head(r"\Sigma_{0{,}5}", ""), 1.2),
+        Column("Порядок работы", 1.7),
+        Column("Промежутки, °", 3.2),
+        Column("Неравномерность чередования", 1.9),
+        Column(symbol_head(r"\Sigma_{0{,}5}", ""), 0.9),
         Column(symbol_head(r"R_{\mathrm{к.ш}\,\max}", "кН"), 1.4),
     ]
     rows = [

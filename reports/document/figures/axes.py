@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from reports.document.figures.labels import Box
+from reports.document.figures.labels import Box, line_box, shown
 from reports.document.figures.sheet import Sheet
 from reports.document.figures.style import AXIS, EDGE, FONT_SIZE, GRID, SMALL, Look
 from reports.document.figures.ticks import Ticks
@@ -94,7 +94,8 @@ class Axes:
 
     def name_y(self, text: str) -> None:
         """Name and unit of the vertical axis above its upper end."""
-        place = (self.field[0] - 8, self.field[3] + 7)
+        deep = line_box(shown(text), FONT_SIZE)[2]  # below it the number of the upper end stands
+        place = (self.field[0] - 8, self.field[3] + max(7.0, deep + _TOP * SMALL / 2 + 1.5))
         self.page.text(place, text, FONT_SIZE, align=0.0, middle=False)
 
     def name_x(self, text: str) -> None:

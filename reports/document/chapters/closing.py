@@ -67,6 +67,7 @@ SOURCES = {
 # Chapters whose results the conclusion repeats.
 _CONCLUDED = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "running"}
 _TEXTBOOKS = re.compile(r"П[\d.]+")  # numbers of the textbook's tables
+_LONG_LIST = 3  # names of tables in a remark that the workbook had better hold
 _MOST_PERCENT = 1000.0  # of a value near zero a difference in percent says nothing
 
 
@@ -92,10 +93,18 @@ def _remarks(chapter: Chapter) -> list[str]:
     if "torque" in chosen(chapter.input.report):
         told.append(reasons_of(chapter.input).get("power", ""))
     return [
-        line
+        _without_list(line)
         for line in chapter.terms.model.remarks
         if not any(part and line.endswith(part) for part in told)
     ]
+
+
+def _without_list(remark: str) -> str:
+    """A remark without a list of tables that its reader has never seen."""
+    said, _, names = remark.partition(": «")
+    if names.count("«") < _LONG_LIST:
+        return remark
+    return f"{said}; перечень таблиц, которых поэтому нет, стоит в книге Excel"
 
 
 def _grid_table(chapter: Chapter) -> TableBlock:

@@ -22,6 +22,7 @@ from reports.inputs.fields import Field
 from reports.shared.russian import NBSP, fixed
 from reports.spec.blocks import Column, Model, Scalar
 from reports.spec.evaluation import Values
+from reports.spec.shape import TIMING
 
 # Symbols that would be ambiguous within a formula.
 _SYMBOLS = {
@@ -35,6 +36,7 @@ _SYMBOLS = {
     "share2": r"\dfrac{a_{\mathrm{п}2}}{l}",
     "psi_deg": r"\psi",
     "throw": "",
+    TIMING: r"\varphi",  # of one cylinder the same angle, counted on past the end of the cycle
 }
 _TORQUE = re.compile(r"(?:P4_1|cylinder_(\d+))\.M_Nm")
 _SIGNIFICANT = 5

@@ -18,7 +18,7 @@ from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms, with_unit
 from reports.inputs.checks.grid import GridError
 from reports.inputs.sections.input_file import InputFile
-from reports.shared.russian import joined, runs
+from reports.shared.russian import NBSP, joined, runs
 from reports.spec.blocks import Grid, Model
 from reports.spec.shape import Shape
 
@@ -27,7 +27,8 @@ if TYPE_CHECKING:
 
 BOOK = "gots"
 ELSEWHERE = "книги Excel"  # where the tables of chapters that are left out stand
-_SHORT_PLACE = 14  # signs of a place in the textbook that stays on the line of its source
+# Signs of a place in the textbook that stays with the word before it; that stays in one line.
+_SHORT_PLACE, _ONE_FORMULA = 8, 14
 FORMULA = "n:"  # prefix of the keys of formulas of nodes
 
 
@@ -135,7 +136,9 @@ class Chapter:
         link = self.writer.n.refer("source", BOOK)
         if not where:
             return Markup("[{}]").format(link)
-        look = '<span class="nb">[{}, {}]</span>' if len(where) <= _SHORT_PLACE else "[{}, {}]"
+        if len(where) <= _SHORT_PLACE:
+            return Markup("[{},{}{}]").format(link, NBSP, where.replace(" ", NBSP))
+        look = '<span class="nb">[{}, {}]</span>' if len(where) <= _ONE_FORMULA else "[{}, {}]"
         return Markup(look).format(link, where)
 
     def tabs(self, names: Iterable[str]) -> Markup:

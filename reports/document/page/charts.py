@@ -111,7 +111,8 @@ def _something(
     series: Sequence[Series], columns: Sequence[Column]
 ) -> tuple[Sequence[Series], Sequence[Column]]:
     """Without curves that are zero all along beside others that are not."""
-    kept = [place for place, column in enumerate(columns) if np.any(column)]
+    sizes = [float(np.abs(column).max(initial=0.0)) for column in columns]
+    kept = [place for place, size in enumerate(sizes) if size > _NOISE * max(sizes)]
     places = kept or range(len(columns))
     return [series[place] for place in places], [columns[place] for place in places]
 

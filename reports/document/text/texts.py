@@ -74,11 +74,11 @@ _SPACE_BEFORE = re.compile('([ \u00a0])(<(?:a(?! class="ref")|i)\\b[^<>]*>)')
 _SPACE_BEFORE_UNBROKEN = re.compile('([ \u00a0])(<span class="nb">|<a class="ref")')
 
 
-# Spaces that no line ends at: of initials, «А. Н. Гоц»; before a reference, «Гоца [1]», and a
-# dash, but not the one of a caption after its number; within «2-е изд.», «а — размеры».
+# Spaces that no line ends at: of initials, «А. Н. Гоц»; before a short reference, «Гоца [1]»,
+# and a dash, but not the one of a caption after its number; within «2-е изд.», «а — размеры».
 _UNBROKEN = re.compile(
     r"(?<=[^А-ЯЁа-яёA-Za-z][А-ЯЁ]\.) (?=[А-ЯЁ])"
-    r'| (?=(?:<span class="nb">)?\[<a class="ref")'
+    rf'| (?=\[<a class="ref"[^<>]*>\d+</a>(?:\]|,{NBSP}|, <a))'
     r"|(?<!</span>) (?=— )"
     r"|(?<=\d-е) (?=изд\.)"
     r"|(?<=[ :;][а-е] —) "

@@ -89,7 +89,7 @@ def test_lines_are_filled_whatever_follows_a_space(end, tmp_path):
         ('по [<a class="ref">1</a>, формулы (4)', 'по [<a class="ref">1</a>, формулы (4)'),
         ('по [<a class="ref">1</a>,\xa0п.', 'по\xa0[<a class="ref">1</a>,\xa0п.'),
         (">А. Н. Гоц в США. Но", ">А.\xa0Н.\xa0Гоц в США. Но"),
-        ("Иванова. — 2-е изд., испр.", "Иванова.\xa0— 2-е\xa0изд., испр."),
+        ("Иванова. — 2-е изд., испр.", 'Иванова.\xa0— <span class="nb">2-е\xa0изд.</span>, испр.'),
     ],
 )
 def test_no_line_ends_before_a_dash_or_a_reference(text, said):

@@ -75,19 +75,22 @@ _SPACE_BEFORE_UNBROKEN = re.compile('([ \u00a0])(<span class="nb">|<a class="ref
 
 
 # Spaces that no line ends at: of initials, «А. Н. Гоц»; before a short reference, «Гоца [1]»,
-# and a dash, but not the one of a caption after its number; within «2-е изд.», «а — размеры».
+# and a dash, but not the one of a caption after its number; within «а — размеры».
 _UNBROKEN = re.compile(
     r"(?<=[^А-ЯЁа-яёA-Za-z][А-ЯЁ]\.) (?=[А-ЯЁ])"
     rf'| (?=\[<a class="ref"[^<>]*>\d+</a>(?:\]|,{NBSP}|, <a))'
     r"|(?<!</span>) (?=— )"
-    r"|(?<=\d-е) (?=изд\.)"
     r"|(?<=[ :;][а-е] —) "
 )
 
 
+# A line may end at its hyphen, unlike at a no-break space.
+_EDITION = re.compile(r"(?<=[ \u00a0])(\d-е) изд\.")
+
+
 def unbroken(body: str) -> str:
     """Make the spaces of a text that no line may end at spaces that do not break."""
-    return _UNBROKEN.sub(NBSP, body)
+    return _EDITION.sub(rf'<span class="nb">\1{NBSP}изд.</span>', _UNBROKEN.sub(NBSP, body))
 
 
 def spaces_inside(page: str) -> str:

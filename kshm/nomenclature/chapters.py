@@ -153,7 +153,7 @@ _BEARINGS: tuple[Row, ...] = (
 )  # fmt: skip
 
 _TWO_TERM: tuple[Row, ...] = (
-    *((f"e{name}{part}_{suffix}", f"{symbol}{mark}", tex.format(symbol), unit, f"{word}{way}", fmt)
+    *((f"e{name}{part}_{suffix}", f"{symbol}{mark}", tex.format("_".join(symbol)), unit, f"{word}{way}", fmt)
       for name, symbol, suffix, unit, word, fmt in (
           ("s", "s", "mm", "mm", "перемещение поршня", 4), ("v", "v", "m_s", "m_s", "скорость поршня", 3),
           ("j", "j", "m_s2", "m_s2", "ускорение поршня", 1), ("Pj", "Pj", "MPa", "MPa", "удельная сила инерции", 4))

@@ -32,9 +32,9 @@ ROWS: tuple[Row, ...] = (
     ("I_rod", "Iш", r"I_{\mathrm{ш}}", "kgm2", "центральный момент инерции шатуна", 6),
     ("piston_mass", "mп", r"m_{\mathrm{п}}", "kg", "масса поршневой группы", 3),
     ("I_counterweights", "Iпр", r"I_{\mathrm{пр}}", "kgm2", "момент инерции противовесов, массы на радиусе кривошипа", 6),
-    *((f"{key}_{part}", f"{symbol} {short}", rf"{symbol}_{{\mathrm{{{short}}}}}", "kgm2", f"{title} приведённый момент инерции {whom}", 6)
-      for key, symbol, whom in (("I", "Iп", "цилиндра"), ("I_engine", "IΣ", "двигателя без маховика"))
-      for part, short, title in (("max", "max", "наибольший"), ("min", "min", "наименьший"), ("mean", "ср", "средний"))),
+    *((f"{key}_{part}", f"{symbol} {short}", rf"I_{{{tex}\,{end}}}", "kgm2", f"{title} приведённый момент инерции {whom}", 6)
+      for key, symbol, tex, whom in (("I", "Iп", r"\mathrm{п}", "цилиндра"), ("I_engine", "IΣ", r"\Sigma", "двигателя без маховика"))
+      for part, short, end, title in (("max", "max", r"\max", "наибольший"), ("min", "min", r"\min", "наименьший"), ("mean", "ср", r"\mathrm{ср}", "средний"))),
     ("delta_I", "δI", r"\delta_I", "", "коэффициент изменения момента инерции цилиндра (Imax − Imin)/(Imax + Imin)", 4),
     ("delta_I_engine", "δIΣ", r"\delta_{I\Sigma}", "", "коэффициент изменения момента инерции двигателя", 4),
     ("I_error_max", "max|δI|", r"\delta_{I\,\max}", "percent", "наибольшая погрешность приближённой формулы", 2),
@@ -61,9 +61,9 @@ ROWS: tuple[Row, ...] = (
     ("rm_I_big", "Iн.г", r"I_{\mathrm{н.г}}", "kgm2", "момент инерции кривошипной головки", scientific(2)),
     ("rm_I_shank", "Ix", "I_x", "kgm2", "момент инерции стержня относительно нижнего основания", scientific(2)),
     ("rm_z", "zc", "z_c", "m", "центр тяжести стержня от нижнего основания", 4),
-    ("rod_model_mass", "mш", r"m_{\mathrm{ш}}", "kg", "масса шатуна по модели", 3),
+    ("rod_model_mass", "m′ш", r"m'_{\mathrm{ш}}", "kg", "масса шатуна по модели", 3),
     ("rod_model_centre", "Zc", "Z_c", "m", "центр масс шатуна от шатунной шейки по модели", 4),
-    ("rod_model_inertia", "Iш", r"I_{\mathrm{ш}}", "kgm2", "центральный момент инерции шатуна по модели", 6),
+    ("rod_model_inertia", "I′ш", r"I'_{\mathrm{ш}}", "kgm2", "центральный момент инерции шатуна по модели", 6),
     ("rod_model_small", "r′", "r'", "m", "меньший радиус равного конуса", 5),
     ("rod_model_big", "R′", "R'", "m", "больший радиус равного конуса", 5),
 )  # fmt: skip

@@ -30,7 +30,7 @@ from reports.document.chapters import (
     torsion,
 )
 from reports.document.chapters import torque as torques
-from reports.document.chapters.chapter import Chapter
+from reports.document.chapters.chapter import ELSEWHERE, Chapter
 from reports.document.chapters.profiles import chosen
 from reports.document.page import overrides
 from reports.document.page.blocks import DocumentInfo
@@ -195,12 +195,13 @@ def _page(model: Model, values: Values, env: Environment, further: Further) -> s
     _write(Chapter(terms, Writer(env, absent), env), CHAPTERS.keys() - names)
     numbering = draft.numbering(elsewhere=_elsewhere(terms, absent))
     chapter = Chapter(terms, Writer(env, numbering), env)
-    body = _write(chapter, names, further)
+    body = Markup(texts.unbroken(_write(chapter, names, further)))
     if env.globals["media"] == "print":
         sheets = style.framed if front.has_frame(chapter.input, style.frame) else style
         body = Markup(arranged(body, sheets, run_on=_run_on(chapter, style)))
     numbering.check()
-    return texts.unbroken_initials(texts.spaces_inside(_whole(env, chapter, body)))
+    head, start, page = _whole(env, chapter, body).partition("<body>")
+    return texts.spaces_inside(head + start + texts.unbroken(page))
 
 
 def with_figures(
@@ -232,7 +233,7 @@ def _elsewhere(terms: Terms, absent: Draft) -> dict[Name, str]:
     for kind, key in absent.declared:
         table = terms.model.tables.get(key) if kind == "table" else None
         number = f"{table.number} " if table is not None and table.number else ""
-        words[kind, key] = "" if kind == "formula" else f"{number}книги Excel"
+        words[kind, key] = "" if kind == "formula" else f"{number}{ELSEWHERE}"
     return words
 
 

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from reports.formula.parse import AGGREGATES, SCALE_FUNCTIONS, SCALES, parse
+from reports.shared.russian import NBSP, grouped
 
 Symbols = Callable[[str], str]
 Numbers = Callable[[str], float | str]
@@ -98,13 +99,15 @@ def number_tex(value: float, digits: int = 4) -> str:
         decimals = max(0, digits - 1 - exponent)
         text = f"{value:.{decimals}f}"
         text = text.rstrip("0").rstrip(".") if "." in text else text
-        return text.replace(".", "{,}")
+        return grouped(text).replace(".", "{,}").replace(NBSP, r"\,")
     mantissa = f"{value / 10**exponent:.{digits - 1}f}".rstrip("0").rstrip(".")
     return mantissa.replace(".", "{,}") + rf" \cdot 10^{{{exponent}}}"
 
 
 def input_symbol_tex(symbol: str) -> str:
-    """TeX of an input field's symbol such as ``p_a``, ``η_м`` or ``l_1``."""
+    """TeX of an input field's symbol such as ``p_a``, ``η_м``, ``K_H2`` or ``m_1/m_ш``."""
+    if "/" in symbol:
+        return "/".join(map(input_symbol_tex, symbol.split("/")))
     base, _, index = symbol.partition("_")
     greek = {"λ": r"\lambda", "ε": r"\varepsilon", "ρ": r"\rho", "η": r"\eta", "φ": r"\varphi",
              "θ": r"\theta", "γ": r"\gamma", "α": r"\alpha", "ω": r"\omega", "τ": r"\tau",
@@ -114,6 +117,7 @@ def input_symbol_tex(symbol: str) -> str:
         text = rf"\mathrm{{{text}}}"
     if not index:
         return text
+    index = re.sub(r"^([A-Z])(\d)$", r"\\mathrm{\1_\2}", index)  # a substance: H2
     body = rf"\mathrm{{{index}}}" if re.search("[а-яА-Я.]", index) else index
     return f"{text}_{{{body}}}"
 
@@ -220,7 +224,7 @@ class _Printer:
             return r" \cdot "
         # A coefficient stands close to its symbol, brackets and functions keep their own room.
         close = isinstance(left, ast.Constant) or second.startswith((r"\left", r"\sin", r"\cos"))
-        if second.startswith(r"\dfrac") or first.endswith(r"\right)"):
+        if second.startswith((r"\dfrac", r"\max", r"\min")) or first.endswith(r"\right)"):
             return r" \, "
         return " " if close else r" \, "
 

@@ -7,6 +7,7 @@ digits on, powers of ten written out.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 
 from kshm.nomenclature.digits import Digits
@@ -50,9 +51,18 @@ def fixed(value: float, digits: int = 2, *, group: bool = True) -> str:
     text = f"{abs(value):.{digits}f}"
     whole, _, part = text.partition(".")
     negative = value < 0 and text.strip("0.") != ""
-    if group and len(whole) >= _GROUP_FROM:
-        whole = f"{int(whole):,}".replace(",", NBSP)
+    if group:
+        whole = grouped(whole)
     return (MINUS if negative else "") + whole + ("," + part if part else "")
+
+
+def grouped(text: str) -> str:
+    """A number that Python wrote, its integer part in groups of three from five digits on."""
+    whole = re.match(r"-?(\d*)", text)
+    digits = whole.group(1) if whole else ""
+    if len(digits) < _GROUP_FROM:
+        return text
+    return text.replace(digits, f"{int(digits):,}".replace(",", NBSP), 1)
 
 
 def mantissa(value: float, decimals: int) -> tuple[str, int]:
@@ -84,7 +94,29 @@ def capital(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
-def joined(items: Sequence[object]) -> str:
+def joined(items: Sequence[object], last_by: str = " и ") -> str:
     """Things as a sentence counts them up: «1, 2 и 4»."""
     *most, last = map(str, items or ("",))
-    return f"{', '.join(most)} и {last}" if most else last
+    return f"{', '.join(most)}{last_by}{last}" if most else last
+
+
+def runs(numbers: Sequence[str]) -> list[tuple[int, int]]:
+    """Stretches of numbers that follow each other: places of the first and the last of each.
+
+    «4», «5», «6», «9» gives (0, 2), (3, 3); «Б.5» is followed by «Б.6».
+    """
+    found: list[tuple[int, int]] = []
+    for place, number in enumerate(numbers):
+        if found and _follows(numbers[place - 1], number):
+            found[-1] = (found[-1][0], place)
+        else:
+            found.append((place, place))
+    return found
+
+
+def _follows(before: str, after: str) -> bool:
+    """Whether a number is the next one."""
+    (stem, digits), (other, next_digits) = (
+        re.split(r"(?=\d*$)", n, maxsplit=1) for n in (before, after)
+    )
+    return stem == other and digits != "" != next_digits and int(next_digits) == int(digits) + 1

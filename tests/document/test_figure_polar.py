@@ -1,13 +1,16 @@
 import math
 import re
 from functools import lru_cache
+from itertools import pairwise
 from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
 from figure_samples import FIGURES, PHI, K, T
 
+from reports.document.figures.labels import text_size
 from reports.document.figures.polar import polar_path
+from reports.document.figures.style import SMALL
 
 
 @lru_cache(maxsize=1)
@@ -50,3 +53,16 @@ def test_bad_components_are_refused():
         polar_path(T, K[:-1], PHI, ("x", "y"))
     with pytest.raises(ValueError, match="не число"):
         polar_path(np.full(73, math.nan), K, PHI, ("x", "y"))
+
+
+def test_numbers_of_an_axis_do_not_touch():
+    turn = np.radians(np.arange(0, 361, 10.0))
+    svg = polar_path(11000 * np.cos(turn), 11000 * np.sin(turn), np.degrees(turn), ("$x$", "$y$"),
+                     most=80.0)  # fmt: skip
+    nodes = [node for node in ET.fromstring(svg).iter() if node.tag.endswith("}text")]
+    found = [("".join(n.itertext()), float(n.attrib["x"]), float(n.attrib["y"])) for n in nodes]
+    lowest = max(y for _, _, y in found)
+    row = sorted((x, text) for text, x, y in found if y == lowest)
+    assert any(text == "0" for _, text in row)
+    for (left, before), (right, after) in pairwise(row):
+        assert right - left > (text_size(before, SMALL)[0] + text_size(after, SMALL)[0]) / 2 + 2

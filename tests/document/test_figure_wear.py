@@ -34,6 +34,12 @@ def test_rays_are_numbered_against_the_clock():
     assert float(second.attrib["x"]) < float(tree.attrib["viewBox"].split()[2]) / 2
 
 
+def test_the_hole_has_the_angle_that_the_text_names():
+    for angle in (30.0, 210.0, 300.0, 660.0):
+        svg = wear_diagram(np.ones(12), np.arange(12) * 30.0, angle)
+        assert f"{angle % 360:.0f}°" in texts(svg)
+
+
 def test_bad_sums_are_refused():
     with pytest.raises(ValueError, match="лучах"):
         wear_diagram([1, 2, 3], [0, 90], 0)

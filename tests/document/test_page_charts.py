@@ -37,6 +37,19 @@ def test_one_curve_is_named_at_its_axis_with_its_levels_and_extremes():
     assert least.y == T.column("crankpin.Rpin_MPa").min()
 
 
+def test_a_curve_of_rounding_noise_is_not_drawn():
+    four = terms("cycle-petrol")  # its first order is balanced
+    drawn = chart_figure(four, four.model.charts_by_id["balance_F"]).draw.args[1][0].curves
+    assert [curve.name for curve in drawn] == ["$F_2$", "$F_4$"]
+
+
+def test_of_equal_extremes_the_first_is_marked_as_the_text_names_it():
+    twin = terms("yamz-236")  # its torque repeats thrice a cycle
+    marks = chart_figure(twin, twin.model.charts_by_id["fig49"]).draw.args[1][0].marks
+    named = [twin.value(f"phi_M_{which}_deg") for which in ("max", "min")]
+    assert [mark.x for mark in marks] == named
+
+
 def test_rows_are_marked_and_a_path_is_closed():
     shown = panel("pv", rows=[("$a$", 3)], closed=True)
     assert shown.marks[0].x == T.column("gas.volume_dm3")[3]

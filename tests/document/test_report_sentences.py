@@ -203,7 +203,7 @@ def test_no_sentence_of_a_random_engine_is_denied(layout, step, speed, method, d
 
 def test_the_masses_outside_the_limits_are_named():
     text = text_of(engine(source="yamz-236"))
-    assert "удельная масса колена 647,9 кг/м2 (100…400 кг/м²)" in text
+    assert "удельная масса колена 647,9 кг/м2 (100…400 кг/м2)" in text
     assert "Вне пределов" not in text_of(engine(crankshaft__pin_mass_kg=0.8))
 
 
@@ -219,8 +219,13 @@ def test_data_that_the_cycle_does_not_take_stand_in_no_table():
 
 
 def test_a_rod_is_modelled_only_if_its_mass_is_not_given():
-    assert "оценивает модель по диаметру" not in text_of(engine(source="yamz-236"))
-    assert "оценивает модель по диаметру" in text_of(engine())
+    assert "оценены по диаметру цилиндра" not in text_of(engine(source="yamz-236"))
+    page = bare_page(engine())
+    assert "оценены по диаметру цилиндра" in plain(page)
+    named = {row[0]: row for row in printed_rows(page, "Момент инерции и неравномерность хода")}
+    modelled = {row[0]: row for row in printed_rows(page, "Шатун по основным размерам")}
+    assert named["Масса шатуна"][2] == "1,750"  # m2 / (1 - share), not the model's
+    assert named["Масса шатуна"][1] != modelled["Масса шатуна по модели"][1]
 
 
 def test_shafts_are_told_only_if_asked_for():

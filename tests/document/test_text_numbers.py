@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 
 from kshm.nomenclature.digits import Digits, scientific
 from reports.document.text import numbers
-from reports.shared.russian import MINUS, NBSP, fixed
+from reports.formula.tex import input_symbol_tex, number_tex
+from reports.shared.russian import MINUS, NBSP, fixed, runs
 
 
 @pytest.mark.parametrize(
@@ -101,3 +102,14 @@ def test_power_says_the_number(value, decimals):
 def test_what_is_no_number_stays_in_the_middle():
     assert numbers.aligned(["мм", "—", "мин⁻¹", "МПа"]) == ["мм", "—", "мин⁻¹", "МПа"]
     assert numbers.aligned(["5", "—", "10"]) == [NBSP * 2 + "5", "—", "10"]
+
+
+def test_numbers_within_formulas_are_grouped_like_results():
+    assert number_tex(14018.2, 5) == r"14\,018" and number_tex(-6000.0) == "-6000"
+    assert input_symbol_tex("m_1/m_ш") == r"m_{1}/m_{\mathrm{ш}}"
+    assert input_symbol_tex("K_H2") == r"K_{\mathrm{H_2}}"
+
+
+def test_numbers_that_follow_each_other_are_a_stretch():
+    assert runs(["4", "5", "6", "9"]) == [(0, 2), (3, 3)]
+    assert runs(["Б.9", "Б.10", "А.11"]) == [(0, 1), (2, 2)] and runs(["", ""]) == [(0, 0), (1, 1)]

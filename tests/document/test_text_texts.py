@@ -77,3 +77,20 @@ def test_lines_are_filled_whatever_follows_a_space(end, tmp_path):
     firsts = [line for line in text.splitlines() if line.strip().startswith("Моменты")]
     assert len(firsts) == 82
     assert min(len(line.strip()) for line in firsts) > 45
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("в НМТ 5 — на рисунке", "в НМТ 5\xa0— на рисунке"),
+        ('<span class="num">3</span> — Схема', '<span class="num">3</span> — Схема'),
+        ("Размеры: а — вал; б — шатун", "Размеры: а\xa0—\xa0вал; б\xa0—\xa0шатун"),
+        ('Гоца [<a class="ref" href="#x">1</a>]', 'Гоца\xa0[<a class="ref" href="#x">1</a>]'),
+        ('по [<a class="ref">1</a>, формулы (4)', 'по [<a class="ref">1</a>, формулы (4)'),
+        ('по [<a class="ref">1</a>,\xa0п.', 'по\xa0[<a class="ref">1</a>,\xa0п.'),
+        (">А. Н. Гоц в США. Но", ">А.\xa0Н.\xa0Гоц в США. Но"),
+        ("Иванова. — 2-е изд., испр.", 'Иванова.\xa0— <span class="nb">2-е\xa0изд.</span>, испр.'),
+    ],
+)
+def test_no_line_ends_before_a_dash_or_a_reference(text, said):
+    assert texts.unbroken(text) == said

@@ -21,7 +21,9 @@ from reports.tables.registry import build_model
 from tests.conftest import sample
 
 TOKEN = re.compile(
-    r"\\left\||\\right\||\\[a-zA-Z]+|\\[,;! ]|v[0-9]+v|[0-9]+(?:\{,\}[0-9]+)?|\s+|.", re.DOTALL
+    r"\\left\||\\right\||\\[a-zA-Z]+|\\[,;! ]|v[0-9]+v"
+    r"|[0-9]{1,3}(?:\\,[0-9]{3})+(?![0-9])(?:\{,\}[0-9]+)?|[0-9]+(?:\{,\}[0-9]+)?|\s+|.",
+    re.DOTALL,
 )
 FUNCTIONS = {
     r"\sin": math.sin, r"\cos": math.cos, r"\tg": math.tan, r"\arcsin": math.asin,
@@ -93,7 +95,7 @@ class Reader:
         if token[0] == "v":
             return self.values[token]
         if token[0].isdigit():
-            return float(token.replace("{,}", "."))
+            return float(token.replace("{,}", ".").replace(r"\,", ""))
         if token == r"\pi":
             return math.pi
         if token == "{":

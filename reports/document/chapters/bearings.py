@@ -33,6 +33,7 @@ def bearings(chapter: Chapter) -> Markup:
         shown = [f"continuous_{k}" for k in _supports(terms)]
     return chapter.page(
         "bearings",
+        several=len(chapter.shape.pins[0]) > 1,
         worst=chapter.worst("worst_main_load"),
         given=chapter.input.crankshaft.oil_hole_deg is not None,
         bending=chapter.scalars("Изгиб шатунной шейки", _BENDING, keep=True),

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, cast
 from markupsafe import Markup
 
 from reports.document.page.charts import HEIGHT, chart_figure, panels_figure
+from reports.document.page.numbering import Kind
 from reports.document.page.spec_tables import angle_table, scalar_table
 from reports.document.page.style import Style
 from reports.document.page.writer import TablePlan, Writer
@@ -17,6 +18,7 @@ from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms, with_unit
 from reports.inputs.checks.grid import GridError
 from reports.inputs.sections.input_file import InputFile
+from reports.shared.russian import NBSP, joined, runs
 from reports.spec.blocks import Grid, Model
 from reports.spec.shape import Shape
 
@@ -24,6 +26,9 @@ if TYPE_CHECKING:
     from jinja2 import Environment
 
 BOOK = "gots"
+ELSEWHERE = "книги Excel"  # where the tables of chapters that are left out stand
+# Signs of a place in the textbook that stays with the word before it; that stays in one line.
+_SHORT_PLACE, _ONE_FORMULA = 8, 14
 FORMULA = "n:"  # prefix of the keys of formulas of nodes
 
 
@@ -67,13 +72,16 @@ class Chapter:
         return self.input.report.detail == "full"
 
     @property
+    def table_step(self) -> float:
+        """Step of a printed table whose own step is fine [deg]; 0 where all rows stand."""
+        style = cast(Style, self.environment.globals["style"])
+        return 0.0 if self.whole else float(style.table_step_deg)
+
+    @property
     def printed_step(self) -> float:
         """Step of the printed tables over the crank angle [deg]; 0 where all rows stand."""
-        style = cast(Style, self.environment.globals["style"])
-        if self.whole:
-            return 0.0
-        step = self.input.calculation.step_deg
-        return 0.0 if step >= style.table_step_deg else float(style.table_step_deg)
+        step = self.table_step
+        return 0.0 if self.input.calculation.step_deg >= step else step
 
     @property
     def order(self) -> str:
@@ -94,7 +102,7 @@ class Chapter:
             "at": self.example,
         }
         own = ("input", "shape", "example", "exact", "order", "eq", "full", "sub", "ref", "book",
-               "chart", "panels", "told", "printed_step", "whole")  # fmt: skip
+               "tabs", "figs", "chart", "panels", "told", "printed_step", "whole")  # fmt: skip
         names |= {name: getattr(self, name) for name in own}
         text = self.environment.get_template(f"report/{template}.html.j2")
         return Markup(text.render(**names | context))
@@ -122,15 +130,43 @@ class Chapter:
         """Number of a node's formula as a link, in brackets."""
         return self.writer.n.eq(FORMULA + name)
 
-    def book(self, name: str = "", place: str = "") -> Markup:
+    def book(self, *names: str, place: str = "") -> Markup:
         """Reference to the textbook with the place there: «[1, формула (3)]»."""
-        where = place or self.terms.book(name)
+        where = place or self.terms.book(*names)
         link = self.writer.n.refer("source", BOOK)
-        return Markup("[{}, {}]").format(link, where) if where else Markup("[{}]").format(link)
+        if not where:
+            return Markup("[{}]").format(link)
+        if len(where) <= _SHORT_PLACE:
+            return Markup("[{},{}{}]").format(link, NBSP, where.replace(" ", NBSP))
+        look = '<span class="nb">[{}, {}]</span>' if len(where) <= _ONE_FORMULA else "[{}, {}]"
+        return Markup(look).format(link, where)
 
-    def told(self, name: str) -> Markup:
+    def tabs(self, names: Iterable[str]) -> Markup:
+        """Numbers of tables as links: «Б.5–Б.8», «14 и 16»; in the workbook by its numbers."""
+        return self._linked("table", names)
+
+    def figs(self, names: Iterable[str]) -> Markup:
+        """Numbers of figures as links: «19–22»."""
+        return self._linked("figure", names)
+
+    def _linked(self, kind: Kind, names: Iterable[str]) -> Markup:
+        links = [self.writer.n.refer(kind, name) for name in names]
+        place = f" {ELSEWHERE}"  # said once for all of them
+        if all(link.endswith(place) for link in links):
+            links = [link.removesuffix(place) for link in links]
+        else:
+            place = ""
+        stretches = []
+        for first, last in runs([str(link.striptags()) for link in links]):
+            if last - first > 1:
+                stretches.append(links[first] + "–" + links[last])
+            else:
+                stretches += links[first : last + 1]
+        return Markup(joined(stretches) + place)
+
+    def told(self, name: str, *, symbol: bool = False) -> Markup:
         """A scalar with its unit and, where the grid is too coarse for it, with the fine value."""
-        value = self.terms.val(name)
+        value = self.terms.eqv(name) if symbol else self.terms.val(name)
         for error in self.terms.grid_errors:
             if error.key == name:
                 return Markup("{} (при шаге 1° — {})").format(value, self.fine(error))
@@ -184,10 +220,12 @@ class Chapter:
         table: str,
         keys: Sequence[str] | None = None,
         caption: str = "",
+        *,
+        step: float = 0.0,
         **manner: Any,  # noqa: ANN401
     ) -> TablePlan:
-        """A table over the crank angle, whole or some columns of it."""
-        build = partial(angle_table, self.terms, table, keys)
+        """A table over the crank angle, whole or some columns and rows of it."""
+        build = partial(angle_table, self.terms, table, keys, step=step)
         return TablePlan(build, caption or self.model.tables[table].title, **manner)
 
     def grid(self, name: str) -> Grid:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from functools import partial
 
@@ -10,7 +11,7 @@ from markupsafe import Markup
 from reports.document.chapters import facts, oil, torsion
 from reports.document.chapters.chapter import BOOK, Chapter
 from reports.document.chapters.journals import least_ray
-from reports.document.chapters.profiles import chosen
+from reports.document.chapters.profiles import chosen, told
 from reports.document.page.blocks import Column, TableBlock, table_block
 from reports.document.page.spec_tables import angle_table
 from reports.document.page.writer import TablePlan
@@ -18,7 +19,7 @@ from reports.document.text.numbers import of_digits
 from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms
 from reports.inputs.checks.grid import remark_on
-from reports.shared.russian import capital, fixed
+from reports.shared.russian import NBSP, capital, fixed
 from reports.spec.shape import Shape, pin_name, rods_table
 from reports.tables.overview.summary import NO, YES
 from reports.tables.overview.verdicts import reasons_of
@@ -63,8 +64,11 @@ SOURCES = {
         f"Машиностроение, 1975. — 488 с. {_TEXT}.",
 }  # fmt: skip
 
+# Chapters whose results the conclusion repeats.
+_CONCLUDED = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "running"}
+_TEXTBOOKS = re.compile(r"П[\d.]+")  # numbers of the textbook's tables
+_LONG_LIST = 3  # names of tables in a remark that the workbook had better hold
 _MOST_PERCENT = 1000.0  # of a value near zero a difference in percent says nothing
-_PEAK_MPA = 0.005  # half a unit of the last digit that the conclusion prints
 
 
 def checks(chapter: Chapter) -> Markup:
@@ -89,10 +93,18 @@ def _remarks(chapter: Chapter) -> list[str]:
     if "torque" in chosen(chapter.input.report):
         told.append(reasons_of(chapter.input).get("power", ""))
     return [
-        line
+        _without_list(line)
         for line in chapter.terms.model.remarks
         if not any(part and line.endswith(part) for part in told)
     ]
+
+
+def _without_list(remark: str) -> str:
+    """A remark without a list of tables that its reader has never seen."""
+    said, _, names = remark.partition(": «")
+    if names.count("«") < _LONG_LIST:
+        return remark
+    return f"{said}; перечень таблиц, которых поэтому нет, стоит в книге Excel"
 
 
 def _grid_table(chapter: Chapter) -> TableBlock:
@@ -158,6 +170,7 @@ def conclusion(chapter: Chapter) -> Markup:
         verdict=verdict(terms),
         load=chapter.worst("worst_main_load"),
         loads=facts.leaders(terms, [f"Rmain{k}_max" for k in range(1, throws + 2)]),
+        names=told(chapter.input) & _CONCLUDED,
         mains=mains,
         pins=pins,
         pins_count=len(names),
@@ -168,7 +181,7 @@ def conclusion(chapter: Chapter) -> Markup:
         further=_further(chapter),
         step=chapter.input.calculation.step_deg,
         forced=chapter.input.crankshaft.force_offsets_deg is not None,
-        peak=_peak(terms, float(pressure[row])),
+        peak=facts.missed_peak(terms),
         pz=(fixed(float(pressure[row]), 2), fixed(terms.model.tables["gas"].rows[row], 0)),
     )
 
@@ -190,15 +203,8 @@ def verdict(terms: Terms) -> str:
     """How many checks passed, in words."""
     count, bad = len(check_keys(terms)), len(failed(terms))
     if not bad:
-        return f"Все проверки расчёта выполнены ({count} из {count})."
-    return f"Проверок расчёта выполнено {count - bad} из {count}."
-
-
-def _peak(terms: Terms, shown: float) -> Markup | str:
-    """The greatest pressure of the diagram where no row of the table has it."""
-    names = [name for name in ("cyc_p_z", "gas_max_pressure_mpa") if terms.has(name)]
-    off = names and terms.value(names[0]) > shown + _PEAK_MPA
-    return terms.val(names[0]) if off else ""
+        return f"Все проверки расчёта выполнены ({count}{NBSP}из{NBSP}{count})."
+    return f"Проверок расчёта выполнено {count - bad}{NBSP}из{NBSP}{count}."
 
 
 def sources(chapter: Chapter) -> Markup:
@@ -262,7 +268,8 @@ def _plans(
             own_symbols=key in ("gas", "P4_1"),
             step=chapter.printed_step,
         )
-        title = f"{spec.title} ({spec.number})" if spec.number.startswith("П") else spec.title
+        own = _TEXTBOOKS.fullmatch(spec.number)
+        title = f"{spec.title} ({spec.number})" if own else spec.title
         usual = "" if chapter.whole else "dense"
         plan = TablePlan(build, title, number=f"{letter}.{place}", size=size or usual)
         plans.append((key, plan))

@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 from markupsafe import Markup
 
-from kshm.chain.firing_orders import rank_firing_orders
+from kshm.chain.firing_orders import intervals, rank_firing_orders
 from kshm.nomenclature.digits import scientific
 from reports.document.chapters import facts
 from reports.document.chapters.chapter import Chapter
@@ -92,8 +92,8 @@ def companions(chapter: Chapter) -> Markup:
             partial(_orders, terms, banks=banks),
             "Свободные силы и моменты инерции по порядкам", keep=True,
         ),
-        "torque": chapter.columns(
-            "torque_orders", _TORQUE,
+        "torque": TablePlan(
+            partial(_counted, terms, "torque_orders", _TORQUE),
             "Гармоники удельной тангенциальной силы и момента двигателя", keep=True,
         ),
         "inverse": chapter.columns(
@@ -115,16 +115,26 @@ def companions(chapter: Chapter) -> Markup:
         shafts=bool({"first_shafts", "second_shafts"} & asked),
         shafts_second="second_shafts" in asked,
         devices=joined([word for key, word in _DEVICES.items() if key in asked] or [""]),
+        round=all(_is_round(terms, f"{letter}1_before") for letter in "FL"),
         over_turn=_over_turn(terms, after=after),
         flywheel=_fine_flywheel(chapter),
         rod_given=chapter.input.masses.rod_kg is not None,
     )
 
 
+def _counted(terms: Terms, table: str, keys: Sequence[str]) -> TableBlock:
+    """A table over the orders; where none of them is a half they are whole numbers."""
+    block = angle_table(terms, table, keys)
+    ends = {str(row[0])[-2:] for row in block.rows}
+    if ends != {",0"}:
+        return block
+    return replace(block, rows=tuple((str(row[0])[:-2], *row[1:]) for row in block.rows))
+
+
 def _orders(terms: Terms, *, banks: bool) -> TableBlock:
     """Forces and moments by orders; what is printed as zero has no direction."""
     keys = _ORDERS_OF_BANKS if banks else _ORDERS
-    block = angle_table(terms, "balance_orders", keys)
+    block = _counted(terms, "balance_orders", keys)
     directions = {keys.index(key): keys.index(key.replace("dir_deg", unit))
                   for key, unit in (("F_order_dir_deg", "kN"), ("M_order_dir_deg", "Nm"))
                   if key in keys}  # fmt: skip
@@ -176,18 +186,23 @@ def _over_turn(terms: Terms, *, after: bool) -> list[str]:
 
 def _vectors(chapter: Chapter, *, after: bool) -> dict[str, TablePlan | None]:
     """Rotating masses and first orders of what is not balanced; after balancing if asked for."""
-    keys = [
-        key
-        for letter in "FL"
-        if not _is_balanced(chapter.terms, letter)
-        for key in (
-            f"{letter}rot_bare", f"{letter}rot",
-            *(f"{letter}1_{name}_{part}" for name in ("before", *(("after",) if after else ()))
-              for part in ("max", "min", "deg")),
-        )
-    ]  # fmt: skip
+    terms, keys = chapter.terms, []
+    for letter in "FL":
+        firsts = [f"{letter}1_{name}" for name in ("before", *(("after",) if after else ()))]
+        # A circle has no direction of its greatest radius.
+        of = [f"{letter}rot_bare", f"{letter}rot"]
+        for first in firsts:
+            parts = ("max", "min") if _is_round(terms, first) else ("max", "min", "deg")
+            of += [f"{first}_{part}" for part in parts]
+        if not _is_balanced(terms, letter) and any(terms.num(key).strip(_ZERO) for key in of):
+            keys += of
     caption = "Вращающиеся массы и векторы первого порядка"
     return {"vectors": chapter.scalars(caption, keys, size="dense", keep=True) if keys else None}
+
+
+def _is_round(terms: Terms, first: str) -> bool:
+    """Whether the vector of the first order goes round a circle, as printed."""
+    return terms.num(f"{first}_max") == terms.num(f"{first}_min")
 
 
 def _devices(chapter: Chapter, asked: set[str]) -> TablePlan | None:
@@ -214,14 +229,16 @@ def _fine_flywheel(chapter: Chapter) -> Markup | str:
 def _firing(chapter: Chapter) -> TableBlock:
     """The best firing orders with the greatest load of a main journal."""
     columns = [
-        Column("Порядок работы", 2.0),
-        Column("Неравномерность чередования", 1.6),
-        Column(symbol_head(r"\Sigma_{0{,}5}", ""), 1.2),
+        Column("Порядок работы", 1.7),
+        Column("Промежутки, °", 3.2),
+        Column("Неравномерность чередования", 1.9),
+        Column(symbol_head(r"\Sigma_{0{,}5}", ""), 0.9),
         Column(symbol_head(r"R_{\mathrm{к.ш}\,\max}", "кН"), 1.4),
     ]
     rows = [
         (
             "–".join(map(str, ranked.order)),
+            ", ".join(fixed(gap, 0) for gap in np.degrees(intervals(np.array(ranked.offsets)))),
             fixed(ranked.unevenness, 3),
             fixed(ranked.half_order if np.abs(ranked.half_order) > 1e-9 else 0.0, 3),
             fixed(ranked.journal_load / 1000, 2),

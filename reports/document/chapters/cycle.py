@@ -48,7 +48,6 @@ def cycle(chapter: Chapter) -> Markup:
     terms = chapter.terms
     petrol = section.kind == "petrol"
     species = ("CO2", "CO", "H2O", "H2", "O2", "N2") if petrol else ("CO2", "H2O", "O2", "N2")
-    verdicts = [str(terms.values.scalars[f"range_{key}"]) for key in _range_keys(terms)]
     last = len(terms.model.tables["cycle_diagram"].rows) - 1
     return chapter.page(
         "cycle",
@@ -66,7 +65,7 @@ def cycle(chapter: Chapter) -> Markup:
         corners=[("$a$", 0), ("$z'$", terms.row("cycle_diagram", 360.0)), ("$b$", last)],
         speed_step=500.0 if float(terms.column("speed.speed_n")[-1]) <= 5000 else 1000.0,
         sourced=_are_sourced(terms),
-        inside=(verdicts.count(INSIDE), len(verdicts)),
+        outside=_outside(terms),
         turbine_enough=is_boosted(section) and terms.value("cyc_N_t") >= terms.value("cyc_N_k"),
         residual_gap=fixed(terms.value("value_cycle_Tr"), 1),
     )
@@ -88,7 +87,9 @@ def _tables(chapter: Chapter) -> dict[str, TablePlan]:
         "effective": chapter.scalars("Эффективные показатели", _EFFECTIVE, **dense),
         "balance": TablePlan(partial(_balance, terms), "Тепловой баланс", keep=True),
         "diagram": chapter.columns(
-            "cycle_diagram", caption="Индикаторная диаграмма цикла по точкам"
+            "cycle_diagram",
+            caption="Индикаторная диаграмма цикла по точкам",
+            step=chapter.table_step,
         ),
         "speed": chapter.columns("speed", caption="Внешняя скоростная характеристика", keep=True),
         "ranges": TablePlan(
@@ -117,7 +118,8 @@ def _passes(chapter: Chapter, name: str) -> TableBlock:
     cells: list[list[str]] = [[str(i + 1) for i in range(len(grid.labels))]]
     for row in grid.rows:
         q = row.quantity
-        columns.append(Column(symbol_head(q.tex, q.unit_label)))
+        tex = q.tex.replace("n -", f"n_{name[-1]} -")  # of n₁ or n₂
+        columns.append(Column(symbol_head(tex, q.unit_label)))
         digits = replace(q.digits, decimals=min(q.digits.decimals, _MOST_DECIMALS))
         cells.append(
             [numbers.of_digits(terms.value(c.key), digits) for c in row.cells if c is not None]
@@ -148,6 +150,14 @@ def _range_keys(terms: Terms) -> list[str]:
     return [k.removeprefix(prefix) for k in terms.model.scalars if k.startswith(prefix)]
 
 
+def _outside(terms: Terms) -> list[Markup]:
+    """What lies outside its usual limits, without its unit."""
+    keys = [key for key in _range_keys(terms) if terms.values.scalars[f"range_{key}"] != INSIDE]
+    notes = (terms.model.scalars[f"range_value_{key}"].note for key in keys)
+    titles = (note.partition(": обычно ")[0].partition(", ")[0] for note in notes)
+    return [titled_html(title[:1].lower() + title[1:]) for title in titles]
+
+
 def _ranges(terms: Terms) -> TableBlock:
     columns = [
         Column("Величина", 4.6, text=True),
@@ -166,7 +176,9 @@ def _ranges(terms: Terms) -> TableBlock:
         shown = fixed(value, 0 if abs(value) >= 100 else 2 if abs(value) >= 1 else 3)
         verdict = str(terms.values.scalars[f"range_{key}"])
         place = ("—" if scalar.source == UNCHECKED else scalar.source,) if sourced else ()
-        rows.append([titled_html(title), shown, usual.replace("-", MINUS), verdict, *place])
+        low, _, high = usual.partition("…")
+        limits = (low if low == high else usual).replace("-", MINUS)
+        rows.append([titled_html(title), shown, limits, verdict, *place])
     return table_block(columns, rows)
 
 

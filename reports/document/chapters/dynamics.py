@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 from markupsafe import Markup
 
+from reports.document.chapters import facts
 from reports.document.chapters.chapter import Chapter
 from reports.document.chapters.layout import rods_text
 from reports.document.page.blocks import Column, TableBlock, table_block
@@ -14,6 +15,7 @@ from reports.document.page.charts import Row
 from reports.document.page.writer import TablePlan
 from reports.document.text.terms import Terms
 from reports.document.text.texcases import cases
+from reports.document.text.texts import rich
 from reports.inputs.sections.gas import RoundedGasSection, TableGasSection
 from reports.shared.russian import fixed
 from reports.spec.blocks import ScalarTable
@@ -33,8 +35,9 @@ def dynamics(chapter: Chapter) -> Markup:
     polytropic = not isinstance(gas, TableGasSection | RoundedGasSection)
     return chapter.page(
         "dynamics",
+        peak=facts.missed_peak(terms),
         corners=_corners(terms, two_stroke=chapter.shape.strokes == 2),
-        points=chapter.scalars("Характерные точки индикаторной диаграммы", _POINTS),
+        points=chapter.scalars("Характерные точки индикаторной диаграммы", _POINTS, keep=True),
         polytropic=polytropic,
         rounded=partial(_rounded_text, chapter),
         smooth=is_smooth(chapter.input),
@@ -82,7 +85,7 @@ def _outside(terms: Terms, verdict: str, limits: str) -> Markup:
     """What lies outside the limits of table 4, with its value."""
     name = verdict.removesuffix("_fits")
     said = limits.partition(": ")[2] or limits.rpartition(" ")[2]
-    return Markup("{} {} ({})").format(terms.title(name), terms.val(name), said)
+    return Markup("{} {} ({})").format(terms.title(name), terms.val(name), rich(said))
 
 
 def _rounded_text(chapter: Chapter) -> Markup:

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from markupsafe import Markup
 
 from reports.document.text.terms import Terms
 
+_PEAK_MPA = 0.005  # half a unit of the last digit that the conclusion prints
 _NOTHING = 2e-3  # of what it is measured by: no table and no curve shows it
 
 
@@ -16,6 +18,13 @@ def leaders(terms: Terms, names: Sequence[str]) -> list[int]:
     values = [terms.value(name) for name in names]
     most = terms.num(names[int(np.argmax(values))])
     return [number for number, name in enumerate(names, 1) if terms.num(name) == most]
+
+
+def missed_peak(terms: Terms) -> Markup | str:
+    """The greatest pressure of the diagram where no row of the table has it."""
+    names = [name for name in ("cyc_p_z", "gas_max_pressure_mpa") if terms.has(name)]
+    shown = float(terms.column("gas.p_MPa").max())
+    return terms.val(names[0]) if names and terms.value(names[0]) > shown + _PEAK_MPA else ""
 
 
 def worst_running(terms: Terms, throws: int) -> tuple[list[int], list[int]]:

@@ -78,6 +78,7 @@ def abstract(chapter: Chapter) -> Words:
         "tables": n.count("table"),
         "sources": n.count("source"),
         "appendices": sum(item.title.startswith("Приложение") for item in n.contents),
+        "names": names,
         "keywords": [word.upper() for word in words],
     }
 

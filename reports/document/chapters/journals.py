@@ -17,7 +17,7 @@ from reports.document.page.blocks import Column, TableBlock, symbol_head, table_
 from reports.document.page.spec_tables import grid_table
 from reports.document.page.writer import Figure, TablePlan
 from reports.document.text.terms import Terms
-from reports.shared.russian import capital, fixed
+from reports.shared.russian import capital, fixed, joined
 from reports.spec.shape import pin_name
 
 _FORCES = ("C1", "C2", "C3", "C4", "C5", "C6", "C7", "C8", "C9", "C10", "C11", "C12", "C13",
@@ -50,6 +50,8 @@ def crankpin(chapter: Chapter) -> Markup:
         "crankpin",
         several=pins[0] if len(pins[0]) > 1 else (),
         others=numbers[1:],
+        tables=[_pin_table(n) for n in numbers[1:]],
+        diagrams=[f"{figure}_{n}" for n in numbers[1:] for figure in ("fig50", "fig52")],
         same_curves=facts.are_alike(terms, [f"{_pin_table(n)}.Rpin_MPa" for n in numbers]),
         same_loads=all(
             len(facts.leaders(terms, [key.format(name) for name in names])) == len(names)
@@ -98,6 +100,7 @@ def journals(chapter: Chapter) -> Markup:
     terms, rays, throws = chapter.terms, chapter.input.calculation.wear_rays, chapter.shape.throws
     numbers = range(1, throws + 2)
     k = chapter.worst("worst_main_load")
+    drawn = numbers if chapter.whole else [k]
     neighbours = [("a", k - 1, "правой"), ("b", k, "левой")]
     size = "" if throws <= 5 else "dense" if throws <= 7 else "tiny"
     loads = partial(
@@ -112,7 +115,9 @@ def journals(chapter: Chapter) -> Markup:
         throws=throws,
         arms=[name for name in _ARMS if terms.has(name)],
         numbers=numbers,
-        drawn=numbers if chapter.whole else [k],
+        tables=[f"P4_3_{n}" for n in numbers],
+        drawn=drawn,
+        curves=[f"fig55_{n}" for n in drawn],
         forces=_throws(chapter, _FORCES, "Центробежные силы колен", size),
         reactions=_throws(
             chapter, _REACTIONS, "Пролёты колен и реакции опор от центробежных сил", size
@@ -158,10 +163,11 @@ def _load(terms: Terms, key: str, name: str) -> str:
 def _sums(terms: Terms, numbers: Sequence[int], rays: int) -> TablePlan:
     names = [f"main{k}" for k in numbers]
     heads = [rf"\Sigma R'_{{{k}}}" for k in numbers]
-    said = f"{numbers[0]}–{numbers[-1]}" if len(numbers) > 1 else str(numbers[0])
+    ends = f"{numbers[0]}–{numbers[-1]}" if len(numbers) > 2 else joined(numbers)
+    whose = "коренных шеек" if len(numbers) > 1 else "коренной шейки"
     return TablePlan(
         partial(_ray_sums, terms, names, heads, rays),
-        f"Суммы удельных сил по лучам коренных шеек {said}",
+        f"Суммы удельных сил по лучам {whose} {ends}",
         keep=True,
         size="dense" if len(numbers) > 4 else "",
     )

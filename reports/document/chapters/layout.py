@@ -35,5 +35,6 @@ def rods_text(chapter: Chapter) -> Markup:
     shape = chapter.shape
     if shape.single_rods:
         return Markup("")
+    tables = [rods_table(k) for k in range(1, shape.throws + 1)]
     hung = f"cylinder_{shape.cylinders}" if shape.articulated else ""
-    return chapter.page("rods", rods=rods_table(1), group=shape.groups[0], hung=hung)
+    return chapter.page("rods", rods=rods_table(1), group=shape.groups[0], hung=hung, tables=tables)

@@ -57,6 +57,7 @@ def notation(chapter: Chapter) -> Markup:
 
 # What the introduction says was found, by chapter.
 _FOUND = (
+    ("cycle", "показатели рабочего цикла"),
     ("kinematics", "перемещение, скорость и ускорение поршня"),
     ("kinematics", "качание шатуна"),
     ("dynamics", "силы в механизме"),
@@ -73,8 +74,11 @@ _FOUND = (
 def introduction(chapter: Chapter) -> Markup:
     """Introduction: what is computed and how."""
     names = told(chapter.input)
-    found = joined([what for name, what in _FOUND if name in names])
-    return chapter.page("introduction", found=found, appended="appendices" in names)
+    # Some things have an «и» of their own.
+    found = joined([what for name, what in _FOUND if name in names], ", а также ")
+    return chapter.page(
+        "introduction", found=found, cycle="cycle" in names, appended="appendices" in names
+    )
 
 
 def input_data(chapter: Chapter) -> Markup:

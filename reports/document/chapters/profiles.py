@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.report import Report
+from reports.spec.shape import Shape
 from reports.tables.gas.cycle_names import section_of
 
 _ALWAYS = {"notation", "introduction", "inputs", "conclusion", "sources"}
@@ -24,4 +25,6 @@ def told(model: InputFile) -> set[str]:
     lacking = {"torsion"} if model.torsion is None else set()
     lacking |= {"oil"} if model.bearings is None else set()
     lacking |= {"cycle"} if section_of(model) is None else set()
+    shape = Shape.of(model)
+    lacking |= {"companions"} if shape.offset or shape.articulated else set()
     return chosen(model.report) - lacking

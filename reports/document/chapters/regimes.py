@@ -28,9 +28,11 @@ def regimes(chapter: Chapter) -> Markup:
     """Comparison of the regimes; nothing for one regime."""
     if not chapter.input.regimes:
         return Markup("")
+    titles = regime_titles(chapter.input)
     return chapter.page(
         "regimes",
-        titles=regime_titles(chapter.input),
+        titles=titles,
+        figures=[f"regime_{n}" for n in range(1, len(titles) + 1)],
         data=TablePlan(partial(_inputs, chapter), "Данные дополнительных режимов", size="dense"),
         loads=TablePlan(partial(_loads, chapter), "Силы и нагрузки по режимам", size="dense"),
         governing=_governing(chapter),

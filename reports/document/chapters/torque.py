@@ -85,7 +85,7 @@ def running(chapter: Chapter) -> Markup:
         "running",
         shown=[*_figures(main), *_figures(pins)],
         some=not chapter.whole and count > 1,
-        ranges=TablePlan(partial(_ranges, terms, count), "Размах набегающих моментов"),
+        ranges=TablePlan(partial(_ranges, terms, count), "Размах набегающих моментов", keep=True),
         last=count + 1,
         count=count,
         gap=fixed(gap, 1) if gap > 0.05 else "",

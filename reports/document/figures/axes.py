@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from reports.document.figures.labels import Box
+from reports.document.figures.labels import Box, line_box, shown
 from reports.document.figures.sheet import Sheet
 from reports.document.figures.style import AXIS, EDGE, FONT_SIZE, GRID, SMALL, Look
 from reports.document.figures.ticks import Ticks
 
+_GAP = 3.0  # between the texts of neighbouring marks [pt]
 _TOP = 0.75  # of the type above the baseline, which half a number's height stands off its mark
 
 
@@ -71,7 +75,7 @@ class Axes:
         page.lines(grid, GRID, 0.5)
         down = self.reverse[1]
         height = high + pads[0] + (1 - _TOP) * SMALL if down else low - pads[0] - _TOP * SMALL
-        for x, text in zip(xs, self.x.texts, strict=True):
+        for x, text in zip(xs, _uncrowded(xs, self.x), strict=True):
             if text:
                 page.text((x, height), text, SMALL, middle=False, layer=0.6)
         left_side = not self.reverse[0]
@@ -90,10 +94,21 @@ class Axes:
 
     def name_y(self, text: str) -> None:
         """Name and unit of the vertical axis above its upper end."""
-        place = (self.field[0] - 8, self.field[3] + 7)
+        deep = line_box(shown(text), FONT_SIZE)[2]  # below it the number of the upper end stands
+        place = (self.field[0] - 8, self.field[3] + max(7.0, deep + _TOP * SMALL / 2 + 1.5))
         self.page.text(place, text, FONT_SIZE, align=0.0, middle=False)
 
     def name_x(self, text: str) -> None:
         """Name and unit of the horizontal axis at its right end, in line with the numbers."""
         place = (self.field[2] + 11, self.field[1] - 3 - 0.76 * SMALL)
         self.page.text(place, text, FONT_SIZE, align=0.0, middle=False)
+
+
+def _uncrowded(places: Sequence[float], ticks: Ticks) -> Sequence[str]:
+    """Texts of marks; of marks closer than their texts are wide every second or third, with 0."""
+    widest = ticks.width() + _GAP
+    named = [place for place, text in zip(places, ticks.texts, strict=True) if text]
+    nearest = min((abs(b - a) for a, b in pairwise(named)), default=widest)
+    every = math.ceil(widest / nearest - 1e-9)
+    zero = next((n for n, place in enumerate(ticks.places) if abs(place) < 1e-12), 0)
+    return [text if (n - zero) % every == 0 else "" for n, text in enumerate(ticks.texts)]

@@ -108,11 +108,11 @@ def _hole(pen: Pen, centre: Point, radius: float, degrees: float) -> None:
     pen.shape([at(deep, 1), at(radius, 1), at(radius, -1), at(deep, -1)], fill="#ffffff", width=0)
     pen.line([at(radius, 1), at(deep, 1), at(deep, -1), at(radius, -1)], 1.3)
     pen.line([centre, at(radius + 10, 0)], THIN, CENTRE)
-    shorter = (degrees + 180) % 360 - 180
-    if abs(shorter) > 1:
-        arc, end = radius * 0.24, -math.radians(shorter)
+    turn = degrees % 360
+    if turn > 1:
+        arc, end = radius * 0.24, -math.radians(turn)
         pen.arc(centre, arc, 0.0, end, arrow=True)
-        pen.text(polar(centre, arc + 14, end / 2), f"{fixed(abs(shorter), 0)}°", SMALL)
+        pen.text(polar(centre, arc + 14, end / 2), f"{fixed(turn, 0)}°", SMALL)
 
 
 def _scale(pen: Pen, place: Point, factor: float, largest: float) -> None:

@@ -22,6 +22,7 @@ from reports.document.text.tex import GREEK
 from reports.formula.numeric import evaluate
 from reports.shared.russian import NBSP, fixed
 from reports.spec.charts import ChartSpec, Series
+from reports.spec.extremes import TIE
 
 HEIGHT = 76.0  # mm
 _LETTER = "A-Za-zΑ-Ωα-ω"
@@ -93,6 +94,7 @@ def _curves(
 
 
 Column = NDArray[np.float64]
+_TIE = float(TIE)
 _NOISE = 1e-9  # of a curve's largest ordinate: what sums leave where they are zero
 
 
@@ -109,7 +111,8 @@ def _something(
     series: Sequence[Series], columns: Sequence[Column]
 ) -> tuple[Sequence[Series], Sequence[Column]]:
     """Without curves that are zero all along beside others that are not."""
-    kept = [place for place, column in enumerate(columns) if np.any(column)]
+    sizes = [float(np.abs(column).max(initial=0.0)) for column in columns]
+    kept = [place for place, size in enumerate(sizes) if size > _NOISE * max(sizes)]
     places = kept or range(len(columns))
     return [series[place] for place in places], [columns[place] for place in places]
 
@@ -122,7 +125,12 @@ def _panel(
     x, y = terms.column(drawn[0].x), terms.column(drawn[0].y)
     marked = len(columns[0]) > len(x)
     if chart.extremes:
-        rows = (*rows, ("max", int(np.argmax(y))), ("min", int(np.argmin(y))))
+        # Of equal extremes the first, as the text says.
+        high, low = (
+            np.isclose(y, y.max(), rtol=0, atol=_TIE),
+            np.isclose(y, y.min(), rtol=0, atol=_TIE),
+        )
+        rows = (*rows, ("max", int(high.argmax())), ("min", int(low.argmax())))
     title = chart.y_tex or (_axis(terms, drawn[0].y) if len(drawn) == 1 else _tex(chart.y_title))
     return Panel(
         tuple(

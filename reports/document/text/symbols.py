@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from markupsafe import Markup, escape
 
 from reports.document.text.tex import GREEK, Node, TexError, tree
+from reports.document.text.texts import powers
 from reports.shared.russian import MINUS, NBSP
 
 SIGNS = {
@@ -58,13 +59,16 @@ def titled_html(title: str) -> Markup:
     for match in _IN_TITLE.finditer(title):
         pieces += [str(escape(title[end : match.start()])), _in_title(match)]
         end = match.end()
-    return Markup("".join([*pieces, str(escape(title[end:]))]))
+    whole = "".join([*pieces, str(escape(title[end:]))])
+    return Markup(powers(whole, "<sup>{}</sup>"))
 
 
 def _in_title(match: re.Match[str]) -> str:
     letter, index = match.groups()
     if letter == "Δ":
         return f"Δ<sub>{index}</sub>"
+    if letter + (index or "") == "ωr":  # a product
+        return "<i>ωr</i>"
     upright = letter in _ELEMENTS and index is not None and index.isdigit()
     shown = letter if upright else f"<i>{letter}</i>"
     if index is None:

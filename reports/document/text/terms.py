@@ -22,6 +22,7 @@ from reports.inputs.fields import Field
 from reports.shared.russian import NBSP, fixed
 from reports.spec.blocks import Column, Model, Scalar
 from reports.spec.evaluation import Values
+from reports.spec.shape import TIMING
 
 # Symbols that would be ambiguous within a formula.
 _SYMBOLS = {
@@ -35,7 +36,9 @@ _SYMBOLS = {
     "share2": r"\dfrac{a_{\mathrm{п}2}}{l}",
     "psi_deg": r"\psi",
     "throw": "",
+    TIMING: r"\varphi",  # of one cylinder the same angle, counted on past the end of the cycle
 }
+_TORQUE = re.compile(r"(?:P4_1|cylinder_(\d+))\.M_Nm")
 _SIGNIFICANT = 5
 _NO_SPACE = {"°"}
 
@@ -214,15 +217,23 @@ class Terms:
         """All branches of a formula with choices."""
         return formulas.pieces(self._node_expr(name), self._symbols(name))
 
-    def book(self, name: str) -> str:
-        """Where the book has it: «формула (3)», «формулы (51), (53)», «п. 2.8», empty else."""
-        node = self._node(name)
-        source = node.source if isinstance(node, Scalar | Column) else ""
-        return book_place(source)
+    def book(self, *names: str) -> str:
+        """Where the book has them: «формула (3)», «формулы (51), (53)», «п. 2.8», empty else."""
+        nodes = map(self._node, names)
+        sources = [node.source for node in nodes if isinstance(node, Scalar | Column)]
+        return book_place(*sources)
 
     def _symbols(self, name: str) -> formulas.Symbols:
         table = name.rpartition(".")[0]
-        return lambda inner: self.tex(self._global(inner, table))
+
+        def symbol(inner: str) -> str:
+            node = self._global(inner, table)
+            torque = _TORQUE.fullmatch(node)
+            if torque and not node.startswith(f"{table}."):  # of one cylinder among others
+                return rf"M_{{{torque[1] or 1}\mathrm{{ц}}}}"
+            return self.tex(node)
+
+        return symbol
 
     def _global(self, inner: str, table: str) -> str:
         local = f"{table}.{inner}"
@@ -286,14 +297,18 @@ def with_unit(number: str, unit: str) -> Markup:
     return Markup(look).format(number, space, rich(unit))
 
 
-def book_place(source: str) -> str:
-    """Place in the textbook from the source of a specification; empty for other sources."""
-    if not source.startswith("Гоц"):
-        return ""
-    formulas_named = re.findall(r"\(\d+[а-я]?\)", source)
-    if formulas_named:
-        word = "формула" if len(formulas_named) == 1 else "формулы"
-        return f"{word}\u00a0{', '.join(formulas_named)}"
+def book_place(*sources: str) -> str:
+    """Places in the textbook from sources of specifications; empty for other sources."""
+    own = [source for source in sources if source.startswith("Гоц")]
+    named = list(dict.fromkeys(n for source in own for n in re.findall(r"\(\d+[а-я]?\)", source)))
+    word = "формула" if len(named) == 1 else "формулы"
+    places = [f"{word}\u00a0{', '.join(named)}"] if named else []
+    others = (_section_place(source) for source in own if not re.search(r"\(\d+[а-я]?\)", source))
+    return ", ".join([*places, *dict.fromkeys(place for place in others if place)])
+
+
+def _section_place(source: str) -> str:
+    """A figure, a table or a section that a source names instead of a formula."""
     match = re.search(r"(рис|табл)\.\s*(\d+)", source)
     if match:
         return f"{match.group(1)}.\u00a0{match.group(2)}"

@@ -74,14 +74,23 @@ _SPACE_BEFORE = re.compile('([ \u00a0])(<(?:a(?! class="ref")|i)\\b[^<>]*>)')
 _SPACE_BEFORE_UNBROKEN = re.compile('([ \u00a0])(<span class="nb">|<a class="ref")')
 
 
-# A lone capital with a point before another capital: initials, «А. Н. Гоц».
-_INITIAL = re.compile(r"(?<![А-ЯЁа-яёA-Za-z])([А-ЯЁ]\.) (?=[А-ЯЁ])")
+# Spaces that no line ends at: of initials, «А. Н. Гоц»; before a short reference, «Гоца [1]»,
+# and a dash, but not the one of a caption after its number; within «а — размеры».
+_UNBROKEN = re.compile(
+    r"(?<=[^А-ЯЁа-яёA-Za-z][А-ЯЁ]\.) (?=[А-ЯЁ])"
+    rf'| (?=\[<a class="ref"[^<>]*>\d+</a>(?:\]|,{NBSP}|, <a))'
+    r"|(?<!</span>) (?=— )"
+    r"|(?<=[ :;][а-е] —) "
+)
 
 
-def unbroken_initials(page: str) -> str:
-    """Keep initials on the line of their surname, not in the data of the head."""
-    head, body, text = page.partition("<body>")
-    return head + body + _INITIAL.sub(rf"\1{NBSP}", text)
+# A line may end at its hyphen, unlike at a no-break space.
+_EDITION = re.compile(r"(?<=[ \u00a0])(\d-е) изд\.")
+
+
+def unbroken(body: str) -> str:
+    """Make the spaces of a text that no line may end at spaces that do not break."""
+    return _EDITION.sub(rf'<span class="nb">\1{NBSP}изд.</span>', _UNBROKEN.sub(NBSP, body))
 
 
 def spaces_inside(page: str) -> str:

@@ -25,6 +25,7 @@ _KINDS = tuple(
         "M_(mean|max|min)", "I_flywheel|delta_speed|W_range", "N_i_calc|p_i_area|W_cycle",
         "Rpin[_0-9]*_max(_kN)?|Rmain[0-9]+_max(_kN)?|B_max", "dM_(main|pin)[0-9]+",
         "Rpin[_0-9]*_mean|Rmain[0-9]+_mean|B_mean", "Rpin[_0-9]*_min|Rmain[0-9]+_min",
+        "Malpha_(max|min|swing|mean)",
     )
 )  # fmt: skip
 

@@ -87,9 +87,10 @@ def _bearing_results() -> tuple[Block, ...]:
 
 def _bending(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
     """Projections of R_к on planes through the pin's axis, Gots 2.6."""
-    inward, ahead = "crankpin.Ksum_MPa", "crankpin.T_MPa"
+    inward, ahead, across = "crankpin.Ksum_MPa", "crankpin.T_MPa", "T_MPa"
     if not shape.single_rods:
         inward, ahead = f"{rods_table(1)}.Ksum_MPa", f"{rods_table(1)}.Tsum_MPa"
+        across = "T_MPa of Tthrow_MPa"
 
     def on(plane: str) -> str:
         return f"{inward}*cos(rad({plane})) + T_MPa*sin(rad({plane}))"
@@ -101,7 +102,7 @@ def _bending(shape: Shape, rows: tuple[float, ...]) -> TableSpec:
         BENDING,
         (
             *column_list("phi_deg"),
-            *column_list(f"helpers:\nT_MPa = {ahead} | Гоц (37)"),
+            *column_list(f"helpers:\n{across} = {ahead} | Гоц (37)"),
             *column_list(
                 f"Ralpha_MPa = {on('alpha_oil_deg')} | Гоц, 2.6",
                 "Malpha_Nm = of_MPa(Ralpha_MPa)*F_piston*of_mm(throw1_length)/4 | Гоц, 2.6: Rl/4",

@@ -44,10 +44,14 @@ def _crankpin(shape: Shape, number: int, rows: tuple[float, ...]) -> TableSpec:
     columns = [Column("phi_deg", None)]
     for axis, formula in (("T", "Гоц (37)"), ("K", "Гоц (36)")):
         terms = " + ".join(f"{cylinder_table_id(i)}.{axis}_MPa" for i in group)
-        columns.append(Column(f"{axis}_MPa", terms, formula if len(group) == 1 else "Гоц, 2.6"))
+        if len(group) == 1:
+            columns.append(Column(f"{axis}_MPa", terms, formula))
+        else:
+            columns.append(Column(f"{axis}_MPa", terms, "Гоц, 2.6", of=f"{axis}throw_MPa"))
+    normal = "Krod_MPa" if len(group) == 1 else "Krod_MPa of Kpin_MPa"
     columns += [
         *column_list(f"""
-            Krod_MPa = K_MPa - {centrifugal} | Гоц (40)
+            {normal} = K_MPa - {centrifugal} | Гоц (40)
             Rpin_MPa = sqrt(Krod_MPa**2 + T_MPa**2) | Гоц (41)
             psi_deg = {angle("T_MPa", "Krod_MPa")} | Гоц, 2.6: tgψ = T/(K − Kr ш)
         """),
@@ -111,6 +115,7 @@ def _rods(shape: Shape, throw: int, rows: tuple[float, ...]) -> TableSpec:
         ahead = f" + {sin}*(K_r_rod + {own})"
     mass = f"({on_throw} + web_{2 * throw - 1}_mass_kg + web_{2 * throw}_mass_kg)"
     throw_force = f"to_MPa({mass}*r_crank*omega**2/F_piston)"
+    across = "Tsum_MPa" if ahead else "Tthrow_MPa"
     source = "Гоц, 2.7, рис. 36"
     return TableSpec(
         rods_table(throw),
@@ -123,13 +128,13 @@ def _rods(shape: Shape, throw: int, rows: tuple[float, ...]) -> TableSpec:
             Kleft_MPa = {left}.K_MPa | {source}
             Tright_MPa = {turned["T"]} | {source}
             Kright_MPa = {turned["K"]} | {source}
-            T_MPa = Tleft_MPa + Tright_MPa | Гоц, 2.6
-            K_MPa = Kleft_MPa + Kright_MPa | Гоц, 2.6
+            T_MPa of Tthrow_MPa = Tleft_MPa + Tright_MPa | Гоц, 2.6
+            K_MPa of Kthrow_MPa = Kleft_MPa + Kright_MPa | Гоц, 2.6
             Rthrow_MPa = sqrt(Ksum_MPa**2 + Tsum_MPa**2) | Гоц (42)
             Mthrow_Nm of Mthrow{throw}_Nm = {left}.M_Nm + {right}.M_Nm | Гоц, 2.8
             helpers:
             Ksum_MPa = K_MPa - {rods} - {throw_force} | Гоц (42)
-            Tsum_MPa of T_MPa = T_MPa{ahead} | Гоц (42)
+            Tsum_MPa of {across} = T_MPa{ahead} | Гоц (42)
         """),
         rows,
         note=(

@@ -37,10 +37,10 @@ def _torque(model: InputFile, shape: Shape) -> ScalarTable:
     efficiency, power, fullness = (
         "regime_mechanical_efficiency",
         "regime_indicated_power_kw",
-        "regime_fullness",
+        "*regime_fullness",
     )
     if section_of(model) is not None:
-        efficiency, power, fullness = "cyc_eta_m", "cyc_N_gas", "1"
+        efficiency, power, fullness = "cyc_eta_m", "cyc_N_gas", ""
     scalars = [
         Scalar("M_mean", "col_mean(P4_2.Msum_Nm)", "Гоц, 2.8"),
         *extreme_scalars("P4_2", "Msum_Nm", "M", "Гоц, 2.9"),
@@ -60,7 +60,7 @@ def _torque(model: InputFile, shape: Shape) -> ScalarTable:
         ),
     ]
     if _power_is_known(model):
-        reference = f"30/pi*of_kW({power})/(regime_speed_rpm*r_crank*F_piston*{fullness})"
+        reference = f"30/pi*of_kW({power})/(regime_speed_rpm*r_crank*F_piston{fullness})"
         scalars += [
             *scalar_list(f"""
                 T_ref = to_MPa({reference}) | Гоц, 2.8

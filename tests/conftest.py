@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 from functools import lru_cache
 from pathlib import Path
@@ -122,18 +123,44 @@ FIRST_ALONE = (
 )
 
 
+# Files that look at the same finished reports.
+REPORTS = ("browser", "figures", "pdf", "sheets", "tags", "text")
+
+
+@pytest.hookimpl(tryfirst=True)  # before xdist reads the groups
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what the quick tests leave out."""
-    others = set(sample_names()) - QUICK_SAMPLES
+    """Mark what the quick tests leave out; keep together what needs the same costly things."""
     seen: set[Path] = set()
     for item in items:
-        params = getattr(getattr(item, "callspec", None), "params", {}).values()
         again = item.nodeid.startswith(FIRST_ALONE) and item.path in seen
-        slow = item.nodeid.startswith(SLOW) or others & {p for p in params if isinstance(p, str)}
-        if again or slow:
+        if again or item.nodeid.startswith(SLOW) or samples_of(item) - QUICK_SAMPLES:
             item.add_marker(pytest.mark.slow)
         elif item.nodeid.startswith(FIRST_ALONE):
             seen.add(item.path)
+        if not item.get_closest_marker("xdist_group"):
+            item.add_marker(pytest.mark.xdist_group(group_of(item)))
+    # Long work first, so that the processes end together.
+    items.sort(key=lambda item: item.get_closest_marker("slow") is None)
+
+
+def samples_of(item: pytest.Item) -> set[str]:
+    """Samples among the parameters of a test."""
+    params = getattr(getattr(item, "callspec", None), "params", {}).values()
+    return {p for p in params if isinstance(p, str)} & set(sample_names())
+
+
+def group_of(item: pytest.Item) -> str:
+    """What a process makes once: a sample's files, the finished reports, a file's fixtures."""
+    if item.path.stem in {f"test_report_{name}" for name in REPORTS}:
+        return "reports"
+    return min(samples_of(item), default=item.nodeid.partition("::")[0])
+
+
+def pytest_collection_finish() -> None:
+    """What is imported stays; in a heap of whole books garbage is looked for seldom."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(200_000, 20, 20)
 
 
 @lru_cache(maxsize=32)
@@ -142,6 +169,7 @@ def sample(name: str) -> InputFile:
     return load_toml(samples_dir() / f"{name}.toml").model
 
 
+@lru_cache(maxsize=1)
 def sample_names() -> list[str]:
     """All samples that are shipped."""
     return sorted(path.stem for path in samples_dir().glob("*.toml"))

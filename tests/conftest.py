@@ -77,7 +77,6 @@ SLOW = (
     "tests/referee/test_evaluate.py::test_cached_values",
     "tests/referee/test_forms.py::test_whole_books",
     "tests/referee/test_other_programs.py",
-    "tests/referee/test_recalculation.py::test_formualizer_agrees_on_every_layout",
     "tests/referee/test_recalculation.py::test_libreoffice_agrees",
     "tests/referee/test_sheets.py::test_a_book_as_excel",
     "tests/robustness/",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import subprocess
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -14,20 +15,25 @@ from tests.workbook.made import coarse_book
 VALIDATOR = "@ooxml-tools/validate@0.4.6"
 
 
-def validated(path: Path) -> str:
-    """What the validator says of a file; a skip where the validator cannot be fetched."""
+@cache
+def validator() -> str:
+    """Path of the validator; a skip where it cannot be fetched."""
     npx = shutil.which("npx")
     if npx is None:
         missing("node", "nodejs npm")
-    ready = subprocess.run(
-        [npx, "--yes", "-p", VALIDATOR, "ooxml-validate", "--help"],
+    found = subprocess.run(
+        [npx, "--yes", "-p", VALIDATOR, "-c", "command -v ooxml-validate"],
         capture_output=True, text=True, timeout=300, check=False,
     )  # fmt: skip
-    if "ooxml-validate" not in ready.stdout + ready.stderr:
+    if found.returncode:
         pytest.skip("пакет проверки схемой недоступен")
+    return found.stdout.strip()
+
+
+def validated(path: Path) -> str:
+    """What the validator says of a file."""
     done = subprocess.run(
-        [npx, "--yes", "-p", VALIDATOR, "ooxml-validate", str(path),
-         "-f", path.suffix[1:], "--office-version", "Microsoft365"],
+        [validator(), str(path), "-f", path.suffix[1:], "--office-version", "Microsoft365"],
         capture_output=True, text=True, timeout=600, check=False,
     )  # fmt: skip
     return (done.stdout + done.stderr)[-3000:]

@@ -113,6 +113,11 @@ def samples_with(*kinds: Kind) -> list[str]:
     return covering(tuple(sample_names()), kinds)
 
 
+def examples(usual: int, every: int) -> int:
+    """How many random examples: as many as find what a break in the room breaks, or more."""
+    return every if ALL else usual
+
+
 def engines_with(*kinds: Kind) -> list[str]:
     """Samples and layouts that hold all that samples and layouts hold."""
     names = (*sample_names(), *MAKERS)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 from functools import lru_cache
 from pathlib import Path
@@ -42,15 +43,17 @@ SLOW = (
     "tests/document/test_page_blocks.py::test_layout",
     "tests/document/test_page_blocks.py::test_many_layouts",
     "tests/document/test_report_",
+    "tests/e2e/test_cli.py::test_a_failed_check",
     "tests/e2e/test_cli.py::test_a_name_that_looks",
     "tests/e2e/test_cli.py::test_build_does_not_write",
     "tests/e2e/test_cli.py::test_names_with_slashes",
+    "tests/e2e/test_cli.py::test_old_files",
     "tests/e2e/test_cli.py::test_remarks_stand",
     "tests/e2e/test_dask.py",
     "tests/e2e/test_doors.py::test_issue_spares",
     "tests/e2e/test_doors.py::test_sweep_spares",
-    "tests/fuzz/test_corpus.py::test_the_corpus_is_answered[workbook]",
     "tests/fuzz/test_corpus.py::test_the_command",
+    "tests/fuzz/test_corpus.py::test_the_corpus_is_answered[workbook]",
     "tests/fuzz/test_properties.py",
     "tests/grading/test_causes.py",
     "tests/grading/test_class_of_sixty.py",
@@ -59,11 +62,16 @@ SLOW = (
     "tests/grading/test_grade.py::test_the_command_explains",
     "tests/grading/test_grade.py::test_the_last_of_several",
     "tests/grading/test_hostile_files.py",
+    "tests/grading/test_issue.py::test_a_changed_register",
+    "tests/grading/test_issue.py::test_a_handout_gives",
     "tests/grading/test_issue.py::test_an_issue_can_be_repeated",
     "tests/grading/test_moodle.py",
     "tests/grading/test_other_bases.py",
     "tests/grading/test_real_class.py",
     "tests/grading/test_selfcheck.py",
+    "tests/grading/test_similarity.py::test_a_class_of_a_thousand",
+    "tests/house/test_house_cover.py::test_nothing_is_left_out",
+    "tests/house/test_house_readmes.py::test_the_workbook",
     "tests/house/test_house_run.py::test_the_noise_of_apt",
     "tests/inputs/test_own_engine.py::test_twelve",
     "tests/kshm/test_invariants.py",
@@ -77,7 +85,7 @@ SLOW = (
     "tests/referee/test_evaluate.py::test_cached_values",
     "tests/referee/test_forms.py::test_whole_books",
     "tests/referee/test_other_programs.py",
-    "tests/referee/test_recalculation.py::test_formualizer_agrees_on_every_layout",
+    "tests/referee/test_recalculation.py::test_formualizer_does_not",
     "tests/referee/test_recalculation.py::test_libreoffice_agrees",
     "tests/referee/test_sheets.py::test_a_book_as_excel",
     "tests/robustness/",
@@ -98,9 +106,10 @@ SLOW = (
     "tests/web/test_files.py::test_workbook",
     "tests/web/test_hostile.py::test_hostile_books",
     "tests/web/test_queue.py::test_a_killed",
-    "tests/word/test_docx_in_libreoffice.py",
     "tests/word/test_docx_file.py",
+    "tests/word/test_docx_in_libreoffice.py",
     "tests/word/test_one_number.py",
+    "tests/workbook/test_formulas.py::test_a_stiffness",
     "tests/workbook/test_golden.py::test_every_part_is_the_stored_one[offset",
     "tests/workbook/test_golden.py::test_saved_by_libreoffice",
     "tests/workbook/test_motion.py::test_libreoffice",
@@ -108,13 +117,17 @@ SLOW = (
     "tests/workbook/test_read_back.py::test_a_changed_unit",
     "tests/workbook/test_read_back.py::test_a_renamed",
     "tests/workbook/test_read_back.py::test_edited",
+    "tests/workbook/test_read_back.py::test_the_same_input",
+    "tests/workbook/test_read_back.py::test_what_check_refuses",
     "tests/workbook/test_schema.py",
+    "tests/workbook/test_shared_form.py::test_our_book",
 )
 # Files of which the first test alone is quick: the others need the same costly things again.
 FIRST_ALONE = (
     "tests/bearings/test_bearing_tables.py",
     "tests/grading/test_decisions.py",
     "tests/grading/test_leaks.py",
+    "tests/grading/test_settled.py",
     "tests/grading/test_verdicts.py",
     "tests/sheet/",
     "tests/tables/test_masses.py",
@@ -123,18 +136,44 @@ FIRST_ALONE = (
 )
 
 
+# Files that look at the same finished reports.
+REPORTS = ("browser", "figures", "pdf", "sheets", "tags", "text")
+
+
+@pytest.hookimpl(tryfirst=True)  # before xdist reads the groups
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what the quick tests leave out."""
-    others = set(sample_names()) - QUICK_SAMPLES
+    """Mark what the quick tests leave out; keep together what needs the same costly things."""
     seen: set[Path] = set()
     for item in items:
-        params = getattr(getattr(item, "callspec", None), "params", {}).values()
         again = item.nodeid.startswith(FIRST_ALONE) and item.path in seen
-        slow = item.nodeid.startswith(SLOW) or others & {p for p in params if isinstance(p, str)}
-        if again or slow:
+        if again or item.nodeid.startswith(SLOW) or samples_of(item) - QUICK_SAMPLES:
             item.add_marker(pytest.mark.slow)
         elif item.nodeid.startswith(FIRST_ALONE):
             seen.add(item.path)
+        if not item.get_closest_marker("xdist_group"):
+            item.add_marker(pytest.mark.xdist_group(group_of(item)))
+    # Long work first, so that the processes end together.
+    items.sort(key=lambda item: item.get_closest_marker("slow") is None)
+
+
+def samples_of(item: pytest.Item) -> set[str]:
+    """Samples among the parameters of a test."""
+    params = getattr(getattr(item, "callspec", None), "params", {}).values()
+    return {p for p in params if isinstance(p, str)} & set(sample_names())
+
+
+def group_of(item: pytest.Item) -> str:
+    """What a process makes once: a sample's files, the finished reports, a file's fixtures."""
+    if item.path.stem in {f"test_report_{name}" for name in REPORTS}:
+        return "reports"
+    return min(samples_of(item), default=item.nodeid.partition("::")[0])
+
+
+def pytest_collection_finish() -> None:
+    """What is imported stays; in a heap of whole books garbage is looked for seldom."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(200_000, 20, 20)
 
 
 @lru_cache(maxsize=32)
@@ -143,6 +182,7 @@ def sample(name: str) -> InputFile:
     return load_toml(samples_dir() / f"{name}.toml").model
 
 
+@lru_cache(maxsize=1)
 def sample_names() -> list[str]:
     """All samples that are shipped."""
     return sorted(path.stem for path in samples_dir().glob("*.toml"))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import pairwise
 
 from reports.drawing.lettering import width_of
@@ -62,7 +63,7 @@ class Circle:
     filled: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Words:
     """A line of text: height of its capitals, share of it left of the place, turn [deg]."""
 
@@ -78,11 +79,12 @@ class Words:
         """Length of the line."""
         return width_of(self.text, self.height)
 
-    @property
+    @cached_property
     def box(self) -> Box:
-        """Bounds on the sheet."""
-        left = -self.align * self.width
-        corners = [(x, y) for x in (left, left + self.width)
+        """Bounds on the sheet; asked for by every other text."""
+        width = self.width
+        left = -self.align * width
+        corners = [(x, y) for x in (left, left + width)
                    for y in (-0.3 * self.height, 1.05 * self.height)]  # fmt: skip
         turn = math.radians(self.angle)
         cos, sin = math.cos(turn), math.sin(turn)

@@ -1,4 +1,4 @@
-"""Finished reports for one worker; a local listener that writes down what is asked of it."""
+"""Reports without pictures; a local listener that writes down what is asked of it."""
 
 import http.server
 import threading
@@ -9,13 +9,6 @@ from reports.document import report
 from reports.document.chapters import closing, opening
 from reports.document.page import render, writer
 from reports.document.text.mathsvg import Formula
-
-
-def pytest_collection_modifyitems(items):
-    """Tests that share finished reports run in one worker: two would set each report twice."""
-    for item in items:
-        if item.path.name in ("test_report_pdf.py", "test_report_sheets.py"):
-            item.add_marker(pytest.mark.xdist_group("reports"))
 
 
 @pytest.fixture

@@ -20,7 +20,8 @@ from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.to_si.engine import engine_and_cycle
 from tests import layouts
-from tests.conftest import sample, sample_names
+from tests.conftest import sample
+from tests.cover import charts, choices, samples_with
 
 pytestmark = pytest.mark.usefixtures("nothing_is_drawn")
 
@@ -168,7 +169,7 @@ def assert_symbols_mean_one_number(page):
     assert not {key: found for key, found in said.items() if len(found) > 1}
 
 
-@pytest.mark.parametrize("name", sample_names())
+@pytest.mark.parametrize("name", samples_with(charts, choices))
 def test_no_sentence_of_a_sample_is_denied(name):
     model = engine(source=name)
     drawn = []

@@ -262,22 +262,25 @@ def test_the_test_command_runs_all_and_fails_if_one_fails(house):
         "ruff format --check .",
         "lint-imports --no-logo --no-cache",
         "mypy",
-        "python -m pytest -n auto --dist loadgroup -k x",
+        "python -m pytest -n auto --dist loadgroup --no-loadscope-reorder -k x",
     ]
     # Side by side: in no fixed order.
     assert (done.returncode, sorted(house.calls())) == (0, sorted(checks))
     house.log.write_text("")
     house.run("test", "--quick", KSHM_NO_SYSTEM="1")
-    assert "python -m pytest -n auto --dist loadgroup -m not slow" in house.calls()
+    assert (
+        "python -m pytest -n auto --dist loadgroup --no-loadscope-reorder -m not slow"
+        in house.calls()
+    )
     house.log.write_text("")
     house.tool(house.root / ".venv/bin/mypy", status=1)
     assert house.run("test", KSHM_NO_SYSTEM="1").returncode == 1
-    assert "python -m pytest -n auto --dist loadgroup" in house.calls()
+    assert "python -m pytest -n auto --dist loadgroup --no-loadscope-reorder" in house.calls()
 
 
 def test_ci_runs_the_test_command(house):
     house.run(command=".ci/run", KSHM_NO_SYSTEM="1", CI="true")
-    assert "python -m pytest -n auto --dist loadgroup" in house.calls()
+    assert "python -m pytest -n auto --dist loadgroup --no-loadscope-reorder" in house.calls()
 
 
 @pytest.mark.parametrize("name", ["pyproject.toml", "constraints.txt"])

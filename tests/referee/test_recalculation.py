@@ -9,14 +9,13 @@ from functools import cache
 
 import pytest
 
-from reports.inputs.fields import to_mapping
-from reports.inputs.load import load_mapping
 from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Model
 from reports.tables.registry import build_model
 from reports.workbook.caches import sheet_parts
 from reports.workbook.write import workbook_bytes
-from tests.conftest import sample, sample_names
+from tests.conftest import sample
+from tests.cover import engines_with, formulas, quantities, samples_with
 from tests.layouts import MAKERS as LAYOUTS
 from tests.layouts import made
 from tests.referee.changes import (
@@ -31,6 +30,8 @@ from tests.referee.compare import (
     differences_from_solver,
     errors_in,
 )
+from tests.workbook.made import book as own_book
+from tests.workbook.made import coarse, coarse_book
 from tools.referees.by_formualizer import Formualizer
 from tools.referees.by_libreoffice import LibreOffice
 from tools.referees.cells import formula_cells
@@ -41,25 +42,18 @@ SPREADS = (0.03, 0.2)
 OWN_GRID = ("gots-diesel",)  # the others on a coarse grid: the same formulas
 
 
-def coarse(name: str) -> InputFile:
-    """A sample on the coarse grid."""
-    raw = to_mapping(sample(name))
-    raw["calculation"]["step_deg"] = 30
-    return load_mapping(raw, source=name).model
-
-
 def grid_of(name: str) -> InputFile:
-    """A sample on its own grid or on the coarse one."""
+    """A sample on its own grid or on the coarse one; a layout."""
+    if name in LAYOUTS:
+        return made(name, step_deg=30)
     return sample(name) if name in OWN_GRID else coarse(name)
 
 
-@cache
 def book_of(name: str) -> bytes:
-    return workbook_bytes(build_model(grid_of(name)))
-
-
-def check(name: str, book: bytes, recalculated: dict) -> None:
-    check_model(build_model(grid_of(name)), book, recalculated)
+    """Its workbook: the first sample's own, a layout's, otherwise the coarse one."""
+    if name in OWN_GRID:
+        return own_book(name)
+    return workbook_bytes(build_model(grid_of(name))) if name in LAYOUTS else coarse_book(name)
 
 
 def check_model(model: Model, book: bytes, recalculated: dict) -> None:
@@ -70,32 +64,25 @@ def check_model(model: Model, book: bytes, recalculated: dict) -> None:
     assert compared > 1000
 
 
-@pytest.mark.parametrize("name", sample_names())
+@pytest.mark.parametrize("name", engines_with(formulas))
 def test_formualizer_agrees(name: str) -> None:
-    check(name, book_of(name), Formualizer().recalculate([book_of(name)])[0])
-
-
-@pytest.mark.parametrize("name", LAYOUTS)
-def test_formualizer_agrees_on_every_layout(name: str) -> None:
-    model = build_model(made(name, step_deg=30))
-    book = workbook_bytes(model)
-    check_model(model, book, Formualizer().recalculate([book])[0])
+    book = book_of(name)
+    check_model(build_model(grid_of(name)), book, Formualizer().recalculate([book])[0])
 
 
 @cache
 def changed_books(name: str) -> tuple[tuple[list[Change], InputFile, bytes], ...]:
     """A sample with everything changed at once, once for each spread."""
     data = coarse(name)
-    own = workbook_bytes(build_model(data)) if name in OWN_GRID else book_of(name)
-    book = without_charts(own)  # no formula stands in them
-    made = []
+    book = without_charts(coarse_book(name))  # no formula stands in them
+    found = []
     for spread in SPREADS:
         changes, changed = changed_everywhere(data, random.Random(f"{name} {spread}"), spread)
-        made.append((changes, changed, type_into(book, data, changes)))
-    return tuple(made)
+        found.append((changes, changed, type_into(book, data, changes)))
+    return tuple(found)
 
 
-@pytest.mark.parametrize("name", sample_names())
+@pytest.mark.parametrize("name", samples_with(quantities))
 def test_formulas_follow_every_input(name: str) -> None:
     """The only test that sees a number of the sample's inside of a formula."""
     assert len(changed_books(name)[0][0]) >= 0.9 * len(free_fields(coarse(name)))
@@ -128,7 +115,7 @@ def tampered(book: bytes, sheet: str, cell: str) -> bytes:
 
 @pytest.mark.libreoffice
 def test_libreoffice_agrees(libreoffice: LibreOffice) -> None:
-    """Every sample with all its inputs changed, the textbook's whole with a lie in its cache.
+    """All quantities with all inputs changed, the textbook's whole with a lie in its cache.
 
     Of all tests this one alone opens what we write in another program, and holds that
     program's values against the solver.
@@ -136,7 +123,7 @@ def test_libreoffice_agrees(libreoffice: LibreOffice) -> None:
     models = [build_model(sample("gots-diesel"))]
     models += [build_model(made(name, step_deg=30)) for name in ("offset_articulated", "split")]
     whole = [workbook_bytes(model) for model in models]
-    changed = [changed_books(name)[0] for name in sample_names()]
+    changed = [changed_books(name)[0] for name in samples_with(quantities)]
     opened = [tampered(whole[0], "П4.1", "H20"), *whole[1:], *(book for _, _, book in changed)]
     results = libreoffice.recalculate(opened)
     (lie,) = differences_from_caches(opened[0], results[0])

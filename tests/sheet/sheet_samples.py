@@ -8,8 +8,18 @@ from reports.document.text.terms import Terms
 from reports.inputs.checks.grid import fine_columns
 from reports.inputs.load import load_text
 from reports.shared.resources import samples_dir
+from reports.sheet.layout import sheet_items
 from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
+
+_last: list[tuple] = []
+
+
+def drawn(t: Terms):
+    """A sheet, made once for all that looks at it one after the other."""
+    if not _last or _last[0][0] is not t:
+        _last[:] = [(t, sheet_items(t))]
+    return _last[0][1]
 
 
 def terms_of(model) -> Terms:

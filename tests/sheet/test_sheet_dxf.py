@@ -11,7 +11,7 @@ import pytest
 from ezdxf import recover
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from sheet_samples import terms, terms_of
+from sheet_samples import drawn, terms, terms_of
 
 from reports.drawing.dxf import dxf_bytes
 from reports.drawing.lettering import plain
@@ -21,7 +21,7 @@ from reports.inputs.own_engine import own_engine
 from reports.inputs.own_file import file_text
 from reports.sheet.layout import sheet_items
 from reports.sheet.write import sheet_files
-from tests.conftest import sample_names
+from tests.cover import chapters, charts, samples_with
 from tests.sheet.test_sheet_places import faults
 
 NEAR = 0.1  # mm
@@ -65,7 +65,7 @@ def marks(texts: list[Words], path: np.ndarray) -> list[np.ndarray]:
 
 def check_curves(t) -> int:
     """Points of the tables on the curves of the file; how many were looked at."""
-    canvas, _, _ = sheet_items(t)
+    canvas, _, _ = drawn(t)
     document = read(dxf_bytes(canvas.items))
     lines = [np.array([p[:2] for p in e.get_points("xy")])
              for e in document.modelspace().query('LWPOLYLINE[layer=="Кривые"]')]  # fmt: skip
@@ -105,7 +105,7 @@ def _says(text: str, unit: float) -> bool:
     return any(abs(number(n) - unit) < 1e-6 * unit for n in named)
 
 
-@pytest.mark.parametrize("name", sample_names())
+@pytest.mark.parametrize("name", samples_with(charts, chapters))
 def test_every_curve_lies_where_the_table_says(name):
     assert check_curves(terms(name)) > 400
 

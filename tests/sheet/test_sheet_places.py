@@ -5,18 +5,18 @@ from __future__ import annotations
 import itertools
 
 import pytest
-from sheet_samples import terms, terms_of
+from sheet_samples import drawn, terms, terms_of
 
 from reports.drawing.primitives import Words, box_of, overlap
 from reports.inputs.sections.sheet import DIAGRAMS, USUAL, SheetSection
-from reports.sheet.layout import SIZES, cells, sheet_items
+from reports.sheet.layout import SIZES, cells
 from reports.sheet.stamp import HEIGHT, MARGINS, WIDTH
-from tests.conftest import sample_names
+from tests.cover import chapters, charts, samples_with
 from tests.layouts import MAKERS, made
 
 
 def faults(t) -> list[str]:
-    canvas, width, height = sheet_items(t)
+    canvas, width, height = drawn(t)
     found = []
     texts = [item for item in canvas.items if isinstance(item, Words)]
     for one, other in itertools.combinations(texts, 2):
@@ -30,7 +30,7 @@ def faults(t) -> list[str]:
     return found
 
 
-@pytest.mark.parametrize("name", sample_names())
+@pytest.mark.parametrize("name", samples_with(charts, chapters))
 def test_nothing_covers_anything(name):
     assert faults(terms(name)) == []
 

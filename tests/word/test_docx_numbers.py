@@ -8,7 +8,7 @@ import pytest
 from docx_samples import NUMBER, M, W, docx_of, page_of, part, root_of, text_of
 
 from reports.document.text.texts import FORMULA
-from tests.conftest import sample_names
+from tests.cover import chapters, samples_with
 
 _UNSAID = ("span[@class='hn']", "nav", "*[@class='form2']", "*[@class='form2a']",
            "tr[@class='gap']")  # fmt: skip
@@ -52,7 +52,7 @@ def numbers_of_docx(data: bytes) -> list[str]:
     return found
 
 
-@pytest.mark.parametrize("name", sample_names())
+@pytest.mark.parametrize("name", samples_with(chapters))
 def test_every_number_of_the_pdf_stands_in_word(name):
     """In the order of the text; within a formula an index may stand before a power."""
     page, word = numbers_of_page(page_of(name)), numbers_of_docx(docx_of(name))

@@ -9,16 +9,15 @@ import subprocess
 import ezdxf
 import openpyxl
 import pytest
-from docx_samples import model_of, part, text_of
+from docx_samples import docx_of, model_of, part, text_of
 from ezdxf import recover
 
 from reports.document.report import report_pdf
 from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms
 from reports.sheet.write import sheet_files
-from reports.word.write import report_docx
 from reports.workbook.write import workbook_bytes
-from tests.conftest import sample_names
+from tests.cover import chapters, samples_with
 
 # What every note, every sheet and every summary of the workbook tells.
 KEYS = ("M_mean", "M_max", "M_min", "Rpin_mean", "Rpin_max_kN")
@@ -40,7 +39,7 @@ def of_workbook(data: bytes) -> dict[str, float]:
     return values
 
 
-@pytest.mark.parametrize("name", sample_names())
+@pytest.mark.parametrize("name", samples_with(chapters))
 def test_the_same_number_everywhere(name, tmp_path):
     model, values = model_of(name)
     terms = Terms(model, values)
@@ -51,7 +50,7 @@ def test_the_same_number_everywhere(name, tmp_path):
     files = sheet_files(model, values)
     (tmp_path / "b.pdf").write_bytes(files["-sheet.pdf"])
     document, _ = recover.read(io.BytesIO(files["-sheet.dxf"]))
-    texts = [text_of(part(report_docx(model, values, source=source)))]
+    texts = [text_of(part(docx_of(name)))]
     for pdf in ("a.pdf", "b.pdf"):
         done = subprocess.run(["pdftotext", "-layout", str(tmp_path / pdf), "-"],
                               capture_output=True, check=True)  # fmt: skip

@@ -1,4 +1,4 @@
-"""One finished workbook for the tests of this folder."""
+"""Finished workbooks of samples, each made once for all tests of a process."""
 
 from __future__ import annotations
 
@@ -6,11 +6,15 @@ import io
 import zipfile
 from functools import lru_cache
 
+import openpyxl
+from openpyxl.workbook import Workbook
+
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
+from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Model
 from reports.spec.charts import ChartSpec
-from reports.spec.evaluation import evaluate_model
+from reports.spec.evaluation import Values, evaluate_model
 from reports.tables.registry import build_model
 from reports.workbook.charts import is_blank
 from reports.workbook.cockpit import CHARTS
@@ -32,14 +36,30 @@ def book(name: str = "gots-diesel") -> bytes:
 @lru_cache(maxsize=4)
 def coarse_model(name: str = "gots-diesel") -> Model:
     """The same sheets, names and formulas in fewer rows."""
+    return build_model(coarse(name))
+
+
+def coarse(name: str) -> InputFile:
+    """A sample on the coarse grid."""
     raw = to_mapping(sample(name))
     raw["calculation"]["step_deg"] = 30
-    return build_model(load_mapping(raw, source=name).model)
+    return load_mapping(raw, source=name).model
+
+
+@lru_cache(maxsize=4)
+def coarse_values(name: str = "gots-diesel") -> Values:
+    return evaluate_model(coarse_model(name))
 
 
 @lru_cache(maxsize=4)
 def coarse_book(name: str = "gots-diesel") -> bytes:
-    return workbook_bytes(coarse_model(name))
+    return workbook_bytes(coarse_model(name), coarse_values(name))
+
+
+@lru_cache(maxsize=2)
+def coarse_opened(name: str = "gots-diesel") -> Workbook:
+    """The same as openpyxl reads it, with values; not to be changed."""
+    return openpyxl.load_workbook(io.BytesIO(coarse_book(name)), data_only=True)
 
 
 def drawn(model: Model) -> list[ChartSpec]:

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import io
-
 import pytest
-from openpyxl import load_workbook
 
 from reports.formula.plain import plain
 from reports.spec.blocks import TableSpec
 from reports.workbook.layout import HEADER_ROW, Layout
-from tests.conftest import sample_names
-from tests.workbook.made import coarse_book, coarse_model
+from tests.cover import quantities, samples_with
+from tests.workbook.made import coarse_model, coarse_opened
 
 SYMBOLS = {"a": "a", "b": "b", "t.x": "x", "m": "m − n", "q": "V/Vc"}
 
@@ -30,10 +27,10 @@ def test_an_expression_as_a_line(text: str, said: str) -> None:
     assert plain(text, SYMBOLS.__getitem__) == said
 
 
-@pytest.mark.parametrize("name", sample_names())
+@pytest.mark.parametrize("name", samples_with(quantities))
 def test_every_column_explains_itself(name: str) -> None:
     """Formula and place in the book, unless the formula only repeats another column."""
-    book, model = load_workbook(io.BytesIO(coarse_book(name))), coarse_model(name)
+    book, model = coarse_opened(name), coarse_model(name)
     layout = Layout.of(model)
     told = bare = 0
     for table in (block for block in model.blocks if isinstance(block, TableSpec)):

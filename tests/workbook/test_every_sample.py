@@ -18,6 +18,7 @@ from reports.workbook import motion, what_if
 from reports.workbook.caches import sheet_parts
 from reports.workbook.read import load_workbook_input
 from tests.conftest import sample_names
+from tests.cover import charts, formulas, samples_with
 from tests.referee.changes import Change, free_fields, with_values
 from tests.workbook.lint import (
     COMPILED,
@@ -34,7 +35,7 @@ from tests.workbook.made import MOVING, coarse_book, coarse_model, drawn
 ADDRESS = re.compile(r"(?<=[A-Z])\d+(?![\d(A-Za-z_.])")
 
 
-@pytest.mark.parametrize("name", sample_names())
+@pytest.mark.parametrize("name", samples_with(charts, formulas))
 def test_the_workbook_keeps_the_rules(name: str, tmp_path: Path) -> None:
     """One test for each sample: the workbook is made once."""
     model = coarse_model(name)

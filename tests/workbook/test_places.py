@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import io
 import itertools
 import math
 
 import pytest
-from openpyxl import load_workbook
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.workbook.chapters import CHAPTERS, chapter_of, diagrams_of, heading, ordered, place_of
 from reports.workbook.motion import SHEET
 from reports.workbook.places import FOLD, SCREEN, Box, column_px, extent, row_px
 from tests.conftest import sample_names
-from tests.workbook.made import coarse_book, coarse_model
+from tests.cover import charts, quantities, samples_with
+from tests.workbook.made import coarse_model, coarse_opened
 
 _EMU = 9525
 
@@ -51,9 +50,9 @@ def problems(boxes: list[Box], sheet: Worksheet | None = None) -> list[str]:
     return found
 
 
-@pytest.mark.parametrize("name", sample_names())
+@pytest.mark.parametrize("name", samples_with(charts, quantities))
 def test_every_chart_is_where_one_looks(name: str) -> None:
-    book = load_workbook(io.BytesIO(coarse_book(name)))
+    book = coarse_opened(name)
     found = {sheet.title: problems(boxes_of(sheet), sheet) for sheet in book.worksheets}
     assert {title: said for title, said in found.items() if said} == {}
     assert len(boxes_of(book.worksheets[0])) == 4
@@ -107,10 +106,10 @@ def test_sheets_open_with_their_subject_and_axes_have_its_unit(name: str) -> Non
         assert unit in spec.y_title, (spec.id, unit)
 
 
-@pytest.mark.parametrize("name", sample_names())
+@pytest.mark.parametrize("name", samples_with(charts, quantities))
 def test_every_number_has_room_in_its_column(name: str) -> None:
     """Else a program shows crosses: a digit of 11 points is 7.34 px wide."""
-    book = load_workbook(io.BytesIO(coarse_book(name)), data_only=True)
+    book = coarse_opened(name)
     tight = [
         f"{sheet.title}!{cell.coordinate}: {cell.value}"
         for sheet in book.worksheets

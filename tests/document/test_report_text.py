@@ -142,3 +142,5 @@ def test_units_and_plain_numbers():
     assert unit_tex("°") == r"^{\circ}" and unit_tex("") == ""
     assert plain_number(0.245) == "0,245" and plain_number(88.0) == "88"
     assert plain_number(-0.5) == "−0,5"
+    assert plain_number(5469.651566650598) == "5469,6516"
+    assert plain_number(0.05 * 1.1) == "0,055"  # 0.05500000000000001

@@ -89,8 +89,20 @@ def test_lines_are_filled_whatever_follows_a_space(end, tmp_path):
         ('по [<a class="ref">1</a>, формулы (4)', 'по [<a class="ref">1</a>, формулы (4)'),
         ('по [<a class="ref">1</a>,\xa0п.', 'по\xa0[<a class="ref">1</a>,\xa0п.'),
         (">А. Н. Гоц в США. Но", ">А.\xa0Н.\xa0Гоц в США. Но"),
-        ("Иванова. — 2-е изд., испр.", 'Иванова.\xa0— <span class="nb">2-е\xa0изд.</span>, испр.'),
     ],
 )
 def test_no_line_ends_before_a_dash_or_a_reference(text, said):
     assert texts.unbroken(text) == said
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("Иванова. 2-е изд., испр.", 'Иванова. <span class="nb">2-е изд.</span>, испр.'),
+        ("силы 1-го порядка, мин⁻¹", 'силы <span class="nb">1-го</span> порядка, мин<sup>−1</sup>'),
+        ("суммы при φ = 0", "суммы при φ\xa0=\xa00"),
+        ("ЯМЗ-236, 6-110, V6-дизель & <b>", "ЯМЗ-236, 6-110, V6-дизель & <b>"),
+    ],
+)
+def test_no_line_ends_within_an_ordinal_or_a_relation(text, said):
+    assert texts.rich(text) == said

@@ -62,8 +62,12 @@ def input_text(given: Field) -> str:
     return given.value if isinstance(given.value, str) else plain_number(float(given.value))
 
 
+_GIVEN = 8  # significant digits of an input that nobody would write by hand
+
+
 def plain_number(value: float) -> str:
-    """A number with the digits it was given with."""
+    """A number with the digits it was given with; what was calculated for it has no more."""
+    value = float(f"{value:.{_GIVEN}g}")
     digits = next((d for d in range(12) if round(value, d) == value), 12)
     return fixed(value, digits)
 

@@ -15,20 +15,29 @@ _RAISED = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079\u207a\u2
 _LEVEL = f"0123456789+{MINUS}"
 _LOWER = str.maketrans(_RAISED, _LEVEL)
 _RUN = re.compile(f"[{_RAISED}]+")
+_RELATION = re.compile("(?<=[α-ω]) = (?=[−\\d])")
+# A line may end at a hyphen, unlike at a no-break space.
+_ORDINAL = re.compile(r"(?<![\w-])(\d+-[а-яё]{1,3}(?: изд\.)?)(?![\w-])")
 
 
 @functools.lru_cache(maxsize=8192)
 def rich(text: str) -> str | Markup:
     """Clean a text; «мин⁻¹» gets a superscript, because STIX has no raised minus.
 
-    Text without raised signs stays a plain string, to be escaped by Jinja.
+    No line ends within «φ = 0», «1-го» and «2-е изд.».  Text without raised signs and ordinals
+    stays a plain string, to be escaped by Jinja.
     """
-    if not _RUN.search(text):
+    text = _RELATION.sub(f"{NBSP}={NBSP}", text)
+    if not (_RUN.search(text) or _ORDINAL.search(text)):
         return printable(text)
-    pieces = [escape(printable(piece)) for piece in _RUN.split(text)]
+    pieces = [_whole_ordinals(escape(printable(piece))) for piece in _RUN.split(text)]
     raised_signs = [run.translate(_LOWER) for run in _RUN.findall(text)]
     powers_html = [Markup("<sup>{}</sup>").format(run) for run in raised_signs]
     return Markup("").join(a + b for a, b in zip(pieces, [*powers_html, ""], strict=True))
+
+
+def _whole_ordinals(text: Markup) -> Markup:
+    return Markup(_ORDINAL.sub(r'<span class="nb">\1</span>', str(text)))
 
 
 def plain(text: object) -> Markup:
@@ -84,13 +93,9 @@ _UNBROKEN = re.compile(
 )
 
 
-# A line may end at its hyphen, unlike at a no-break space.
-_EDITION = re.compile(r"(?<=[ \u00a0])(\d-е) изд\.")
-
-
 def unbroken(body: str) -> str:
     """Make the spaces of a text that no line may end at spaces that do not break."""
-    return _EDITION.sub(rf'<span class="nb">\1{NBSP}изд.</span>', _UNBROKEN.sub(NBSP, body))
+    return _UNBROKEN.sub(NBSP, body)
 
 
 def spaces_inside(page: str) -> str:

@@ -159,6 +159,25 @@ class Solution:
             **gas.gas_scalars(case),
         }
 
+    def column(self, table: str, key: str) -> Array | None:
+        """One column in the unit of its quantity; one of the chain asks for nothing more."""
+        found = self.chain_tables.get(table, {}).get(key)
+        if found is not None:
+            return in_units({key: found})[key]
+        return self.columns.get(table, {}).get(key)
+
+    def scalar(self, key: str) -> float | None:
+        """One scalar in the unit of its quantity; one of the chain asks for nothing more."""
+        if key in self.chain_scalars:
+            return self.chain_scalars[key] / quantity(key).si
+        return self.scalars.get(key)
+
+    def joints(self, cylinder: int) -> tuple[tuple[Array, Array], ...]:
+        """Joints of a cylinder's mechanism over one turn of its crank, see `motion.joints`."""
+        return motion.joints(
+            self._case, is_hung=self.engine.arrangement[cylinder].master is not None
+        )
+
     @cached_property
     def _subjects(self) -> Results:
         """Tables and scalars beside the chain itself in SI units."""

@@ -32,7 +32,7 @@ def waiting(folder: Path) -> Jobs:
 
 
 def added(jobs: Jobs, *visitors: str) -> list[str]:
-    return [jobs.add({"a": str(i)}, [["solve"]], who) for i, who in enumerate(visitors)]
+    return [jobs.add({"a": str(i)}, ["solve"], who) for i, who in enumerate(visitors)]
 
 
 def test_everybodys_first_comes_before_anybodys_second(tmp_path: Path) -> None:
@@ -47,9 +47,9 @@ def test_nobody_fills_the_queue_alone(tmp_path: Path) -> None:
     jobs = waiting(tmp_path)
     added(jobs, *["a"] * MOST_OWN)
     with pytest.raises(InputError, match="дождитесь"):
-        jobs.add({"a": "more"}, [["solve"]], "a")
-    jobs.add({"a": "more"}, [["solve"]], "b")
-    assert jobs.add({"a": "0"}, [["solve"]], "b") in jobs.waiting  # the same content: the same job
+        jobs.add({"a": "more"}, ["solve"], "a")
+    jobs.add({"a": "more"}, ["solve"], "b")
+    assert jobs.add({"a": "0"}, ["solve"], "b") in jobs.waiting  # the same content: the same job
     assert len(jobs.waiting) == MOST_OWN + 1
 
 
@@ -142,5 +142,5 @@ def test_the_oldest_files_are_forgotten(tmp_path: Path, monkeypatch: pytest.Monk
         (folder / "file").write_bytes(b"x" * 1000)
         (folder / "done.json").write_text(json.dumps({"state": "done"}), encoding="utf-8")
         os.utime(folder / "done.json", (time.time() - index, time.time() - index))
-    jobs._clean()
+    jobs.clean()
     assert sorted(path.name for path in tmp_path.iterdir()) == ["0", "1"]

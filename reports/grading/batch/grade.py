@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 import re
 import time
 from collections.abc import Sequence
@@ -31,6 +30,7 @@ from reports.grading.pages.moodle import feedback_zip, filled, read_worksheet
 from reports.grading.pages.pages import class_page, student_page
 from reports.grading.pages.summary import summarise, table_rows
 from reports.grading.reading.submissions import Submission, collect
+from reports.shared.aside import processors
 from reports.shared.errors import InputError, Problem
 from reports.shared.files import make_dir, write_bytes, write_text
 from reports.shared.progress import Progress
@@ -93,7 +93,7 @@ def grade(
     make_dir(folder)
     batch = _Batch(register, folder)
     batch.start(submissions)
-    workers = options.workers or len(os.sched_getaffinity(0))
+    workers = options.workers or processors()
     outcomes = (
         grade_far(
             batch.waiting, batch.register_file, timeout_s=options.timeout_s, dask=options.dask

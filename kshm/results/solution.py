@@ -159,12 +159,14 @@ class Solution:
             **gas.gas_scalars(case),
         }
 
-    def column(self, table: str, key: str) -> Array | None:
-        """One column in the unit of its quantity; one of the chain asks for nothing more."""
+    def column(self, table: str, key: str) -> Array:
+        """One column in the unit of its quantity; one of the chain asks for nothing more.
+
+        Raises:
+            KeyError: there is no such column.
+        """
         found = self.chain_tables.get(table, {}).get(key)
-        if found is not None:
-            return in_units({key: found})[key]
-        return self.columns.get(table, {}).get(key)
+        return self.columns[table][key] if found is None else in_units({key: found})[key]
 
     def scalar(self, key: str) -> float | None:
         """One scalar in the unit of its quantity; one of the chain asks for nothing more."""

@@ -191,8 +191,10 @@ def _chart(chart: ChartSpec, solution: Solution, formulas: Evaluation) -> Data:
     """A chart's curves, and where its cursor stands at every φ if it has no angle."""
 
     def numbers(key: str) -> Any:  # noqa: ANN401
-        found = solution.column(*key.split(".", 1))
-        return np.asarray(formulas.value(key) if found is None else found, dtype=float)
+        try:
+            return solution.column(*key.split(".", 1))
+        except KeyError:
+            return np.asarray(formulas.value(key), dtype=float)
 
     curves = [(each.name or _symbol(each.y), numbers(each.x), numbers(each.y))
               for each in chart.drawn_by("report")]  # fmt: skip
@@ -203,7 +205,7 @@ def _chart(chart: ChartSpec, solution: Solution, formulas: Evaluation) -> Data:
         x, y = (numbers(key.lstrip("-")) * (-1 if key[0] == "-" else 1) for key in chart.contact)
         x, y = np.array([x, y]) / np.maximum(np.hypot(x, y), 1e-12)
     angles = (solution.column(table, "phi_deg") for table in ("P3_1", "P4_1"))
-    phi = next((phi for phi in angles if phi is not None and len(phi) == len(x)), None)
+    phi = next((phi for phi in angles if len(phi) == len(x)), None)
     return {
         **{key: getattr(chart, key) for key in _CHART},
         "curves": [{"name": name, **_lists(x=x, y=y)} for name, x, y in curves],
@@ -253,7 +255,7 @@ def moving(solution: Solution, cylinder: int = 0) -> Data:
     return {
         **_lists(phi=phi, turn=solution.column("P3_1", "phi_deg")),
         "shift": float(phi[0] - phase[0]),
-        "joints": [[plain_numbers(MM.from_si(x)) for x in joint]
+        "joints": [[plain_numbers(x * 1000) for x in joint]
                    for joint in solution.joints(number)],
         "forces": {
             key: {"symbol": quantity(key).symbol, "unit": quantity(key).unit_label,

@@ -166,7 +166,7 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     popup.value.wait_for_selector("text=Кузнецов")
     popup.value.close()
     unknown = teacher.locator("tr:has-text('Кузнецов') option").nth(1)
-    assert unknown.get_attribute("value") == "geometry.V_c"
+    assert unknown.evaluate("option => option.value") == "geometry.V_c"
     decide(teacher, "Кузнецов", "geometry.V_c", "0,21")
     decide(teacher, "Петров", "всё", "77", remark="=1+1")
     found = points(teacher)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import secrets
 import shutil
 import zipfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -63,20 +63,6 @@ class Class:
         """The page of a student's work: one that the gradebook names itself."""
         name = self.row(number).get("page")
         return self.results / name if name else None
-
-    def judged(self) -> Iterator[dict[str, Any]]:
-        """What is known so far of each file that was handed in."""
-        for path in (self.results / "results").glob("*.json"):
-            if path.name != "register.json":
-                yield read_json(path)
-
-    def unknown(self) -> dict[int, list[str]]:
-        """Items of each student that the program could not judge."""
-        found: dict[int, list[str]] = {}
-        for result in self.judged():
-            items = [i["id"] for i in result.get("items", ()) if i["verdict"] == "unknown"]
-            found.setdefault(result.get("number") or 0, []).extend(items)
-        return found
 
     def issued(self, book: Issued) -> Path:
         """A student's work-book."""

@@ -10,6 +10,7 @@ import io
 import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import redirect_stderr, redirect_stdout
+from dataclasses import asdict
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -66,12 +67,7 @@ def answered(function: Callable[..., Data], *arguments: Any) -> Data:  # noqa: A
 
 def told(error: KshmError) -> list[Data]:
     """Problems as the page takes them."""
-    return [as_dict(problem) for problem in error.problems]
-
-
-def as_dict(problem: Problem) -> Data:
-    """A problem as the page takes it."""
-    return {"where": problem.where, "what": problem.what, "hint": problem.hint}
+    return [asdict(problem) for problem in error.problems]
 
 
 def read_toml(text: str) -> Data:
@@ -163,8 +159,7 @@ def answer(raw: Mapping[str, Any], sheet: str, cylinder: int = 0) -> Data:
     formulas = Evaluation(model)
     return {
         "errors": [],
-        "warnings": [as_dict(problem) for problem in loaded.warnings],
-        "accepted": [each.line() for each in loaded.accepted],
+        "warnings": [asdict(problem) for problem in loaded.warnings],
         "results": list(_results(model, solution)),
         "charts": [_chart(chart, solution, formulas)
                    for chart in model.charts if chart.sheet == sheet],

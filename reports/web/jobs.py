@@ -18,7 +18,6 @@ import sys
 import time
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -31,7 +30,6 @@ MOST_WAITING, MOST_OWN = 500, 6
 MOST_BYTES = 2 * 10**9  # of all files kept
 KEEP_S = 14 * 86400.0
 _LINES = 40  # of what a command said
-_FAILED = {"state": "failed"}
 # The command with little memory, which ends with a server that is killed; who waits for a number
 # comes before who waits for a file.
 _KSHM = """
@@ -50,14 +48,6 @@ _SYSTEM = ("PATH", "HOME", "LANG", "LC_ALL", "TMPDIR", "PYTHONPATH", "SYSTEMROOT
            "FONTCONFIG_PATH", "FONTCONFIG_FILE", "XDG_CACHE_HOME")  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
-class Said:
-    """How a command ended: its code and what it said."""
-
-    code: int
-    lines: tuple[str, ...]
-
-
 def read_json(path: Path) -> dict[str, Any]:
     """What a file says; nothing if it is not there or damaged."""
     with contextlib.suppress(OSError, ValueError):
@@ -71,8 +61,19 @@ def write_json(path: Path, data: Mapping[str, Any]) -> None:
     write_text(path, json.dumps(data, ensure_ascii=False))
 
 
-async def run(arguments: Sequence[str], folder: Path, timeout_s: float = TIMEOUT_S) -> Said:
-    """Run a command of kshm in a folder with limits; its whole group ends with it."""
+def failed(why: str) -> dict[str, Any]:
+    """How a job ended that could not be done."""
+    return {"state": "failed", "lines": [why]}
+
+
+async def run(
+    arguments: Sequence[str], folder: Path, timeout_s: float = TIMEOUT_S
+) -> dict[str, Any]:
+    """Run a command of kshm in a folder with limits; its whole group ends with it.
+
+    Returns:
+        Whether it is done or failed, and what it said.
+    """
     kept = {key: os.environ[key] for key in _SYSTEM if key in os.environ}
     home = [str(Path(__file__).resolve().parents[2]), kept.get("PYTHONPATH", "")]
     kept |= {"PYTHONPATH": os.pathsep.join(filter(None, home)), "PYTHONIOENCODING": "utf-8"}
@@ -85,7 +86,7 @@ async def run(arguments: Sequence[str], folder: Path, timeout_s: float = TIMEOUT
     try:
         _, said = await asyncio.wait_for(process.communicate(), timeout_s)
     except TimeoutError:
-        return Said(-1, (f"не сделано за {timeout_s:.0f} с: уменьшите расчёт",))
+        return failed(f"не сделано за {timeout_s:.0f} с: уменьшите расчёт")
     finally:
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.killpg(process.pid, signal.SIGKILL) if hasattr(os, "killpg") else process.kill()
@@ -93,9 +94,12 @@ async def run(arguments: Sequence[str], folder: Path, timeout_s: float = TIMEOUT
             await process.wait()
     code = process.returncode or 0
     if code < 0:
-        return Said(code, ("процесс прерван: повторите",))
+        return failed("процесс прерван: повторите")
     lines = said.decode("utf-8", "replace").replace(f"{folder}/", "").splitlines()
-    return Said(code, tuple(one_line(line, 400) for line in lines if line.strip())[:_LINES])
+    return {
+        "state": "done" if code in (0, 1, 3) else "failed",
+        "lines": [one_line(line, 400) for line in lines if line.strip()][:_LINES],
+    }
 
 
 class Queue:
@@ -164,20 +168,19 @@ class Queue:
             name = line[0]
             self.running[name] = self.waiting.pop(name), time.monotonic()
             try:
-                done = await self.make(self.folder / name)
-                write_json(self.folder / name / "done.json", done)
-            except (OSError, KshmError):  # a full disk must not end the queue
-                lines = ["на сервере не удаётся записать файл; сообщите кафедре"]
-                with contextlib.suppress(OSError, KshmError):
-                    write_json(self.folder / name / "done.json", _FAILED | {"lines": lines})
+                try:
+                    done = await self.make(self.folder / name)
+                except OSError:
+                    done = failed("на сервере не удаётся записать файл; сообщите кафедре")
+                with contextlib.suppress(OSError, KshmError):  # a full disk must not end the queue
+                    write_json(self.folder / name / "done.json", done)
             finally:
                 self.running.pop(name, None)
 
     async def make(self, folder: Path) -> dict[str, Any]:
         """Run the command of a job; how it ended."""
         command = read_json(folder / "order.json").get("command", ())
-        said = await run(command, folder, self.timeout_s)
-        return {"state": "done" if said.code in (0, 1, 3) else "failed", "lines": said.lines}
+        return await run(command, folder, self.timeout_s)
 
 
 class Jobs(Queue):
@@ -231,7 +234,9 @@ class Jobs(Queue):
         files = [{"name": path.name, "size": path.stat().st_size}
                  for path in sorted(out.iterdir()) if path.is_file()]  # fmt: skip
         self.clean()
-        return done | {"files": files} if files and done != done | _FAILED else done | _FAILED
+        if not files or done["state"] == "failed":
+            return {**done, "state": "failed"}
+        return {**done, "files": files}
 
     def clean(self) -> None:
         """Forget the oldest files where they are too old or too many."""

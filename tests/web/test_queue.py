@@ -19,7 +19,7 @@ from starlette.testclient import TestClient
 from reports.shared.errors import InputError
 from reports.web import jobs as room
 from reports.web.app import Settings, create_app
-from reports.web.jobs import MOST_OWN, Jobs, Said
+from reports.web.jobs import MOST_OWN, Jobs
 from reports.web.pool import Busy
 from tests.web.conftest import MARK, Page, finished, serving
 from tests.web.test_files import made
@@ -130,7 +130,7 @@ def test_a_killed_server_makes_its_job_again(tmp_path: Path) -> None:
 
 def test_a_job_that_takes_too_long_is_ended(tmp_path: Path) -> None:
     said = finished(room.run(["solve", "x.toml"], tmp_path, timeout_s=0.05))
-    assert isinstance(said, Said) and said.code == -1 and "не сделано" in said.lines[0]
+    assert said["state"] == "failed" and "не сделано" in said["lines"][0]
 
 
 def test_the_oldest_files_are_forgotten(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -81,12 +81,12 @@ const gradebook = own => table("Ведомость", own.rows.map(each => {
   const name = judged ? link(`page/${each.number}`, each.student, {target: "_blank"}) : each.student;
   const shown = each.points === null && points !== null ? `(${printed(points)})` : printed(points);
   return row([[name], [each.status], [shown, "n"], [each.remark],
-    [judged && decision(each, own.unknown[each.number] || [])]], {key: each.student, class: each.manual ? "odd" : ""});
+    [judged && decision(each)]], {key: each.student, class: each.manual ? "odd" : ""});
 }), html`<thead><tr>${["Студент", "Состояние", "Баллы", "Примечание", "Решение"].map(title =>
   html`<th scope="col">${title}</th>`)}</tr></thead>`);
 
 // What waits for a person stands open; the rest is a click away.
-function decision({number, student, manual}, items) {
+function decision({number, student, manual, unknown}) {
   const decide = event => {
     event.preventDefault();
     const data = Object.fromEntries(new FormData(event.target));
@@ -97,7 +97,7 @@ function decision({number, student, manual}, items) {
     <details open=${manual}><summary aria-label=${`Решить: ${student}`}>Решить</summary>
       <form onSubmit=${decide}>
         <select name="what" aria-label=${`Что решить: ${student}`}>
-          ${options([["всё", "вся работа"], ...items.map(item => [item, item])])}</select>
+          ${options([["всё", "вся работа"], ...unknown.map(item => [item, item])])}</select>
         <input name="points" aria-label=${`Баллы: ${student}`} size="12" placeholder="баллы, + или -" required />
         <input name="remark" aria-label=${`Примечание: ${student}`} placeholder="примечание" maxlength="300" />
         <button>Решить</button>

@@ -21,6 +21,7 @@ from starlette.routing import Mount
 from starlette.staticfiles import StaticFiles
 
 from reports.grading.issuing.ticket import make_secret, read_secret
+from reports.inputs.described import Data
 from reports.inputs.sections.cycle import KINDS
 from reports.inputs.sections.input_file import LAYOUTS, STROKES
 from reports.inputs.template import list_samples
@@ -31,7 +32,6 @@ from reports.shared.resources import resource_dir
 from reports.web import engine, files, teacher
 from reports.web.classes import Classes
 from reports.web.doors import MOST_BOOK, Door, body, good, route, uploaded
-from reports.web.fields import Data
 from reports.web.guard import Guard, Rate, refusal
 from reports.web.jobs import Jobs
 from reports.web.pool import Busy, Pool

@@ -16,8 +16,8 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route
 
+from reports.inputs.described import Data
 from reports.shared.errors import InputError, Problem
-from reports.web.fields import Data
 
 Door = Callable[[Request], Awaitable[Response | Data]]
 MOST_JSON, MOST_BOOK, MOST_ARCHIVE = 2_000_000, 30 * 2**20, 100_000_000

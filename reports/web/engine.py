@@ -1,4 +1,4 @@
-"""What the page of an engine asks for, as plain data: numbers, charts, checks, what moves.
+"""What the page of an engine asks for, as plain data.
 
 These functions run in the workers of `reports.web.pool`; what they raise as `KshmError`
 comes back as problems with the keys of their fields.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import asdict
 from pathlib import Path
@@ -16,13 +16,11 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import click
-import numpy as np
 
-from kshm import quantity
-from kshm.results.solution import Solution
 from reports.commands.engine import new
 from reports.commands.words import error_text
-from reports.inputs.checks.grid import grid_remark
+from reports.exports import live
+from reports.inputs.described import Data, absent, groups, without_foreign
 from reports.inputs.fields import iter_fields, tables_shape, to_mapping
 from reports.inputs.load import Loaded, load_mapping, parsed
 from reports.inputs.own_engine import Made
@@ -32,20 +30,12 @@ from reports.inputs.sections.input_file import InputFile
 from reports.inputs.solved import solved
 from reports.inputs.source import MAX_BYTES, refused
 from reports.inputs.understood import understood
-from reports.inputs.units import MM
 from reports.shared.errors import InputError, KshmError, Problem
 from reports.shared.files import write_text
-from reports.shared.russian import written
-from reports.spec.blocks import Model, ScalarTable
-from reports.spec.charts import ChartSpec
-from reports.spec.evaluation import Evaluation
-from reports.tables.overview.summary import NO
-from reports.tables.overview.verdicts import reasons_of
+from reports.spec.blocks import Model
 from reports.tables.registry import build_model
-from reports.web.fields import Data, absent, groups, without_foreign
 
 HEAD = ("Исходные данные двигателя для kshm.",)
-_DIGITS = 8  # of the greatest number of a curve: what no screen shows
 _PATHS = ("style", "templates", "compare")  # keys of [report] that name files of the machine
 _MODELS: dict[object, Model] = {}
 _MOST_MODELS = 24
@@ -156,130 +146,18 @@ def answer(raw: Mapping[str, Any], sheet: str, cylinder: int = 0) -> Data:
     """Numbers of an engine, the charts of a sheet, what moves, what is odd about the input."""
     loaded = loaded_of(raw)
     model, solution = _model_for(loaded.model), solved(loaded.model)
-    formulas = Evaluation(model)
     return {
         "errors": [],
         "warnings": [asdict(problem) for problem in loaded.warnings],
-        "results": list(_results(model, solution)),
-        "charts": [_chart(chart, solution, formulas)
-                   for chart in model.charts if chart.sheet == sheet],
-        "moves": moving(solution, cylinder),
-    }  # fmt: skip
-
-
-def _results(model: Model, solution: Solution) -> Iterator[Data]:
-    """The summaries of workbook and report with the solver's numbers."""
-    for block in model.blocks:
-        if isinstance(block, ScalarTable) and block.id.startswith(("summary", "geometry")):
-            found = ((each, solution.scalar(each.key)) for each in block.scalars)
-            rows = [
-                {"key": each.key, "title": each.note or each.quantity.title,
-                 "symbol": each.quantity.symbol, "unit": each.quantity.unit_label,
-                 "value": value, "text": written(value, each.quantity.digits)}
-                for each, value in found if value is not None
-            ]  # fmt: skip
-            if rows:
-                yield {"id": block.id, "title": block.title, "rows": rows}
-
-
-def _chart(chart: ChartSpec, solution: Solution, formulas: Evaluation) -> Data:
-    """A chart's curves, and where its cursor stands at every φ if it has no angle."""
-
-    def numbers(key: str) -> Any:  # noqa: ANN401
-        try:
-            return solution.column(*key.split(".", 1))
-        except KeyError:
-            return np.asarray(formulas.value(key), dtype=float)
-
-    curves = [(each.name or _symbol(each.y), numbers(each.x), numbers(each.y))
-              for each in chart.drawn_by("report")]  # fmt: skip
-    x = y = np.empty(0)
-    if chart.kind == "polar":
-        _, x, y = curves[0]
-    elif chart.contact:
-        x, y = (numbers(key.lstrip("-")) * (-1 if key[0] == "-" else 1) for key in chart.contact)
-        x, y = np.array([x, y]) / np.maximum(np.hypot(x, y), 1e-12)
-    angles = (solution.column(table, "phi_deg") for table in ("P3_1", "P4_1"))
-    phi = next((phi for phi in angles if len(phi) == len(x)), None)
-    return {
-        **{key: getattr(chart, key) for key in _CHART},
-        "curves": [{"name": name, **_lists(x=x, y=y)} for name, x, y in curves],
-        "path": None if phi is None else _lists(phi=phi, x=x, y=y),
+        "results": list(live.results(model, solution)),
+        "charts": live.charts(model, solution, sheet),
+        "moves": live.moving(solution, cylinder),
     }
-
-
-_CHART = ("id", "title", "kind", "x_title", "y_title", "x_is_angle", "x_reversed", "y_reversed")
-
-
-def _symbol(key: str) -> str:
-    try:
-        return quantity(key.rpartition(".")[2]).symbol
-    except KeyError:
-        return ""
-
-
-def _lists(**columns: Any) -> dict[str, list[float | None]]:  # noqa: ANN401
-    return {key: plain_numbers(values) for key, values in columns.items()}
-
-
-def plain_numbers(values: Any) -> list[float | None]:  # noqa: ANN401
-    """A column as JSON carries it: digits that no screen shows are left out."""
-    values = np.asarray(values, dtype=float)
-    finite = np.isfinite(values)
-    most = float(np.max(np.abs(values[finite]), initial=0.0))
-    digits = _DIGITS - int(np.ceil(np.log10(most))) if most > 0 else 0
-    rounded: list[float | None] = np.round(values, digits).tolist()
-    if not finite.all():
-        rounded = [x if ok else None for x, ok in zip(rounded, finite, strict=True)]
-    return rounded
-
-
-def moving(solution: Solution, cylinder: int = 0) -> Data:
-    """What the moving mechanism of a cylinder and the star of cranks are drawn from.
-
-    ``joints`` are the places of crankpin, articulated pin and piston pin [mm] in the frame of
-    the cylinder, its axis upwards, over its own angle ``turn``; forces stand over the engine's.
-    """
-    engine = solution.engine
-    number = cylinder if cylinder in range(engine.cylinders) else 0
-    place, geometry = engine.arrangement[number], engine.geometry
-    table = f"cylinder_{number + 1}" if number else "P4_1"
-    phi = solution.column(table, "phi_deg")
-    phase = solution.column(table, "phase_deg") if number else phi
-    forces = [key for key in solution.chain_tables["P4_1"] if key.endswith("_MPa")]
-    return {
-        **_lists(phi=phi, turn=solution.column("P3_1", "phi_deg")),
-        "shift": float(phi[0] - phase[0]),
-        "joints": [[plain_numbers(x * 1000) for x in joint]
-                   for joint in solution.joints(number)],
-        "forces": {
-            key: {"symbol": quantity(key).symbol, "unit": quantity(key).unit_label,
-                  **_lists(values=solution.column(table, key))}
-            for key in forces
-        },
-        "radius": MM.from_si(geometry.crank_radius), "bore": MM.from_si(geometry.bore),
-        "wall": MM.from_si(geometry.crank_offset or 0.0), "axis": float(np.degrees(place.axis)),
-        "cylinder": number, "cylinders": engine.cylinders,
-        "throws": np.degrees([each.angle for each in engine.crankshaft.throws]).tolist(),
-    }  # fmt: skip
 
 
 def checks(raw: Mapping[str, Any]) -> Data:
     """The checks of the calculation, each with its value, and what the step leaves out."""
-    loaded = loaded_of(raw)
-    model = _model_for(loaded.model)
-    value, reasons = Evaluation(model).value, reasons_of(loaded.model)
-    names = {key.removeprefix("check_"): scalar for key, scalar in model.scalars.items()
-             if key.startswith("check_")}  # fmt: skip
-    grid = grid_remark(loaded.model)
-    return {
-        "checks": [
-            {"key": name, "title": scalar.note, "value": float(value(f"value_{name}")),
-             "ok": value(f"check_{name}") != NO, "reason": reasons.get(name, "")}
-            for name, scalar in names.items()
-        ],
-        "remarks": [*model.remarks, *((grid,) if grid else ())],
-    }  # fmt: skip
+    return live.checks(_model_for(loaded_of(raw).model))
 
 
 def as_toml(raw: Mapping[str, Any]) -> Data:

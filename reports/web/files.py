@@ -9,10 +9,10 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from reports.commands.engine import build
+from reports.inputs.described import Data
 from reports.shared.errors import InputError, Problem
 from reports.web import engine
 from reports.web.doors import attachment, body, good, route
-from reports.web.fields import Data
 from reports.web.jobs import Jobs
 
 _TITLES = {

@@ -12,9 +12,9 @@ from typing import Any
 from pebble import ProcessExpired, ProcessPool
 
 from reports.grading.batch.worker import MEMORY, forbid_the_world, limit_memory
+from reports.inputs.described import Data
 from reports.shared.aside import processors
 from reports.web import engine
-from reports.web.fields import Data
 
 TIMEOUT_S = 20.0
 WAIT_S = 30.0  # before a process is free

@@ -11,6 +11,7 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from reports.grading.issuing.register import Issued
+from reports.inputs.described import Data
 from reports.shared.errors import InputError, Problem
 from reports.web import engine
 from reports.web.classes import RESULTS, Class, Classes
@@ -25,7 +26,6 @@ from reports.web.doors import (
     shown,
     uploaded,
 )
-from reports.web.fields import Data
 from reports.web.guard import Rate
 from reports.workbook.intake import check_data
 

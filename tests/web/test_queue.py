@@ -16,6 +16,7 @@ import psutil
 import pytest
 from starlette.testclient import TestClient
 
+from reports.commands.apart import run
 from reports.shared.errors import InputError
 from reports.web import jobs as room
 from reports.web.app import Settings, create_app
@@ -129,7 +130,7 @@ def test_a_killed_server_makes_its_job_again(tmp_path: Path) -> None:
 
 
 def test_a_job_that_takes_too_long_is_ended(tmp_path: Path) -> None:
-    said = finished(room.run(["solve", "x.toml"], tmp_path, timeout_s=0.05))
+    said = finished(run(["solve", "x.toml"], tmp_path, timeout_s=0.05))
     assert said["state"] == "failed" and "не сделано" in said["lines"][0]
 
 

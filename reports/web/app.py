@@ -152,8 +152,9 @@ def create_app(settings: Settings) -> Guard:
         https_only=settings.secure,
     )  # fmt: skip
     small = Middleware(GZipMiddleware, minimum_size=1000)
+    errors: Any = dict.fromkeys((KshmError, Busy, HTTPException, 500), failed)
     app = Starlette(
-        routes=routes, lifespan=lifespan, exception_handlers=handlers(), middleware=[small, session]
+        routes=routes, lifespan=lifespan, exception_handlers=errors, middleware=[small, session]
     )
     app.state.pool, app.state.settings = pool, settings
     app.state.jobs, app.state.classes = jobs, classes
@@ -161,20 +162,13 @@ def create_app(settings: Settings) -> Guard:
     return Guard(app, hosts, settings.prefix, Rate(settings.per_s, 2 * settings.per_s))
 
 
-def handlers() -> dict[Any, Any]:
-    """What becomes of errors: a line for the person, never a traceback."""
-
-    async def expected(_: Request, error: KshmError) -> Response:
+async def failed(_: Request, error: Exception) -> Response:
+    """What becomes of an error: a line for the person, never a traceback."""
+    if isinstance(error, KshmError):
         return JSONResponse({"errors": engine.told(error)}, 422)
-
-    async def busy(_: Request, __: Exception) -> Response:
+    if isinstance(error, Busy):
         return refusal(503, "сервер занят или данные не считаются за отведённое время; повторите")
-
-    async def refused(_: Request, error: HTTPException) -> Response:
+    if isinstance(error, HTTPException):
         ours = not error.detail.isascii()
         return refusal(error.status_code, error.detail if ours else "нет такой страницы")
-
-    async def unexpected(_: Request, error: Exception) -> Response:
-        return refusal(500, f"внутренняя ошибка {type(error).__name__}")
-
-    return {KshmError: expected, Busy: busy, HTTPException: refused, 500: unexpected}
+    return refusal(500, f"внутренняя ошибка {type(error).__name__}")

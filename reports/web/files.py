@@ -56,7 +56,8 @@ def routes(jobs: Jobs, dask: str | None) -> list[Route]:
             wanted["other.toml"] = data["other"]
         ask = request.app.state.pool.ask
         files = {name: good(await ask(engine.as_toml, raw))["text"] for name, raw in wanted.items()}
-        return {"id": jobs.add(files, command(kind, dask), visitor(request))}
+        who = request.session.get("visitor") or (request.client.host if request.client else "")
+        return {"id": jobs.add(files, command(kind, dask), who)}
 
     async def about(request: Request) -> Data:
         found = jobs.about(request.path_params["job"])
@@ -72,8 +73,3 @@ def routes(jobs: Jobs, dask: str | None) -> list[Route]:
         route("/api/files/{job}", about),
         route("/api/files/{job}/{name}", taken),
     ]
-
-
-def visitor(request: Request) -> str:
-    """Who orders: a browser by its session, else an address."""
-    return request.session.get("visitor") or (request.client.host if request.client else "")

@@ -30,17 +30,6 @@ from reports.web.guard import Rate
 from reports.workbook.intake import check_data
 
 _TEXTS = ("title", "base", "roster", "rubric")
-_ROW = (
-    "number",
-    "student",
-    "status",
-    "points",
-    "provisional",
-    "manual",
-    "remark",
-    "page",
-    "unknown",
-)
 _UPLOADS = {"moodle.zip": b"PK\x03\x04", "worksheet.csv": b""}  # how they begin
 _DONE = {"ok": True}
 
@@ -88,7 +77,7 @@ def routes(classes: Classes, secret: bytes) -> list[Route]:
         return {
             **each.about, **classes.about(each.folder.name), "students": students,
             "graded": max(0, len([*each.results.glob("results/*.json")]) - 1),  # and the register
-            "rows": [{key: row.get(key) for key in _ROW} for row in each.rows],
+            "rows": each.rows,
             "files": [name for name in RESULTS if (each.results / name).exists()],
         }  # fmt: skip
 

@@ -48,11 +48,5 @@ export function printed(value, digits = 4) {
   return text.replace("-", "−").replace(/^−0$/, "0");
 }
 
-// «p_z», «$\gamma_{1}$»: what follows the underscore is a subscript.
-const GREEK = {alpha: "α", beta: "β", gamma: "γ", delta: "δ", varphi: "φ", phi: "φ", omega: "ω", lambda: "λ", bar: "",
-  varepsilon: "ε", epsilon: "ε", rho: "ρ", tau: "τ", theta: "θ", Delta: "Δ", Sigma: "Σ", psi: "ψ"};
-export function symbol(text) {
-  const plain = text.replace(/\$|\\mathrm|\\text|\\,/g, "").replace(/\\(\w+)/g, (_, word) => GREEK[word] || word);
-  return plain.split(/(_\{[^}]*\}|_[^\s_,;=(]+)/).filter(Boolean).map(part =>
-    part.startsWith("_") ? html`<sub>${part.replace(/[_{}]/g, "")}</sub>` : part.replace(/[{}]/g, ""));
-}
+// «p_z»: what follows the underscore is a subscript.
+export const symbol = text => text.split(/_([^\s_,;=(]+)/).map((part, i) => i % 2 ? html`<sub>${part}</sub>` : part);

@@ -23,6 +23,7 @@ from reports.tables.overview.verdicts import reasons_of
 
 Data = dict[str, Any]
 _DIGITS = 8  # of the greatest number of a curve: what no screen shows
+_LEAST = 12  # places: what is less is noise of a sum that is zero
 _CHART = ("id", "title", "kind", "x_title", "y_title", "x_is_angle", "x_reversed", "y_reversed")
 
 
@@ -89,7 +90,7 @@ def plain_numbers(values: Any) -> list[float | None]:  # noqa: ANN401
     values = np.asarray(values, dtype=float)
     finite = np.isfinite(values)
     most = float(np.max(np.abs(values[finite]), initial=0.0))
-    digits = _DIGITS - int(np.ceil(np.log10(most))) if most > 0 else 0
+    digits = min(_LEAST, _DIGITS - int(np.ceil(np.log10(most)))) if most > 0 else 0
     rounded: list[float | None] = np.round(values, digits).tolist()
     if not finite.all():
         rounded = [x if ok else None for x, ok in zip(rounded, finite, strict=True)]

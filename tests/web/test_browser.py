@@ -86,6 +86,21 @@ def test_what_the_charts_draw_is_what_the_solver_says(page: Any) -> None:
     page.select_option("#sheet", "П4.1")
 
 
+def test_every_chart_has_room_for_all_that_it_draws(page: Any) -> None:
+    for sheet in page.evaluate("kshm.sheets.map(([id]) => id)"):
+        page.select_option("#sheet", sheet)
+        settle(page)
+        narrow = page.evaluate("""[...document.querySelectorAll("#charts canvas")]
+            .map(canvas => Chart.getChart(canvas)).flatMap(({scales, data}) => ["x", "y"].filter(key => {
+                const values = data.datasets.flatMap(d => d.data.map(p => p[key]));
+                const {min, max} = scales[key];
+                return values.some(value => value !== null && !(value >= min && value <= max));
+            }))""")
+        assert narrow == [], sheet
+    page.select_option("#sheet", "П4.1")
+    settle(page)
+
+
 def test_every_fields_error_is_shown_at_the_field(page: Any) -> None:
     silent = page.evaluate(r"""async () => {
         const silent = [];

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from kshm import solve
+from reports.exports import live
 from reports.inputs.load import load_mapping
 from reports.inputs.template import list_samples
 from reports.inputs.to_si.engine import engine_and_cycle
@@ -171,3 +172,12 @@ def test_files_of_the_machine_are_out_of_reach(page: Page) -> None:
     gas = {**raw["gas"], "source": "file", "file": "/etc/passwd"}
     errors = page.post("/api/solve", {"raw": {**raw, "gas": gas}, "sheet": ""})["errors"]
     assert errors[0]["where"] == "gas.source"
+
+
+def test_rounding_noise_of_a_zero_is_zero() -> None:
+    charts = engine.answer(ENGINES["two-stroke"], "Уравновешивание")["charts"]
+    moments = [
+        curve["y"] for chart in charts if "момент" in chart["title"] for curve in chart["curves"]
+    ]
+    assert len(moments) > 3 and not any(value for curve in moments for value in curve)
+    assert live.plain_numbers([1e-7, np.nan, 3.0000000001]) == [1e-7, None, 3.0]

@@ -36,7 +36,7 @@ class Plot extends Component {
     this.chart = new Chart(this.canvas.current, {
       type: "scatter", data: {datasets: []}, plugins: [{id: "cursor", afterDraw: chart => this.cursor(chart)}],
       options: {
-        animation: false, parsing: false, locale: "ru", aspectRatio: angle ? 1.6 : 1,
+        animation: false, locale: "ru", aspectRatio: angle ? 1.6 : 1,
         interaction: {mode: "nearest", axis: own.x_is_angle ? "x" : "xy", intersect: false},
         elements: {point: {radius: 0, hitRadius: 8}, line: {borderWidth: 2}},
         plugins: {legend: {display: false}},

@@ -38,10 +38,11 @@ function arrows({forces, phi: over, axis, bore}, phi, pin, piston, turn) {
   const ways = [[piston, 0, 1], [piston, -1, 0], [pin, cos, sin], [pin, -sin, cos]];
   return ARROWS.map(([key, name, colour], i) => {
     const [[x, y], dx, dy] = ways[i], k = bore * between(over, forces[key].values, phi) / most;
-    const end = [x + dx * k, y + dy * k], ink = `var(--${colour})`, at = end[0] + bore / 16;
+    const end = [x + dx * k, y + dy * k], ink = `var(--${colour})`, beyond = k + Math.sign(k) * bore / 6;
+    const place = [x + dx * beyond, y + dy * beyond].join(" ");
     return Math.abs(k) < bore / 40 ? null : html`
       ${line([x, y], end, {class: "force", stroke: ink})}${circle(end, bore / 28, "", ink)}
-      <text x=${at} y=${end[1]} font-size=${bore / 5} transform=${`rotate(${-axis} ${at} ${end[1]})`}>${name}</text>`;
+      <text transform=${`translate(${place}) rotate(${-axis})`} font-size=${bore / 5}>${name}</text>`;
   });
 }
 
@@ -54,7 +55,7 @@ export function star(moves, phi) {
       ${Object.entries(groups).map(([angle, numbers]) => {
         const turn = rad(Number(angle) + phi), [x, y] = [Math.sin(turn), -Math.cos(turn)];
         return html`${line([0, 0], [85 * x, 85 * y], {class: "rod"})}${circle([85 * x, 85 * y], 6, "body")}
-          <text x=${108 * x} y=${108 * y + 5} font-size="14" text-anchor="middle">${numbers.join(", ")}</text>`;
+          <text x=${108 * x} y=${108 * y} font-size="14">${numbers.join(", ")}</text>`;
       })}
     </svg>`;
 }

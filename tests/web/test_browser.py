@@ -91,7 +91,8 @@ def test_every_chart_has_room_for_all_that_it_draws(page: Any) -> None:
         page.select_option("#sheet", sheet)
         settle(page)
         narrow = page.evaluate("""[...document.querySelectorAll("#charts canvas")]
-            .map(canvas => Chart.getChart(canvas)).flatMap(({scales, data}) => ["x", "y"].filter(key => {
+            .map(canvas => Chart.getChart(canvas))
+            .flatMap(({scales, data}) => ["x", "y"].filter(key => {
                 const values = data.datasets.flatMap(d => d.data.map(p => p[key]));
                 const {min, max} = scales[key];
                 return values.some(value => value !== null && !(value >= min && value <= max));

@@ -168,11 +168,14 @@ class Solution:
         found = self.chain_tables.get(table, {}).get(key)
         return self.columns[table][key] if found is None else in_units({key: found})[key]
 
-    def scalar(self, key: str) -> float | None:
-        """One scalar in the unit of its quantity; one of the chain asks for nothing more."""
-        if key in self.chain_scalars:
-            return self.chain_scalars[key] / quantity(key).si
-        return self.scalars.get(key)
+    def scalar(self, key: str) -> float:
+        """One scalar in the unit of its quantity; one of the chain asks for nothing more.
+
+        Raises:
+            KeyError: there is no such scalar.
+        """
+        found = self.chain_scalars.get(key)
+        return self.scalars[key] if found is None else found / quantity(key).si
 
     def joints(self, cylinder: int) -> tuple[tuple[Array, Array], ...]:
         """Joints of a cylinder's mechanism over one turn of its crank, see `motion.joints`."""

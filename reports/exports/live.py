@@ -28,15 +28,17 @@ _CHART = ("id", "title", "kind", "x_title", "y_title", "x_is_angle", "x_reversed
 
 
 def results(model: Model, solution: Solution) -> Iterator[Data]:
-    """The summaries of workbook and report with the solver's numbers."""
+    """The summaries of workbook and report with the numbers of chain and regimes: what is quick."""
+    quick = solution.scalars if solution.engine.regimes else solution.chain_scalars
     for block in model.blocks:
         if isinstance(block, ScalarTable) and block.id.startswith(("summary", "geometry")):
-            found = ((each, solution.scalar(each.key)) for each in block.scalars)
+            found = ((each, solution.scalar(each.key)) for each in block.scalars
+                     if each.key in quick)  # fmt: skip
             rows = [
                 {"key": each.key, "title": each.note or each.quantity.title,
                  "symbol": each.quantity.symbol, "unit": each.quantity.unit_label,
                  "value": value, "text": written(value, each.quantity.digits)}
-                for each, value in found if value is not None
+                for each, value in found
             ]  # fmt: skip
             if rows:
                 yield {"id": block.id, "title": block.title, "rows": rows}

@@ -148,7 +148,7 @@ def create_app(settings: Settings) -> Guard:
         *teacher.student_routes(classes),
     ]
     session = Middleware(
-        SessionMiddleware, secret.hex(), "kshm", SESSION_S, same_site="strict",
+        SessionMiddleware, secret.hex(), "kshm", SESSION_S, same_site="lax",
         https_only=settings.secure,
     )  # fmt: skip
     small = Middleware(GZipMiddleware, minimum_size=1000)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import socket
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -65,7 +66,8 @@ def serve(port: int, host: str, folder: Path, public: str, dask: str | None, ver
 def _bound(host: str, port: int) -> socket.socket:
     """A socket at an address, or a line that says why there is none."""
     bound = socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET)
-    bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    if os.name == "posix":  # elsewhere two servers would share the port
+        bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         bound.bind((host, port))
         return bound

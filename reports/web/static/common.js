@@ -6,12 +6,14 @@ export const html = htm.bind(h);
 
 export const options = list => list.map(([value, label, title]) =>
   html`<option key=${value} value=${value} title=${title}>${label}</option>`);
-export const row = (cells, more) => html`<tr ...${more}>${cells.map(([text, name]) => html`<td class=${name}>${text}</td>`)}</tr>`;
+export const row = (cells, more) => html`
+  <tr ...${more}>${cells.map(([text, name]) => html`<td class=${name}>${text}</td>`)}</tr>`;
 export const table = (caption, rows, head) => html`
   <div class="box" tabindex="0" role="region" aria-label=${caption}>
     <table><caption>${caption}</caption>${head}<tbody>${rows}</tbody></table>
   </div>`;
-export const list = (problems, name, more) => html`<ul class=${name} ...${more}>${problems.map(p => html`<li>${line(p)}</li>`)}</ul>`;
+export const list = (problems, name, more) => html`
+  <ul class=${name} ...${more}>${problems.map(p => html`<li>${line(p)}</li>`)}</ul>`;
 export const alerts = problems => list(problems, "errors", {id: "errors", role: "alert", "aria-live": "polite"});
 
 // A file chosen at a button goes to `taken`; the same file may be chosen again.
@@ -35,7 +37,8 @@ export async function ask(path, data) {
 }
 
 export const words = problem => [problem.what, problem.hint].filter(Boolean).join("; ");
-const line = problem => typeof problem === "string" ? problem : [problem.where, words(problem)].filter(Boolean).join(": ");
+const line = problem => typeof problem === "string" ? problem
+  : [problem.where, words(problem)].filter(Boolean).join(": ");
 
 export function printed(value, digits = 4) {
   if (typeof value !== "number") return value ?? "";

@@ -7,7 +7,8 @@ import {mechanism, star} from "./moving.js";
 
 const state = {
   raw: null, other: null, past: [], groups: [], sheets: [], absent: {}, sheet: "П4.1", cylinder: 0, phi: 0,
-  typed: {}, problems: {}, errors: [], warnings: [], checks: [], jobs: [], find: "", open: new Set(), theme: 0,
+  typed: {}, problems: {}, errors: [], late: false, warnings: [], checks: [], jobs: [],
+  find: "", open: new Set(), theme: 0,
   isNew: true, running: false, playing: false, last: null, second: null, linked: false,
 };
 const copy = structuredClone;
@@ -31,7 +32,8 @@ async function open(raw, keep = true) {
 
 let again = false, later = 0;
 async function solve() {
-  try { localStorage.setItem("kshm", JSON.stringify({raw: state.raw, other: state.other})); } catch { /* private window */ }
+  const {raw, other} = state;
+  try { localStorage.setItem("kshm", JSON.stringify({raw, other})); } catch { /* private window */ }
   again = true;
   if (state.running) return draw(); // at most one question on its way
   state.running = true;
@@ -41,7 +43,10 @@ async function solve() {
     const {sheet, cylinder} = state, put = raw => raw && ask("api/solve", {raw, sheet, cylinder});
     const [last, second] = await Promise.all([put(state.raw), put(state.other)]);
     sort(last.errors, last.warnings || []);
-    if (!last.errors.length) Object.assign(state, {last, second, cylinder: again ? state.cylinder : last.moves.cylinder});
+    state.late = last.errors.length > 0;
+    if (state.late) continue;
+    Object.assign(state, {last, second});
+    if (!again) state.cylinder = last.moves.cylinder;
   }
   set({running: false});
   clearTimeout(later);
@@ -139,8 +144,10 @@ async function link() {
   set({linked: true});
 }
 
-const compare = other => { state.other = other; solve(); };
-const upload = async file => fresh(/\.xlsx$/i.test(file.name) ? ask("api/book", file) : ask("api/read", {text: await file.text()}));
+const asked = changes => { Object.assign(state, changes); solve(); };
+const compare = other => asked({other});
+const upload = async file => fresh(/\.xlsx$/i.test(file.name)
+  ? ask("api/book", file) : ask("api/read", {text: await file.text()}));
 const step = () => open(JSON.parse(state.past.pop()), false);
 
 function submitted(event, keys) { // the form's values, numbers as numbers
@@ -151,8 +158,9 @@ function submitted(event, keys) { // the form's values, numbers as numbers
 }
 
 // --- the page ---
-const pick = (title, name, pairs, chosen) => html`<label>${title} <select id=${name} name=${name}>
-  ${pairs.map(([value, label]) => html`<option value=${value} selected=${value === chosen}>${label}</option>`)}</select></label>`;
+const pick = (title, name, pairs, chosen) => html`
+  <label>${title} <select id=${name} name=${name}>${pairs.map(([value, label]) => html`
+    <option value=${value} selected=${value === chosen}>${label}</option>`)}</select></label>`;
 
 const ownForm = choices => html`
   <form onSubmit=${e => fresh(ask("api/new", submitted(e, ["sample"])))}>
@@ -195,7 +203,7 @@ const data = () => html`
 const scene = ({moves}) => html`
   <div id="scene" class="cards">
     <figure>${mechanism(moves, state.phi)}<figcaption><label>Механизм, цилиндр
-      <select id="cylinder" value=${state.cylinder} onChange=${e => { state.cylinder = Number(e.target.value); solve(); }}>
+      <select id="cylinder" value=${state.cylinder} onChange=${e => asked({cylinder: Number(e.target.value)})}>
         ${options(Array.from({length: moves.cylinders}, (_, i) => [i, i + 1]))}</select></label></figcaption></figure>
     <figure>${star(moves, state.phi)}<figcaption>Звезда кривошипов</figcaption></figure>
     <div>
@@ -203,27 +211,29 @@ const scene = ({moves}) => html`
         <input id="phi" type="range" min="0" max=${moves.phi.at(-1)} step="1" value=${state.phi}
           aria-valuetext=${`${printed(state.phi)} градусов`} onInput=${e => turn(e.target.value)} />
         <button aria-pressed=${String(state.playing)} onClick=${play}>${state.playing ? "Стоп" : "Пуск"}</button></p>
-      <table><caption>Удельные силы при φ</caption><tbody>${Object.values(moves.forces).map(f =>
-        row([[symbol(f.symbol)], [printed(between(moves.phi, f.values, state.phi), 4), "n"], [f.unit, "s"]]))}</tbody></table>
+      <table><caption>Удельные силы при φ</caption><tbody>${Object.values(moves.forces).map(f => row(
+        [[symbol(f.symbol)], [printed(between(moves.phi, f.values, state.phi)), "n"], [f.unit, "s"]]))}</tbody></table>
     </div>
   </div>`;
 
 const job = ({id, title, state: now, place, seconds, files = [], lines, errors}) => html`<li>${title}:
   ${now === "waiting" && ` в очереди, перед вами ${place}`}${now === "running" && ` делается, ${seconds} с`}
-  ${files.map(({name, size}) => html` <a href=${`api/files/${id}/${encodeURIComponent(name)}`} download=${name}>${name}</a>
+  ${files.map(({name, size}) => html`
+    <a href=${`api/files/${id}/${encodeURIComponent(name)}`} download=${name}>${name}</a>
     ${` (${printed(size / 1e6, 2)} МБ) `}`)}
   ${list(lines || errors || [], now === "done" ? "odd" : "bad")}</li>`;
 
-const verdict = c => c.ok ? ["выполнена", "good"] : c.reason ? [`принято: ${c.reason}`, "odd"] : ["не выполнена", "bad"];
+const verdict = ({ok, reason}) =>
+  ok ? ["выполнена", "good"] : reason ? [`принято: ${reason}`, "odd"] : ["не выполнена", "bad"];
 
 function results({last, second}) {
   const others = new Map((second?.results || []).flatMap(t => t.rows.map(r => [r.key, r.text])));
   return html`
-    <section id="results" aria-label="Результаты" tabindex="-1" class=${state.errors.length || wrong() ? "late" : ""}>
+    <section id="results" aria-label="Результаты" tabindex="-1" class=${state.late ? "late" : ""}>
       <h2>${state.raw.engine?.name || "Двигатель"}</h2>
       ${scene(last)}
       <p class="tools"><label>Диаграммы листа <select id="sheet" value=${state.sheet}
-        onChange=${e => { state.sheet = e.target.value; solve(); }}>
+        onChange=${e => asked({sheet: e.target.value})}>
         ${options(state.sheets.map(([id, title]) => [id, id || "Прочее", title]))}</select></label></p>
       <div id="charts" class="cards">${last.charts.map(own => figure(
         {own, other: second?.charts?.find(c => c.id === own.id), phi: state.phi, theme: state.theme}))}</div>
@@ -239,7 +249,6 @@ function results({last, second}) {
             [others.get(r.key) ?? "", "n"], [r.unit, "s"]], {"data-key": r.key})))}</details>`)}</div>
     </section>`;
 }
-const wrong = () => Object.values(state.problems).flat().some(p => p.kind === "error");
 
 const page = () => html`
   <a class="skip" href="#results">К результатам</a>

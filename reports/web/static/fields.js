@@ -23,7 +23,10 @@ function repeat(raw, path, blank) { // a list grows by its last entry
 
 export function add(raw, id) { // a section, or a regime that begins as the main one
   if (id !== "regimes") raw[id] = {};
-  else (raw.regimes ??= []).push(structuredClone({...raw.regime, name: `Режим ${raw.regimes.length + 2}`, gas: raw.gas}));
+  else {
+    const list = raw.regimes ??= [], name = `Режим ${list.length + 2}`;
+    list.push(structuredClone({...raw.regime, name, gas: raw.gas}));
+  }
 }
 
 const said = problems => (problems || []).map(p => html`<span class=${p.kind}>${words(p)}</span>`);

@@ -24,7 +24,8 @@ export function mechanism(moves, phi) {
       viewBox=${[left, up, right - left, down - up].join(" ")}>
       <g transform=${`rotate(${axis})`}>
         ${circle([0, 0], r, "axis")}${side(-half)}${side(half)}
-        <rect x=${wall - half} y=${piston[1] - half * .8} width=${bore} height=${half * 1.3} rx=${r / 12} class="body" />
+        <rect class="body" x=${wall - half} y=${piston[1] - half * .8} width=${bore} height=${half * 1.3}
+          rx=${r / 12} />
         ${points.slice(1).map((point, i) => line(points[i], point, {class: "rod"}))}
         ${points.map(point => circle(point, r / 9, "body"))}
         ${arrows(moves, phi, points[1], piston, rad(inside))}

@@ -14,7 +14,8 @@ async function look(errors = []) {
     <main class="single"><section>
       ${alerts([...errors, ...own.errors || []])}
       ${!own.errors && html`<p id="state" aria-live="polite">${words.filter(Boolean).join("; ")}</p>
-        <p class="tools"><a id="book" class="button" href=${`${door}/book`} download=${own.file}>Скачать рабочую книгу</a>
+        <p class="tools">
+          <a id="book" class="button" href=${`${door}/book`} download=${own.file}>Скачать рабочую книгу</a>
           ${picker("Сдать книгу .xlsx", ".xlsx", hand, "work")}
           <a id="page" class="button" href=${`${door}/page`} hidden=${!own.open}>Страница проверки</a></p>`}
     </section></main>`, document.body);

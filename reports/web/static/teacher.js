@@ -19,8 +19,13 @@ async function look(news = "") {
   clearTimeout(timer);
   if (!state.chosen) return;
   const {errors = [], ...own} = await ask(`api/teacher/${state.chosen}`);
-  set({errors, own: own.students ? own : null, news});
-  if (own.students && isBusy()) timer = setTimeout(look, 1000);
+  set({errors, own: own.students ? own : state.own, news});
+  if (state.own && isBusy()) timer = setTimeout(look, 1000);
+}
+
+function choose({target}) {
+  set({chosen: target.value, own: null});
+  look();
 }
 
 async function act(path, data, news) {
@@ -56,7 +61,7 @@ async function issue(event) {
 }
 
 function status({state: now, students, rows, graded}) {
-  if (isBusy()) return `${students.length ? "Проверка" : "Выдача"} идёт… ${graded ? `готово файлов: ${graded}` : ""}`;
+  if (isBusy()) return students.length ? `Проверка идёт… готово файлов: ${graded}` : "Выдача идёт…";
   if (now !== "done") return "";
   if (!rows.length) return "Варианты выданы.";
   const waits = rows.some(each => each.manual);
@@ -81,7 +86,7 @@ const gradebook = own => table("Ведомость", own.rows.map(each => {
   const name = judged ? link(`page/${each.number}`, each.student, {target: "_blank"}) : each.student;
   const shown = each.points === null && points !== null ? `(${printed(points)})` : printed(points);
   return row([[name], [each.status], [shown, "n"], [each.remark],
-    [judged && decision(each)]], {key: each.student, class: each.manual ? "odd" : ""});
+    [judged && decision(each)]], {key: each.number ?? each.student, class: each.manual ? "odd" : ""});
 }), html`<thead><tr>${["Студент", "Состояние", "Баллы", "Примечание", "Решение"].map(title =>
   html`<th scope="col">${title}</th>`)}</tr></thead>`);
 
@@ -143,7 +148,7 @@ const page = () => html`
     ${alerts(state.errors)}
     ${state.inside === false && entrance}
     ${state.inside && html`<div id="inside">${issuing()}
-      <p><label>Группа <select id="classes" value=${state.chosen} onChange=${e => { state.chosen = e.target.value; look(); }}>
+      <p><label>Группа <select id="classes" value=${state.chosen} onChange=${choose}>
         ${options(state.classes.map(c => [c.name, `${c.title}, ${c.date.slice(0, 10)}`]))}</select></label></p>
       ${state.own && room(state.own)}</div>`}
   </section></main>`;

@@ -163,8 +163,8 @@ def polar(
 
 
 def wear_chart(
-    chart: str, sheet: str, title: str, grid: str, hole: str, contact: tuple[str, str],
-    **more: Unpack[More],
+    chart: str, sheet: str, title: str, grid: str, hole: str,
+    contact: tuple[str, ...] = (), **more: Unpack[More],
 ) -> ChartSpec:  # fmt: skip
     """Conditional wear diagram of a journal from the grid with the sums of its rays."""
     curves = (

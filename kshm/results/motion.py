@@ -80,6 +80,23 @@ def _articulated(case: Case) -> Tables:
     }
 
 
+def joints(case: Case, *, is_hung: bool) -> tuple[tuple[Array, Array], ...]:
+    """Crankpin, pin of an articulated rod and piston pin [m] over one turn of the own crank.
+
+    Each is (across, along) in the frame of the cylinder, its axis upwards; exact.
+    """
+    phi, geometry = case.turn, case.engine.geometry
+    r, rod, offset = geometry.crank_radius, geometry.rod_length, geometry.offset
+    crank = (r * np.sin(phi), r * np.cos(phi))
+    rods, at = case.raw.batch.articulated, (case.index, 0)
+    if rods is not None and is_hung:
+        piston = articulated.motion(phi, rods.link)
+        hung = (piston.pin.across[0][at], piston.pin.along[0][at])
+        return crank, hung, (np.full(phi.shape, offset), piston.height[0][at])
+    height = crank[1] + np.sqrt(rod**2 - (crank[0] - offset) ** 2)
+    return crank, (np.full(phi.shape, offset), height)
+
+
 def central_scalars(r: Array, lam: Array, omega: Array) -> dict[str, Array]:
     """Extremes of the central mechanism's two-term motion in closed form, SI, elementwise."""
     fastest, unit = kinematics.max_velocity(r, lam, omega), r * omega**2

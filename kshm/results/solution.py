@@ -159,6 +159,30 @@ class Solution:
             **gas.gas_scalars(case),
         }
 
+    def column(self, table: str, key: str) -> Array:
+        """One column in the unit of its quantity; one of the chain asks for nothing more.
+
+        Raises:
+            KeyError: there is no such column.
+        """
+        found = self.chain_tables.get(table, {}).get(key)
+        return self.columns[table][key] if found is None else in_units({key: found})[key]
+
+    def scalar(self, key: str) -> float:
+        """One scalar in the unit of its quantity; one of the chain asks for nothing more.
+
+        Raises:
+            KeyError: there is no such scalar.
+        """
+        found = self.chain_scalars.get(key)
+        return self.scalars[key] if found is None else found / quantity(key).si
+
+    def joints(self, cylinder: int) -> tuple[tuple[Array, Array], ...]:
+        """Joints of a cylinder's mechanism over one turn of its crank, see `motion.joints`."""
+        return motion.joints(
+            self._case, is_hung=self.engine.arrangement[cylinder].master is not None
+        )
+
     @cached_property
     def _subjects(self) -> Results:
         """Tables and scalars beside the chain itself in SI units."""

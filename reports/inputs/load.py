@@ -80,6 +80,24 @@ def load_text(text: str, *, source: str, folder: FilePath | None = None) -> Load
 
     `folder` is where a file with the points of the indicator diagram is looked for.
     """
+    raw, section = split_ranges(parsed(text, source=source))
+    if section is not None:
+        # Ranges of variants serve "kshm issue"; one engine is calculated without them.
+        problems = read_ranges(section, raw, source)[1]
+        if problems:
+            raise InputError(problems)
+    raw = understood(raw)
+    home = folder or FilePath()
+    loaded = load_mapping(with_points(raw, home, source), source=source)
+    return replace(loaded, beside=tuple(home / name for name in files_of(raw)))
+
+
+def parsed(text: str, *, source: str) -> dict[str, Any]:
+    """The nested mapping of a text, whatever its values.
+
+    Raises:
+        InputError: It is no TOML, or there is nothing in it.
+    """
     refuse_bomb(source, text)
     try:
         raw = tomllib.loads(text)
@@ -90,16 +108,7 @@ def load_text(text: str, *, source: str, folder: FilePath | None = None) -> Load
         raise refused(source, what, hint) from None
     if not raw:
         raise refused(source, "файл пуст", "заготовку даст команда «kshm new»")
-    raw, section = split_ranges(raw)
-    if section is not None:
-        # Ranges of variants serve "kshm issue"; one engine is calculated without them.
-        problems = read_ranges(section, raw, source)[1]
-        if problems:
-            raise InputError(problems)
-    raw = understood(raw)
-    home = folder or FilePath()
-    loaded = load_mapping(with_points(raw, home, source), source=source)
-    return replace(loaded, beside=tuple(home / name for name in files_of(raw)))
+    return raw
 
 
 def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None = None) -> Loaded:

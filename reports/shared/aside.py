@@ -12,6 +12,13 @@ from typing import TypeVar
 Result = TypeVar("Result")
 
 
+def processors() -> int:
+    """How many processors this program may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
 def can_split() -> bool:
     """Whether a second process costs next to nothing here and has a processor of its own.
 
@@ -20,7 +27,7 @@ def can_split() -> bool:
     """
     if sys.platform != "linux" or multiprocessing.parent_process() is not None:
         return False
-    return len(os.sched_getaffinity(0)) > 1
+    return processors() > 1
 
 
 def aside(work: Callable[[], Result]) -> Callable[[], Result]:

@@ -41,6 +41,8 @@ class ChartSpec:
         levels: scalars and inputs that the report draws across, such as a mean.
         extremes: the report marks the greatest and the least value of the first curve.
         hole: scalar with the angle of the oil hole in a wear diagram [deg].
+        contact: signed columns of x and y from the axis to where the force acts in a wear
+            diagram.
         poles: points below the origin from which the report's vector is measured: symbol and
             expression of the ordinate.
         group: what the report says of this chart and the others that share a figure with it.
@@ -66,6 +68,7 @@ class ChartSpec:
     levels: tuple[str, ...] = ()
     extremes: bool = False
     hole: str = ""
+    contact: tuple[str, ...] = ()
     poles: tuple[tuple[str, str], ...] = ()
     group: str = ""
     panel: str = ""
@@ -160,12 +163,15 @@ def polar(
 
 
 def wear_chart(
-    chart: str, sheet: str, title: str, grid: str, hole: str, **more: Unpack[More]
-) -> ChartSpec:
+    chart: str, sheet: str, title: str, grid: str, hole: str,
+    contact: tuple[str, ...] = (), **more: Unpack[More],
+) -> ChartSpec:  # fmt: skip
     """Conditional wear diagram of a journal from the grid with the sums of its rays."""
     curves = (
         Series(f"{grid}.circle_x", f"{grid}.circle_y", "шейка"),
         Series(f"{grid}.wear_x", f"{grid}.wear_y", "износ"),
         Series(f"{grid}.hole_x", f"{grid}.hole_y", "отверстие", only="workbook", point=True),
     )
-    return ChartSpec(chart, sheet, title, "wear", curves, x_reversed=True, hole=hole, **more)
+    return ChartSpec(
+        chart, sheet, title, "wear", curves, x_reversed=True, hole=hole, contact=contact, **more
+    )

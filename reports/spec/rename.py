@@ -54,6 +54,7 @@ def copied_chart(chart: ChartSpec, names: Names) -> ChartSpec:
         series=tuple(replace(s, x=names(s.x), y=names(s.y)) for s in chart.series),
         levels=tuple(map(names, chart.levels)),
         hole=names(chart.hole),
+        contact=tuple(renamed(column, names) for column in chart.contact),
         poles=tuple((symbol, renamed(expr, names)) for symbol, expr in chart.poles),
     )
 

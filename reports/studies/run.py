@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +9,7 @@ from pathlib import Path
 from kshm.chain.solve import chunk_size, solve_batch
 from reports.exports.build import load_input
 from reports.inputs.to_si.engine import engine_and_cycle
+from reports.shared.aside import processors
 from reports.shared.errors import KshmError, OutputError
 from reports.shared.files import atomic_path, reason, refuse_own
 from reports.shared.ordered import in_order
@@ -68,7 +68,7 @@ def sweep(
     engine, cycle = engine_and_cycle(model)
     wanted = choose(solve_batch([engine]), quantities, cycle)
     size = options.chunk or chunk_size(engine)
-    jobs = options.jobs or len(os.sched_getaffinity(0))
+    jobs = options.jobs or processors()
     if plan.count <= _FEW and not options.jobs:
         jobs = 1
     done = failed = 0

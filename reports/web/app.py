@@ -4,35 +4,41 @@ from __future__ import annotations
 
 import contextlib
 import secrets
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
 from dataclasses import dataclass
 from pathlib import Path
+from string import Template
 from typing import Any
 
 from starlette.applications import Starlette
 from starlette.exceptions import HTTPException
 from starlette.middleware import Middleware
 from starlette.middleware.gzip import GZipMiddleware
+from starlette.middleware.sessions import SessionMiddleware
 from starlette.requests import Request
-from starlette.responses import FileResponse, JSONResponse, Response
-from starlette.routing import Mount, Route
+from starlette.responses import HTMLResponse, JSONResponse, Response
+from starlette.routing import Mount
 from starlette.staticfiles import StaticFiles
 
 from reports.grading.issuing.ticket import make_secret, read_secret
+from reports.inputs.described import Data
 from reports.inputs.sections.cycle import KINDS
 from reports.inputs.sections.input_file import LAYOUTS, STROKES
 from reports.inputs.template import list_samples
+from reports.shared.aside import processors
 from reports.shared.errors import KshmError
 from reports.shared.files import make_dir
 from reports.shared.resources import resource_dir
 from reports.web import engine, files, teacher
 from reports.web.classes import Classes
-from reports.web.guard import BODY_S, Guard, Rate, body, mapping, refusal
+from reports.web.doors import MOST_BOOK, Door, body, good, route, uploaded
+from reports.web.guard import Guard, Rate, refusal
 from reports.web.jobs import Jobs
-from reports.web.pool import Busy, Pool, processors
+from reports.web.pool import Busy, Pool
 
 STATIC = Path(__file__).parent / "static"
-MOST_FILE = 100_000_000
+BOOK_S = 60.0
+SESSION_S = 12 * 3600
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,39 +63,43 @@ class Settings:
     dask: str | None = None
     per_s: float = 200.0
     workers: int | None = None
-    body_s: float = BODY_S
+    body_s: float = 30.0
 
 
-def page(name: str) -> files.Door:
-    """A page as it lies beside this module."""
+def page(name: str, root: str = ".") -> Door:
+    """A page whose script lies beside this module; ``root`` leads from its address."""
+    text = Template((STATIC / "page.html").read_text(encoding="utf-8"))
 
     async def shown(request: Request) -> Response:
-        answer = FileResponse(STATIC / name)
-        if "kshm" not in request.cookies:  # only the place in the queue hangs on it
-            answer.set_cookie("kshm", secrets.token_urlsafe(16), httponly=True, samesite="strict")
-        return answer
+        request.session.setdefault("visitor", secrets.token_urlsafe(16))  # the place in the queue
+        return HTMLResponse(text.substitute(name=name, root=root))
 
     return shown
 
 
-def asked(function: Any, *keys: str) -> files.Door:  # noqa: ANN401
+def asked(function: Callable[..., Data], *keys: str) -> Door:
     """A question to the solving processes: values of these keys of a request, or all of it."""
 
-    async def answer(request: Request) -> Response:
+    async def answer(request: Request) -> Data:
         data = await body(request)
-        values: list[Any] = [
-            mapping(data, key) if key == "raw" else data.get(key, 0 if key == "cylinder" else "")
-            for key in keys
-        ]
-        return JSONResponse(await request.app.state.pool.ask(function, *(values or [data])))
+        values = [data.get(key) for key in keys] or [data]
+        found: Data = await request.app.state.pool.ask(function, *values)
+        return found
 
     return answer
 
 
-async def choices(_: Request) -> Response:
+async def choices(_: Request) -> Data:
     """What may be chosen before there is an engine."""
-    return JSONResponse({"samples": list_samples(), "layouts": LAYOUTS, "strokes": STROKES,
-                         "kinds": KINDS, "files": files.kinds()})  # fmt: skip
+    return {"samples": list_samples(), "layouts": LAYOUTS, "strokes": STROKES, "kinds": KINDS,
+            "files": files.kinds()}  # fmt: skip
+
+
+async def book(request: Request) -> Data:
+    """The input that an edited workbook holds, read by a solving process."""
+    ask = request.app.state.pool.ask
+    async with uploaded(request, MOST_BOOK) as path:
+        return good(await ask(engine.read_book, str(path), seconds=BOOK_S))
 
 
 def server_secret(folder: Path) -> bytes:
@@ -101,15 +111,14 @@ def server_secret(folder: Path) -> bytes:
 def create_app(settings: Settings) -> Guard:
     """The whole application, the guard before it."""
     make_dir(settings.data)
-    secret, pool = server_secret(settings.data), Pool(settings.workers)
-    jobs = Jobs(settings.data / "jobs", secret, settings.workers or processors())
+    secret, workers = server_secret(settings.data), settings.workers or processors()
+    pool, jobs = Pool(workers), Jobs(settings.data / "jobs", secret, workers)
     classes = Classes(settings.data / "classes", secret, settings.dask)
 
     @contextlib.asynccontextmanager
     async def lifespan(_: Starlette) -> AsyncIterator[None]:
-        pool.start()
-        jobs.start()
-        classes.start()
+        for each in (pool, jobs, classes):
+            each.start()
         try:
             yield
         finally:
@@ -124,47 +133,42 @@ def create_app(settings: Settings) -> Guard:
         "solve": asked(engine.answer, "raw", "sheet", "cylinder"),
         "checks": asked(engine.checks, "raw"),
         "toml": asked(engine.as_toml, "raw"),
-        "book": files.book,
-        "files": files.order(jobs, settings.dask),
+        "book": book,
     }
     routes = [
-        Route("/", page("engine.html")),
-        Route("/teacher", page("teacher.html")),
-        Route("/s/{link}/", page("student.html")),
-        *teacher.routes(classes, secret, settings.secure),
-        *teacher.student_routes(classes),
+        route("/", page("engine")),
+        route("/teacher", page("teacher")),
+        route("/s/{link}/", page("student", "../..")),
         Mount("/static", StaticFiles(directory=STATIC)),
         Mount("/images", StaticFiles(directory=resource_dir("docs/images"))),
-        Route("/api/choices", choices),
-        *(Route(f"/api/{name}", door, methods=["POST"]) for name, door in questions.items()),
-        Route("/api/files/{job}", files.about(jobs)),
-        Route("/api/files/{job}/{name}", files.taken(jobs)),
+        route("/api/choices", choices),
+        *(route(f"/api/{name}", door, "POST") for name, door in questions.items()),
+        *files.routes(jobs, settings.dask),
+        *teacher.routes(classes, secret),
+        *teacher.student_routes(classes),
     ]
-    app = Starlette(
-        routes=routes, lifespan=lifespan, exception_handlers=handlers(),
-        middleware=[Middleware(GZipMiddleware, minimum_size=1000)],
+    session = Middleware(
+        SessionMiddleware, secret.hex(), "kshm", SESSION_S, same_site="lax",
+        https_only=settings.secure,
     )  # fmt: skip
+    small = Middleware(GZipMiddleware, minimum_size=1000)
+    errors: Any = dict.fromkeys((KshmError, Busy, HTTPException, 500), failed)
+    app = Starlette(
+        routes=routes, lifespan=lifespan, exception_handlers=errors, middleware=[small, session]
+    )
     app.state.pool, app.state.settings = pool, settings
     app.state.jobs, app.state.classes = jobs, classes
     hosts = frozenset({"127.0.0.1", "localhost", "::1", *map(str.lower, settings.hosts)})
-    rate = Rate(settings.per_s, 2 * settings.per_s)
-    return Guard(app, hosts, settings.prefix, MOST_FILE, rate, settings.body_s)
+    return Guard(app, hosts, settings.prefix, Rate(settings.per_s, 2 * settings.per_s))
 
 
-def handlers() -> dict[Any, Any]:
-    """What becomes of errors: a line for the person, never a traceback."""
-
-    async def expected(_: Request, error: KshmError) -> Response:
-        return JSONResponse({"errors": [engine.as_dict(p) for p in error.problems]}, 422)
-
-    async def busy(_: Request, __: Exception) -> Response:
+async def failed(_: Request, error: Exception) -> Response:
+    """What becomes of an error: a line for the person, never a traceback."""
+    if isinstance(error, KshmError):
+        return JSONResponse({"errors": engine.told(error)}, 422)
+    if isinstance(error, Busy):
         return refusal(503, "сервер занят или данные не считаются за отведённое время; повторите")
-
-    async def refused(_: Request, error: HTTPException) -> Response:
+    if isinstance(error, HTTPException):
         ours = not error.detail.isascii()
         return refusal(error.status_code, error.detail if ours else "нет такой страницы")
-
-    async def unexpected(_: Request, error: Exception) -> Response:
-        return refusal(500, f"внутренняя ошибка {type(error).__name__}")
-
-    return {KshmError: expected, Busy: busy, HTTPException: refused, 500: unexpected}
+    return refusal(500, f"внутренняя ошибка {type(error).__name__}")

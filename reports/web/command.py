@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 import contextlib
+import os
+import socket
 from pathlib import Path
-from socket import gethostname
 from urllib.parse import urlsplit
 
 import click
 
 from reports.commands.common import DONE, HELP, dask_option, path_option, verbose_option
 from reports.commands.words import RussianCommand
-from reports.shared.errors import KshmError, SystemPartMissing
-
-_EVERYWHERE = ("0.0.0.0", "::")
+from reports.shared.doctor import need_packages
+from reports.shared.errors import KshmError
+from reports.shared.files import make_dir, reason
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)
-@click.option("--port", default=8321, show_default=True, help="Порт.")
+@click.option("--port", type=click.IntRange(1, 65535), default=8321, show_default=True,
+              help="Порт.")  # fmt: skip
 @click.option("--host", default="127.0.0.1", show_default=True, metavar="NAME",
               help="Адрес, на котором ждать; 0.0.0.0 — вся сеть.")  # fmt: skip
 @path_option("--data", "folder", metavar="DIR", default=Path("kshm-data"),
@@ -28,36 +30,24 @@ _EVERYWHERE = ("0.0.0.0", "::")
 @verbose_option
 def serve(port: int, host: str, folder: Path, public: str, dask: str | None, verbose: bool) -> int:
     """Открыть страницу в браузере: числа, диаграммы, файлы, группа преподавателя."""
-    try:
-        import pebble
-        import starlette
-        import uvicorn
-
-        assert pebble and starlette
-    except ImportError:
-        raise SystemPartMissing(
-            "пакеты starlette, uvicorn и pebble", 'pip install "kshm[serve]"',
-            purpose="для kshm serve",
-        ) from None  # fmt: skip
-    if not 0 < port < 65536:
-        msg = f"--port {port}: порт — число от 1 до 65535"
-        raise KshmError(msg)
+    packages = ("starlette", "uvicorn", "pebble", "itsdangerous")
+    need_packages("для kshm serve", **{name: name for name in packages})
     address = urlsplit(public)
     if public and (address.scheme not in ("http", "https") or not address.hostname):
         msg = f"--public {public}: нужен адрес вида https://kafedra.example/kshm"
         raise KshmError(msg)
-    _free(host, port)
-    from reports.shared.files import make_dir
+    bound = _bound(host, port)
+    import uvicorn
+
     from reports.web.app import Settings, create_app, server_secret
     from reports.web.teacher import token_of
 
     if not folder.exists():
         make_dir(folder)
         folder.chmod(0o700)
-    make_dir(folder)
-    wide = host in _EVERYWHERE
-    own = gethostname().lower() if wide else host
-    hosts = tuple(name for name in (own, "*" if wide else "", address.hostname) if name)
+    wide = host in ("0.0.0.0", "::")
+    own = (socket.gethostname().lower(), "*") if wide else (host,)
+    hosts = tuple(name for name in (*own, address.hostname) if name)
     prefix = address.path.rstrip("/")
     app = create_app(Settings(folder.resolve(), hosts, prefix, address.scheme == "https", dask))
     shown = public.rstrip("/") or f"http://{'127.0.0.1' if host == '0.0.0.0' else host}:{port}"
@@ -65,25 +55,22 @@ def serve(port: int, host: str, folder: Path, public: str, dask: str | None, ver
     click.echo(f"Преподавателю: {shown}/teacher#{token_of(server_secret(folder))}")
     click.echo("Остановить: Ctrl-C", err=True)
     config = uvicorn.Config(
-        app, host=host, port=port, log_level="warning", access_log=False, server_header=False,
+        app, log_level="warning", access_log=False, server_header=False,
         limit_concurrency=1000, timeout_keep_alive=30, timeout_graceful_shutdown=3,
     )  # fmt: skip
     with contextlib.suppress(KeyboardInterrupt):  # the usual end
-        uvicorn.Server(config).run()
+        uvicorn.Server(config).run([bound])
     return DONE
 
 
-def _free(host: str, port: int) -> None:
-    """Refuse an address that cannot be listened at, in a line."""
-    import socket
-
-    from reports.shared.files import reason
-
+def _bound(host: str, port: int) -> socket.socket:
+    """A socket at an address, or a line that says why there is none."""
+    bound = socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET)
+    if os.name == "posix":  # elsewhere two servers would share the port
+        bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
-        family = socket.AF_INET6 if ":" in host else socket.AF_INET
-        with socket.socket(family) as probe:
-            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-            probe.bind((host, port))
+        bound.bind((host, port))
+        return bound
     except OSError as error:
         text = "порт занят" if error.errno == 98 else reason(error)
         msg = f"--host {host} --port {port}: {text}; укажите другой адрес или порт"

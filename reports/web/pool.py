@@ -11,12 +11,13 @@ from typing import Any
 
 from pebble import ProcessExpired, ProcessPool
 
+from reports.grading.batch.worker import MEMORY, forbid_the_world, limit_memory
+from reports.inputs.described import Data
+from reports.shared.aside import processors
 from reports.web import engine
-from reports.web.fields import Data
 
 TIMEOUT_S = 20.0
 WAIT_S = 30.0  # before a process is free
-_MEMORY = 2 * 2**30  # bytes beyond what a warm process has
 _ANSWERS = 5_000  # then a new process: whatever a library leaks is given back
 
 
@@ -24,37 +25,26 @@ class Busy(Exception):  # noqa: N818 - no fault of the program
     """There was no answer in time."""
 
 
-def processors() -> int:
-    """How many processors this program may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
-
-
 def _begin() -> None:
     """Make a process ready: warm, with little memory, no network, no other programs."""
-    from reports.grading.batch.worker import forbid_the_world, limit_memory
-
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the server
     engine.warm()
-    limit_memory(_MEMORY)
+    limit_memory(MEMORY)
     forbid_the_world()
 
 
 class Pool:
     """As many solving processes as processors, each with one question at a time."""
 
-    def __init__(self, size: int | None = None) -> None:
-        self.size = size or processors()
+    def __init__(self, size: int) -> None:
+        self.size = size
 
     def start(self) -> None:
         """Start the processes; they import while the first page is read."""
         for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "RAYON_NUM_THREADS"):
             os.environ.setdefault(name, "1")
-        self._pool = ProcessPool(
-            self.size, max_tasks=_ANSWERS, initializer=_begin,
-            context=multiprocessing.get_context("spawn"),
-        )  # fmt: skip
+        spawn = multiprocessing.get_context("spawn")
+        self._pool = ProcessPool(self.size, _ANSWERS, initializer=_begin, context=spawn)
         self._pool.schedule(processors)  # the first task starts them
 
     async def ask(

@@ -4,30 +4,34 @@ from __future__ import annotations
 
 import hashlib
 import hmac
-import time
-from collections.abc import Awaitable, Callable
-from pathlib import Path
 
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
-from starlette.responses import FileResponse, JSONResponse, Response
+from starlette.responses import Response
 from starlette.routing import Route
 
 from reports.grading.issuing.register import Issued
+from reports.inputs.described import Data
 from reports.shared.errors import InputError, Problem
-from reports.shared.files import atomic_path
 from reports.web import engine
 from reports.web.classes import RESULTS, Class, Classes
-from reports.web.files import Door, attachment, save_body
-from reports.web.guard import Rate, body
+from reports.web.doors import (
+    MOST_ARCHIVE,
+    MOST_BOOK,
+    Door,
+    attachment,
+    body,
+    good,
+    route,
+    shown,
+    uploaded,
+)
+from reports.web.guard import Rate
+from reports.workbook.intake import check_data
 
-COOKIE, HOURS = "kshm_teacher", 12
 _TEXTS = ("title", "base", "roster", "rubric")
-_ROW = ("number", "student", "status", "points", "provisional", "manual", "remark", "page")
-_MOST_WORK = 30 * 2**20
+_UPLOADS = {"moodle.zip": b"PK\x03\x04", "worksheet.csv": b""}  # how they begin
 _DONE = {"ok": True}
-ClassDoor = Callable[[Request, Class], Awaitable[Response]]
-StudentDoor = Callable[[Request, Class, Issued], Awaitable[Response]]
 
 
 def token_of(secret: bytes) -> str:
@@ -35,186 +39,137 @@ def token_of(secret: bytes) -> str:
     return hmac.new(secret, b"teacher", hashlib.sha256).hexdigest()[:32]
 
 
-def _pass(secret: bytes, until: int) -> str:
-    mark = hmac.new(secret, f"pass {until}".encode(), hashlib.sha256).hexdigest()
-    return f"{until}.{mark}"
-
-
-def _is_same(one: str, other: str) -> bool:
-    return hmac.compare_digest(one.encode(), other.encode("utf-8", "replace"))
-
-
-def _is_teacher(secret: bytes, given: str) -> bool:
-    until = given.partition(".")[0]
-    if not (until.isdigit() and until.isascii() and len(until) < 12) or int(until) < time.time():
-        return False
-    return _is_same(_pass(secret, int(until)), given)
-
-
-def routes(classes: Classes, secret: bytes, secure: bool) -> list[Route]:
+def routes(classes: Classes, secret: bytes) -> list[Route]:
     """Doors of the instructor, all but the first behind the token."""
     tries = Rate(0.1, 10)
 
-    async def login(request: Request) -> Response:
-        given = str((await body(request)).get("token", ""))
+    def asked_for(request: Request) -> Class:
+        return classes.find(request.path_params["name"])
+
+    async def login(request: Request) -> Data:
+        given = str((await body(request)).get("token", "")).strip()
         if not tries.allows(request.client.host if request.client else ""):
             raise HTTPException(429, "слишком много попыток; подождите минуту")
-        if not _is_same(token_of(secret), given.strip()):
+        if not hmac.compare_digest(token_of(secret).encode(), given.encode("utf-8", "replace")):
             raise HTTPException(403, "неверный ключ; его печатает команда kshm serve")
-        answer = JSONResponse(_DONE)
-        until = int(time.time()) + HOURS * 3600
-        answer.set_cookie(COOKIE, _pass(secret, until), max_age=HOURS * 3600, httponly=True,
-                          samesite="strict", secure=secure)  # fmt: skip
-        return answer
+        request.session["teacher"] = True
+        return _DONE
 
-    def guarded(door: Door) -> Door:
-        async def behind(request: Request) -> Response:
-            if not _is_teacher(secret, request.cookies.get(COOKIE, "")):
-                raise HTTPException(403, "войдите с ключом преподавателя")
-            return await door(request)
+    async def listed(_: Request) -> Data:
+        return {"classes": [{"name": each.folder.name, **each.about} for each in classes.all()]}
 
-        return behind
-
-    def of_class(door: ClassDoor) -> Door:
-        async def inside(request: Request) -> Response:
-            each = classes.find(request.path_params["name"])
-            if each is None:
-                raise HTTPException(404, "нет такой группы")
-            return await door(request, each)
-
-        return guarded(inside)
-
-    async def listed(_: Request) -> Response:
-        found = [{"name": each.folder.name, **each.about} for each in classes.all()]
-        return JSONResponse({"classes": found})
-
-    async def issue(request: Request) -> Response:
+    async def issue(request: Request) -> Data:
         data = await body(request)
         texts, seed = [str(data.get(key) or "") for key in _TEXTS], data.get("seed", 1)
         if not isinstance(seed, int) or isinstance(seed, bool) or abs(seed) > 10**9:
             raise InputError(Problem("seed", "нужно целое число", "например 1"))
-        checked = await request.app.state.pool.ask(engine.checked_text, texts[1])
-        if "errors" in checked:
-            return JSONResponse(checked, 422)
-        return JSONResponse({"name": classes.issue(seed, *texts).folder.name})
+        ask = request.app.state.pool.ask  # a base without its ranges is an input of its own
+        good(await ask(engine.as_toml, good(await ask(engine.read_toml, texts[1]))["raw"]))
+        return {"name": classes.issue(seed, *texts).folder.name}
 
-    async def about(_: Request, each: Class) -> Response:
+    async def about(request: Request) -> Data:
+        each = asked_for(request)
         students = [
             {"number": book.number, "name": book.student.full, "group": book.student.group,
              "link": classes.link(each, book.number), "handed": each.work(book).exists()}
             for book in each.books
         ]  # fmt: skip
-        return JSONResponse({
-            **each.about, "state": each.state, "students": students, "unknown": each.unknown(),
-            "rows": [{key: row.get(key) for key in _ROW} for row in each.rows],
+        return {
+            **each.about, **classes.about(each.folder.name), "students": students,
+            "graded": max(0, len([*each.results.glob("results/*.json")]) - 1),  # and the register
+            "rows": each.rows,
             "files": [name for name in RESULTS if (each.results / name).exists()],
-            "graded": sum(1 for _ in each.judged()),
-        })  # fmt: skip
+        }  # fmt: skip
 
-    async def works(request: Request, each: Class) -> Response:
-        return await _kept(request, each.folder / "moodle.zip", b"PK\x03\x04")
+    async def upload(request: Request) -> Data:
+        folder, name = asked_for(request).folder, request.path_params["file"]
+        if name not in _UPLOADS:
+            raise HTTPException(404, "такого файла здесь не ждут")
+        async with uploaded(request, MOST_ARCHIVE) as path:
+            with path.open("rb") as stream:
+                begin = stream.read(4)
+            if not begin or not begin.startswith(_UPLOADS[name]):
+                raise InputError(Problem("", "это не тот файл", "загрузите архив .zip"))
+            path.replace(folder / name)
+        return _DONE
 
-    async def worksheet(request: Request, each: Class) -> Response:
-        return await _kept(request, each.folder / "worksheet.csv", b"")
+    async def grade(request: Request) -> Data:
+        each, data = asked_for(request), await body(request)
+        words = ("who", "what", "points", "remark") if "who" in data else ()
+        classes.grade(each, tuple(str(data.get(key, ""))[:500] for key in words))
+        return _DONE
 
-    async def grade(_: Request, each: Class) -> Response:
-        classes.grade(each)
-        return JSONResponse(_DONE)
-
-    async def decide(request: Request, each: Class) -> Response:
-        data = await body(request)
-        words = tuple(str(data.get(key, ""))[:500] for key in ("who", "what", "points", "remark"))
-        classes.grade(each, words)
-        return JSONResponse(_DONE)
-
-    async def show(request: Request, each: Class) -> Response:
+    async def show(request: Request) -> Data:
+        each = asked_for(request)
         each.keep_open(bool((await body(request)).get("open")))
-        return JSONResponse(_DONE)
+        return _DONE
 
-    async def result(request: Request, each: Class) -> Response:
-        name = request.path_params["file"]
+    async def result(request: Request) -> Response:
+        each, name = asked_for(request), request.path_params["file"]
         if name == "issued.zip":
             return attachment(each.issued_zip())
         path = each.results / name if name in RESULTS else None
         return shown(path) if path and path.suffix == ".html" else attachment(path)
 
-    async def page(request: Request, each: Class) -> Response:
-        return shown(each.page(request.path_params["number"]))
+    async def page(request: Request) -> Response:
+        return shown(asked_for(request).page(request.path_params["number"]))
+
+    def behind(door: Door) -> Door:
+        async def inside(request: Request) -> Response | Data:
+            if not request.session.get("teacher"):
+                raise HTTPException(403, "войдите с ключом преподавателя")
+            return await door(request)
+
+        return inside
 
     mine = "/api/teacher/{name}"
-    doors = {"works": works, "worksheet": worksheet, "grade": grade, "decide": decide, "open": show}
     return [
-        Route("/api/login", login, methods=["POST"]),
-        Route("/api/teacher", guarded(listed)),
-        Route("/api/teacher", guarded(issue), methods=["POST"]),
-        Route(mine, of_class(about)),
-        Route(f"{mine}/page/{{number:int}}", of_class(page)),
-        Route(f"{mine}/file/{{file}}", of_class(result)),
-        *(
-            Route(f"{mine}/{word}", of_class(door), methods=["POST"])
-            for word, door in doors.items()
-        ),
+        route("/api/login", login, "POST"),
+        route("/api/teacher", behind(listed)),
+        route("/api/teacher", behind(issue), "POST"),
+        route(mine, behind(about)),
+        route(f"{mine}/page/{{number:int}}", behind(page)),
+        route(f"{mine}/file/{{file}}", behind(result)),
+        route(f"{mine}/file/{{file}}", behind(upload), "POST"),
+        route(f"{mine}/grade", behind(grade), "POST"),
+        route(f"{mine}/open", behind(show), "POST"),
     ]
 
 
 def student_routes(classes: Classes) -> list[Route]:
     """Doors of the students: each knows the own one alone."""
 
-    def of_student(door: StudentDoor) -> Door:
-        async def inside(request: Request) -> Response:
-            known = classes.student(request.path_params["link"])
-            if known is None:
-                raise HTTPException(404, "нет такой страницы")
-            return await door(request, *known)
+    def own(request: Request) -> tuple[Class, Issued]:
+        return classes.student(request.path_params["link"])
 
-        return inside
-
-    async def own(_: Request, each: Class, book: Issued) -> Response:
-        row = next((row for row in each.rows if row["number"] == book.number), {})
-        seen = row if each.about.get("open") else {}
-        return JSONResponse({
+    async def about(request: Request) -> Data:
+        each, book = own(request)
+        seen = each.row(book.number) if each.about.get("open") else {}
+        return {
             "title": each.about["title"], "student": book.student.full, "file": book.file,
             "handed": each.work(book).exists(), "open": bool(seen.get("page")),
             "points": seen.get("points"), "status": seen.get("status", ""),
-        })  # fmt: skip
+        }  # fmt: skip
 
-    async def own_book(_: Request, each: Class, book: Issued) -> Response:
+    async def issued(request: Request) -> Response:
+        each, book = own(request)
         return attachment(each.issued(book))
 
-    async def own_page(_: Request, each: Class, book: Issued) -> Response:
+    async def page(request: Request) -> Response:
+        each, book = own(request)
         return shown(each.page(book.number) if each.about.get("open") else None)
 
-    async def hand_in(request: Request, each: Class, book: Issued) -> Response:
-        data = await request.body()
-        if len(data) > _MOST_WORK:
-            raise HTTPException(413, f"книга больше {_MOST_WORK // 2**20} МБ")
-        each.keep_work(book, data)
-        return JSONResponse(_DONE)
+    async def hand_in(request: Request) -> Data:
+        each, book = own(request)
+        async with uploaded(request, MOST_BOOK) as path:
+            check_data(path.read_bytes(), "работа")
+            path.replace(each.work(book))
+        return _DONE
 
     student = "/api/student/{link}"
     return [
-        Route(student, of_student(own)),
-        Route(f"{student}/book", of_student(own_book)),
-        Route(f"{student}/page", of_student(own_page)),
-        Route(f"{student}/work", of_student(hand_in), methods=["POST"]),
+        route(student, about),
+        route(f"{student}/book", issued),
+        route(f"{student}/page", page),
+        route(f"{student}/work", hand_in, "POST"),
     ]
-
-
-def shown(path: Path | None) -> FileResponse:
-    """A page about a work, which may hold a student's words: nothing in it may act."""
-    if path is None or not path.exists():
-        raise HTTPException(404, "такой страницы ещё нет")
-    policy = "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:; font-src data:"
-    return FileResponse(
-        path, media_type="text/html; charset=utf-8", headers={"content-security-policy": policy}
-    )
-
-
-async def _kept(request: Request, target: Path, begin: bytes) -> Response:
-    """Keep an uploaded file whole or not at all."""
-    with atomic_path(target) as part:
-        size = await save_body(request, part)
-        with part.open("rb") as stream:
-            if not size or stream.read(len(begin)) != begin:
-                raise InputError(Problem("", "это не тот файл", "загрузите архив .zip"))
-    return JSONResponse({"size": size})

@@ -47,4 +47,6 @@ def test_charts_follow_their_tables() -> None:
     chart = copied_chart(over_phi("c", "лист", "", "", "t.y", levels=("a",)), second)
     assert chart.series == (Series("t_R2.phi_deg", "t_R2.y"),)
     assert chart.levels == ("a_R2",)
-    assert copied_chart(wear_chart("c", "лист", "", "g", "hole"), second).hole == "hole_R2"
+    wear = wear_chart("c", "лист", "", "g", "hole", ("-t.x", "t.y"))
+    assert copied_chart(wear, second).hole == "hole_R2"
+    assert copied_chart(wear, second).contact == ("-t_R2.x", "t_R2.y")

@@ -38,7 +38,7 @@ def solved(page: Any) -> Solution:
 
 
 def settle(page: Any) -> None:
-    until(page, "!running")
+    until(page, "!kshm.running")
 
 
 @pytest.mark.parametrize(("width", "scheme"), [(1280, "light"), (390, "dark")])
@@ -52,7 +52,7 @@ def test_the_page_fits_and_shows_the_solvers_numbers(
     solution = solved(page)
     shown = page.inner_text("tr[data-key=M_mean] td:nth-child(3)")
     assert float(shown.replace(",", ".")) == pytest.approx(solution.scalars["M_mean"], abs=0.06)
-    page.evaluate("document.getElementById('phi').value = 370; turn()")
+    page.evaluate("turn(370)")
     value = page.inner_text("#chart-fig46 output >> nth=0").replace(",", ".").replace("−", "-")
     wanted = dict(zip(solution.columns["P4_1"]["phi_deg"], solution.columns["P4_1"]["Pg_MPa"],
                       strict=True))[370]  # fmt: skip
@@ -86,6 +86,22 @@ def test_what_the_charts_draw_is_what_the_solver_says(page: Any) -> None:
     page.select_option("#sheet", "П4.1")
 
 
+def test_every_chart_has_room_for_all_that_it_draws(page: Any) -> None:
+    for sheet in page.evaluate("kshm.sheets.map(([id]) => id)"):
+        page.select_option("#sheet", sheet)
+        settle(page)
+        narrow = page.evaluate("""[...document.querySelectorAll("#charts canvas")]
+            .map(canvas => Chart.getChart(canvas))
+            .flatMap(({scales, data}) => ["x", "y"].filter(key => {
+                const values = data.datasets.flatMap(d => d.data.map(p => p[key]));
+                const {min, max} = scales[key];
+                return values.some(value => value !== null && !(value >= min && value <= max));
+            }))""")
+        assert narrow == [], sheet
+    page.select_option("#sheet", "П4.1")
+    settle(page)
+
+
 def test_every_fields_error_is_shown_at_the_field(page: Any) -> None:
     silent = page.evaluate(r"""async () => {
         const silent = [];
@@ -96,7 +112,7 @@ def test_every_fields_error_is_shown_at_the_field(page: Any) -> None:
             const type = async text => {
                 input().value = text;
                 input().dispatchEvent(new Event("input"));
-                do await new Promise(done => setTimeout(done, 5)); while (running);
+                do await new Promise(done => setTimeout(done, 5)); while (kshm.running);
             };
             await type("abc");
             const error = document.getElementById(id.replace("f-", "e-")).querySelector(".error");
@@ -121,24 +137,24 @@ def test_entries_of_lists_come_and_go(page: Any) -> None:
         group = page.locator(f"details[data-key='{key}']")
         group.evaluate("group => { group.open = true; }")
         group.get_by_role("button", name="Добавить").click()
-        until(page, f"{size} === {before + 1} && !running")
+        until(page, f"{size} === {before + 1} && !kshm.running")
         fields = page.locator(f"[id^='f-{key}[{before + 1}]']")
         assert fields.count() >= 2 and fields.first.is_visible()
         group.get_by_role("button", name=f"Убрать {before + 1}", exact=True).click()
-        until(page, f"{size} === {before} && !running")
+        until(page, f"{size} === {before} && !kshm.running")
     assert not page.locator(".error").count()
     page.click("#undo")
-    until(page, f"{size} === {before + 1} && !running")
+    until(page, f"{size} === {before + 1} && !kshm.running")
     # A whole section, and a further regime, go and come alike.
     page.locator("details[data-key=torsion]").evaluate("group => { group.open = true; }")
     page.locator("details[data-key=torsion]").get_by_role("button", name="Убрать раздел").click()
-    until(page, "!kshm.raw.torsion && !running")
+    until(page, "!kshm.raw.torsion && !kshm.running")
     page.get_by_role("button", name="Ещё один режим").click()
-    until(page, "kshm.raw.regimes?.length === 1 && !running")
+    until(page, "kshm.raw.regimes?.length === 1 && !kshm.running")
     page.fill("[id='f-regimes[1].speed_rpm']", "777")
-    until(page, "kshm.raw.regimes[0].speed_rpm === 777 && !running")
+    until(page, "kshm.raw.regimes[0].speed_rpm === 777 && !kshm.running")
     page.evaluate("fresh(ask('api/new', {sample: 'gots-diesel'}))")
-    until(page, "!kshm.raw.regimes?.length && !running")
+    until(page, "!kshm.raw.regimes?.length && !kshm.running")
 
 
 def test_two_engines_over_each_other_and_another_cylinder(page: Any) -> None:
@@ -147,12 +163,12 @@ def test_two_engines_over_each_other_and_another_cylinder(page: Any) -> None:
     page.click("#keep")
     page.fill("[id='f-geometry.bore_mm']", "95,5")
     until(page, f"Chart.getChart(document.querySelector('#chart-fig46 canvas'))"
-                f".data.datasets.length === {2 * curves} && !running")  # fmt: skip
+                f".data.datasets.length === {2 * curves} && !kshm.running")  # fmt: skip
     both = [page.inner_text(f"tr[data-key=M_mean] td:nth-child({i})") for i in (3, 4)]
     assert both[1] == mean != both[0]
     page.click("#drop")
     page.click("#undo")
-    until(page, "kshm.raw.geometry.bore_mm === 88 && !running")
+    until(page, "kshm.raw.geometry.bore_mm === 88 && !kshm.running")
     first = page.inner_html("#mechanism")
     page.select_option("#cylinder", index=2)
     settle(page)
@@ -218,12 +234,12 @@ def test_an_own_engine_by_the_keyboard_alone_to_workbook_and_pdf(
     until(page, "!document.querySelector('.error') && kshm.raw.geometry.bore_mm === 84.5")
     tab_to(page, "[data-key='geometry.bore_mm'] [type=range]")
     page.keyboard.press("ArrowRight")
-    until(page, "kshm.raw.geometry.bore_mm > 84.5 && !running")
+    until(page, "kshm.raw.geometry.bore_mm > 84.5 && !kshm.running")
     tab_to(page, "[data-key=report] summary")
     page.keyboard.press("Enter")
     tab_to(page, "[id='f-report.detail']")
     page.keyboard.press("End")  # the short report: less to wait for
-    until(page, "kshm.raw.report.detail === 'short' && !running")
+    until(page, "kshm.raw.report.detail === 'short' && !kshm.running")
     book, pdf = taken(page, "xlsx", "engine.xlsx"), taken(page, "pdf", "engine.pdf")
     assert pdf.startswith(b"%PDF")
 
@@ -237,11 +253,11 @@ def test_an_own_engine_by_the_keyboard_alone_to_workbook_and_pdf(
     page.keyboard.press("Enter")
     tab_to(page, "#upload")  # its dialog is the browser's own
     page.set_input_files("#upload", tmp_path / "edited.xlsx")
-    until(page, "kshm.raw.geometry.bore_mm === 91.25 && !running")
+    until(page, "kshm.raw.geometry.bore_mm === 91.25 && !kshm.running")
     assert taken(page, "pdf", "engine.pdf") != pdf
     tab_to(page, "#undo")
     page.keyboard.press("Enter")
-    until(page, "kshm.raw.geometry.bore_mm < 90 && !running")
+    until(page, "kshm.raw.geometry.bore_mm < 90 && !kshm.running")
     assert not page.faults
     page.context.close()
 

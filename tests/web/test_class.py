@@ -9,8 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from itsdangerous import URLSafeSerializer
 
 from reports.grading.issuing.issue import assignment_for
+from reports.grading.issuing.register import load_register
 from reports.web.app import server_secret
 from reports.web.classes import Class, Classes
 from tests.grading import classroom
@@ -92,8 +94,7 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     links = [a.get_attribute("href") for a in teacher.query_selector_all("#links a")]
 
     # A student takes the own book by the own link and hands it in; nothing else is open.
-    register = stored(served).register
-    assert register is not None
+    register = load_register(stored(served).folder / "issued")
 
     def solved(number: int, book: bytes, **changes: Any) -> bytes:
         assignment = assignment_for(register.books[number - 1], register.rubric)
@@ -114,7 +115,10 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     name = stored(served).folder.name
     ask = student.context.request
     assert ask.get(f"{served.page}api/teacher/{name}").status == 403
-    forged = links[2].replace("-3-", "-2-").removeprefix("s/").rstrip("/")
+    payload, _, mark = links[2].removeprefix("s/").rstrip("/").partition(".")
+    other = URLSafeSerializer(b"guess", "student").dumps([name, 2]).partition(".")[0]
+    assert payload == URLSafeSerializer(b"guess", "student").dumps([name, 3]).partition(".")[0]
+    forged = f"{other}.{mark}"  # a neighbour's page under the own mark
     assert ask.get(f"{served.page}api/student/{forged}").status == 404
     assert ask.get(f"{served.page}{links[2].replace('s/', 'api/student/')}page").status == 404
 
@@ -162,7 +166,7 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     popup.value.wait_for_selector("text=Кузнецов")
     popup.value.close()
     unknown = teacher.locator("tr:has-text('Кузнецов') option").nth(1)
-    assert unknown.get_attribute("value") == "geometry.V_c"
+    assert unknown.evaluate("option => option.value") == "geometry.V_c"
     decide(teacher, "Кузнецов", "geometry.V_c", "0,21")
     decide(teacher, "Петров", "всё", "77", remark="=1+1")
     found = points(teacher)

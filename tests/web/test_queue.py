@@ -16,10 +16,11 @@ import psutil
 import pytest
 from starlette.testclient import TestClient
 
+from reports.commands.apart import run
 from reports.shared.errors import InputError
 from reports.web import jobs as room
 from reports.web.app import Settings, create_app
-from reports.web.jobs import MOST_OWN, Jobs, Said
+from reports.web.jobs import MOST_OWN, Jobs
 from reports.web.pool import Busy
 from tests.web.conftest import MARK, Page, finished, serving
 from tests.web.test_files import made
@@ -32,7 +33,7 @@ def waiting(folder: Path) -> Jobs:
 
 
 def added(jobs: Jobs, *visitors: str) -> list[str]:
-    return [jobs.add({"a": str(i)}, [["solve"]], who) for i, who in enumerate(visitors)]
+    return [jobs.add({"a": str(i)}, ["solve"], who) for i, who in enumerate(visitors)]
 
 
 def test_everybodys_first_comes_before_anybodys_second(tmp_path: Path) -> None:
@@ -47,9 +48,9 @@ def test_nobody_fills_the_queue_alone(tmp_path: Path) -> None:
     jobs = waiting(tmp_path)
     added(jobs, *["a"] * MOST_OWN)
     with pytest.raises(InputError, match="дождитесь"):
-        jobs.add({"a": "more"}, [["solve"]], "a")
-    jobs.add({"a": "more"}, [["solve"]], "b")
-    assert jobs.add({"a": "0"}, [["solve"]], "b") in jobs.waiting  # the same content: the same job
+        jobs.add({"a": "more"}, ["solve"], "a")
+    jobs.add({"a": "more"}, ["solve"], "b")
+    assert jobs.add({"a": "0"}, ["solve"], "b") in jobs.waiting  # the same content: the same job
     assert len(jobs.waiting) == MOST_OWN + 1
 
 
@@ -129,8 +130,8 @@ def test_a_killed_server_makes_its_job_again(tmp_path: Path) -> None:
 
 
 def test_a_job_that_takes_too_long_is_ended(tmp_path: Path) -> None:
-    said = finished(room.run(["solve", "x.toml"], tmp_path, timeout_s=0.05))
-    assert isinstance(said, Said) and said.code == -1 and "не сделано" in said.lines[0]
+    said = finished(run(["solve", "x.toml"], tmp_path, timeout_s=0.05))
+    assert said["state"] == "failed" and "не сделано" in said["lines"][0]
 
 
 def test_the_oldest_files_are_forgotten(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -142,5 +143,5 @@ def test_the_oldest_files_are_forgotten(tmp_path: Path, monkeypatch: pytest.Monk
         (folder / "file").write_bytes(b"x" * 1000)
         (folder / "done.json").write_text(json.dumps({"state": "done"}), encoding="utf-8")
         os.utime(folder / "done.json", (time.time() - index, time.time() - index))
-    jobs._clean()
+    jobs.clean()
     assert sorted(path.name for path in tmp_path.iterdir()) == ["0", "1"]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 import re
 import time
 from collections.abc import Sequence
@@ -25,12 +24,14 @@ from reports.grading.issuing.issue import latin
 from reports.grading.issuing.register import FILE, Register, checked_register, load_register
 from reports.grading.issuing.rubric import load_rubric
 from reports.grading.judging.marking import FORMAT, Marker, blank_result
+from reports.grading.judging.verdicts import UNKNOWN
 from reports.grading.judging.works import Shared, Work, work_of
 from reports.grading.pages.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
 from reports.grading.pages.moodle import feedback_zip, filled, read_worksheet
 from reports.grading.pages.pages import class_page, student_page
 from reports.grading.pages.summary import summarise, table_rows
 from reports.grading.reading.submissions import Submission, collect
+from reports.shared.aside import processors
 from reports.shared.errors import InputError, Problem
 from reports.shared.files import make_dir, write_bytes, write_text
 from reports.shared.progress import Progress
@@ -93,7 +94,7 @@ def grade(
     make_dir(folder)
     batch = _Batch(register, folder)
     batch.start(submissions)
-    workers = options.workers or len(os.sched_getaffinity(0))
+    workers = options.workers or processors()
     outcomes = (
         grade_far(
             batch.waiting, batch.register_file, timeout_s=options.timeout_s, dask=options.dask
@@ -282,7 +283,7 @@ class _Batch:
         if any(work.moodle_id for work in self.ordered):
             write_bytes(self.folder / "moodle-feedback.zip", feedback_zip(rows, self.folder))
         write_text(self.folder / "summary.html", class_page(summary))
-        data = {**summary, "rows": [{k: v for k, v in r.items() if k != "result"} for r in rows]}
+        data = {**summary, "rows": [_row(row) for row in rows]}
         text = json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1)
         write_text(self.folder / "summary.json", text + "\n")
         return summary
@@ -311,6 +312,13 @@ class _Batch:
             page = self.folder / work.page
             made = render(page.read_text(encoding="utf-8"), variant=None)
             write_bytes(page.with_suffix(".pdf"), made.pdf)
+
+
+def _row(row: dict[str, Any]) -> dict[str, Any]:
+    """A row of the gradebook as plain data, with the items that only a person can judge."""
+    items = row["result"].items if row["result"] else ()
+    unknown = [item.id for item in items if item.verdict == UNKNOWN]
+    return {key: value for key, value in row.items() if key != "result"} | {"unknown": unknown}
 
 
 def _program() -> str:

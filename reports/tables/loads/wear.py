@@ -128,16 +128,18 @@ def _charts(shape: Shape) -> tuple[ChartSpec, ...]:
     made = []
     for number in range(1, len(shape.pins) + 1):
         n = pin_name(number)
+        pin = f"crankpin_{n}" if n else "crankpin"
         made.append(
             wear_chart(f"fig52_{n}".rstrip("_"), f"Износ ш.ш ({n})" if n else "Износ ш.ш",
                  f"Условная диаграмма износа шатунной шейки{f' {number}' if several else ''}",
                  f"table_14_pin_{n}_sums" if n else "table_14_sums", f"hole_pin{n}_deg",
+                 (f"{pin}.T_MPa", f"{pin}.Krod_MPa"),
                  figure="52", caption=f"Условная диаграмма износа шатунной шейки {n}".strip())
         )  # fmt: skip
     for k in range(1, shape.throws + 2):
         made.append(
             wear_chart(f"fig54_{k}", f"Износ к.ш ({k})",
                  f"Условная диаграмма износа коренной шейки {k}", f"table_14_main_{k}_sums",
-                 f"hole_main{k}_deg", figure="54")
+                 f"hole_main{k}_deg", (f"-P4_3_{k}.Rx_MPa", f"-P4_3_{k}.Ry_MPa"), figure="54")
         )  # fmt: skip
     return tuple(made)

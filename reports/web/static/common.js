@@ -1,43 +1,46 @@
-"use strict";
 // What all pages share: elements, questions to the server, numbers as Russian print has them.
-const $ = id => document.getElementById(id);
+import {h} from "./vendor/preact.mjs";
+import htm from "./vendor/htm.mjs";
 
-function dressed(element, attributes, children) {
-  for (const [key, value] of Object.entries(attributes))
-    if (key.startsWith("on")) element.addEventListener(key.slice(2), value);
-    else if (value !== false && value !== null && value !== undefined)
-      element.setAttribute(key, value === true ? "" : value);
-  element.append(...children);
-  return element;
-}
-const make = (tag, attributes = {}, ...children) => dressed(document.createElement(tag), attributes, children);
-const draw = (tag, attributes = {}, ...children) =>
-  dressed(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
-const options = (list, chosen) => list.map(([value, label, title]) =>
-  make("option", {value, title, selected: String(chosen) === String(value)}, label));
-const row = cells => make("tr", {}, ...cells.map(([text, name]) => make("td", {class: name}, ...[text].flat())));
-const table = (caption, rows, head) => make("div", {class: "box", tabindex: 0, role: "region", "aria-label": caption},
-  make("table", {}, make("caption", {}, caption), head || "", make("tbody", {}, ...rows)));
+export const html = htm.bind(h);
 
-async function ask(path, data) {
-  const file = data instanceof Blob, fault = (what, hint) => ({errors: [{where: "", what, hint}]});
-  let answer;
+export const options = list => list.map(([value, label, title]) =>
+  html`<option key=${value} value=${value} title=${title}>${label}</option>`);
+export const row = (cells, more) => html`
+  <tr ...${more}>${cells.map(([text, name]) => html`<td class=${name}>${text}</td>`)}</tr>`;
+export const table = (caption, rows, head) => html`
+  <div class="box" tabindex="0" role="region" aria-label=${caption}>
+    <table><caption>${caption}</caption>${head}<tbody>${rows}</tbody></table>
+  </div>`;
+export const list = (problems, name, more) => html`
+  <ul class=${name} ...${more}>${problems.map(p => html`<li>${line(p)}</li>`)}</ul>`;
+export const alerts = problems => list(problems, "errors", {id: "errors", role: "alert", "aria-live": "polite"});
+
+// A file chosen at a button goes to `taken`; the same file may be chosen again.
+export const picker = (title, accept, taken, id) => html`<label class="button">${title}
+  <input id=${id} type="file" class="hidden" accept=${accept} onChange=${async ({target}) => {
+    if (target.files[0]) await taken(target.files[0]);
+    target.value = "";
+  }} /></label>`;
+
+export async function ask(path, data) {
+  const file = data instanceof Blob;
   try {
-    answer = await fetch(path, data === undefined ? {} : {
+    const answer = await fetch(path, data && {
       method: "POST", body: file ? data : JSON.stringify(data),
       headers: {"X-Kshm": "1", "Content-Type": file ? "application/octet-stream" : "application/json"},
     });
-  } catch { return fault("нет связи с сервером", "повторите"); }
-  try { return await answer.json(); } catch { return fault(`сервер ответил ${answer.status}`, "повторите"); }
+    return await answer.json();
+  } catch {
+    return {errors: [{what: "нет связи с сервером", hint: "повторите"}]};
+  }
 }
 
-const words = problem => [problem.what, problem.hint].filter(Boolean).join("; ");
-const line = problem => [problem.where, words(problem)].filter(Boolean).join(": ");
-const say = (list, problems) => list.replaceChildren(
-  ...(problems || []).map(p => make("li", {}, typeof p === "string" ? p : line(p))));
-const told = answer => { say($("errors"), answer.errors); return !answer.errors?.length; };
+export const words = problem => [problem.what, problem.hint].filter(Boolean).join("; ");
+const line = problem => typeof problem === "string" ? problem
+  : [problem.where, words(problem)].filter(Boolean).join(": ");
 
-function printed(value, digits = 4) {
+export function printed(value, digits = 4) {
   if (typeof value !== "number") return value ?? "";
   if (value && (Math.abs(value) < 1e-5 || Math.abs(value) >= 1e9)) {
     const [mantissa, power] = value.toExponential(digits - 1).split("e");
@@ -48,11 +51,5 @@ function printed(value, digits = 4) {
   return text.replace("-", "−").replace(/^−0$/, "0");
 }
 
-// «p_z», «$\gamma_{1}$»: what follows the underscore is a subscript.
-const GREEK = {alpha: "α", beta: "β", gamma: "γ", delta: "δ", varphi: "φ", phi: "φ", omega: "ω", lambda: "λ", bar: "",
-  varepsilon: "ε", epsilon: "ε", rho: "ρ", tau: "τ", theta: "θ", Delta: "Δ", Sigma: "Σ", psi: "ψ"};
-function symbol(text) {
-  const plain = text.replace(/\$|\\mathrm|\\text|\\,/g, "").replace(/\\(\w+)/g, (_, word) => GREEK[word] || word);
-  return plain.split(/(_\{[^}]*\}|_[^\s_,;=(]+)/).filter(Boolean).map(part =>
-    part.startsWith("_") ? make("sub", {}, part.replace(/[_{}]/g, "")) : part.replace(/[{}]/g, ""));
-}
+// «p_z»: what follows the underscore is a subscript.
+export const symbol = text => text.split(/_([^\s_,;=(]+)/).map((part, i) => i % 2 ? html`<sub>${part}</sub>` : part);

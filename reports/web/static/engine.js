@@ -1,354 +1,278 @@
-"use strict";
-// The page of an engine: a mapping of the file's values is all its state.
-const state = {raw: null, sheet: "П4.1", past: [], other: null, last: null, figures: []};
-window.kshm = state; // for a person's console and for the tests
-const copy = structuredClone;
+// The page of an engine: a mapping of the file's values is all its state, the rest follows from it.
+import {render} from "./vendor/preact.mjs";
+import {between, figure} from "./charts.js";
+import {alerts, ask, html, list, options, picker, printed, row, symbol, table} from "./common.js";
+import {add, put, section} from "./fields.js";
+import {mechanism, star} from "./moving.js";
 
-// What `start` says of a mapping: its fields, its sheets; then its numbers.
+const state = {
+  raw: null, other: null, past: [], groups: [], sheets: [], absent: {}, sheet: "П4.1", cylinder: 0, phi: 0,
+  typed: {}, problems: {}, errors: [], late: false, warnings: [], checks: [], jobs: [],
+  find: "", open: new Set(), theme: 0,
+  isNew: true, running: false, playing: false, last: null, second: null, linked: false,
+};
+const copy = structuredClone;
+const draw = () => render(page(), document.body);
+const set = changes => { Object.assign(state, changes); draw(); };
+const entries = Object.entries;
+
+// --- what is asked of the server ---
 async function open(raw, keep = true) {
-  const answer = await ask("api/start", {raw});
-  if (!answer.groups) { told(answer); return false; }
+  const {errors, ...shape} = await ask("api/start", {raw});
+  if (!shape.groups) { set({errors}); return false; }
   if (keep && state.raw) remember();
-  state.raw = answer.raw;
+  if (!shape.sheets.length) delete shape.sheets;
+  else if (!shape.sheets.some(([id]) => id === state.sheet)) state.sheet = shape.sheets[0][0];
+  set({...shape, typed: {}});
   touched = null;
-  fill(answer);
+  document.title = `${state.raw.engine?.name || "Двигатель"} — КШМ`;
   await solve();
   return true;
 }
 
-function remember() {
-  const text = JSON.stringify(state.raw);
-  if (state.past.at(-1) !== text) state.past.push(text);
-  state.past = state.past.slice(-200);
-  $("undo").disabled = false;
-}
-
-function undo() {
-  const text = state.past.pop();
-  $("undo").disabled = !state.past.length;
-  if (text) open(JSON.parse(text), false);
-}
-
-// --- fields ---
-function put(raw, path, value) {
-  let part = raw;
-  for (const key of path.slice(0, -1)) part = part[key] ??= {};
-  const last = path.at(-1);
-  if (value !== "" && value !== null) part[last] = value;
-  else if (Array.isArray(part)) part[last] = "";
-  else delete part[last];
-}
-
-function remove(raw, path) {
-  const part = path.slice(0, -1).reduce((inner, key) => inner[key], raw), last = path.at(-1);
-  if (Array.isArray(part)) part.splice(last, 1); else delete part[last];
-}
-
-function add(raw, id) { // a section, or a regime that begins as the main one
-  if (id !== "regimes") raw[id] = {};
-  else (raw.regimes ??= []).push({...raw.regime, name: `Режим ${raw.regimes.length + 2}`, gas: copy(raw.gas)});
-}
-
-async function edited(change, key) { // a change that alters the shape, and back to where it was made
-  const raw = copy(state.raw), groups = () => [...document.querySelectorAll("#fields details")];
-  const before = new Set(groups().map(group => group.dataset.key));
-  change(raw);
-  await open(raw);
-  for (const group of groups()) group.open ||= !before.has(group.dataset.key);
-  [...document.querySelectorAll(`[data-key="${key}"] summary, [data-key="${key}"] legend button`)].at(-1)?.focus();
-}
-
-function fill({groups, sheets, absent, raw}) {
-  const name = raw.engine?.name || "Двигатель";
-  $("name").textContent = name;
-  document.title = `${name} — КШМ`;
-  const opened = new Set([...document.querySelectorAll("#fields details[open]")].map(d => d.dataset.key));
-  if (!opened.size && innerWidth > 900) ["engine", "geometry", "regime"].forEach(key => opened.add(key));
-  const focus = document.activeElement?.id, top = $("data").scrollTop;
-  $("fields").replaceChildren(...groups.map(group => section(group, opened.has(group.key))));
-  $("data").scrollTop = top;
-  if (focus) $(focus)?.focus();
-  if (sheets.length && !sheets.some(s => s.id === state.sheet)) state.sheet = sheets[0].id;
-  if (sheets.length) $("sheet").replaceChildren(...options(sheets.map(s => [s.id, s.title, s.hint]), state.sheet));
-  $("absent").replaceChildren(absent.length ? "Добавить раздел: " : "", ...absent.map(({id, title}) =>
-    make("button", {onclick: () => edited(raw => add(raw, id), id)}, title)));
-  find();
-}
-
-function section({title, key, path, fields, entries, blank, drawing, whole}, open) {
-  const node = make("details", {"data-key": key, open}, make("summary", {}, title), make("span", {class: "said"}));
-  if (drawing) node.append(make("img", {src: `images/${drawing}.svg`, alt: `${title}: что есть что`, loading: "lazy"}));
-  const button = (label, change) => make("button", {class: "small", onclick: () => edited(change, key)}, label);
-  if (!entries) node.append(...fields.map(field));
-  else {
-    entries.forEach((entry, i) => node.append(make("fieldset", {}, make("legend", {}, `№ ${i + 1} `,
-      button(`Убрать ${i + 1}`, raw => remove(raw, [...path, i]))), ...entry.map(field))));
-    node.append(make("p", {}, button("Добавить", raw => {
-      const part = path.slice(0, -1).reduce((inner, each) => inner[each] ??= {}, raw), list = part[path.at(-1)] ??= [];
-      list.push(copy(list.at(-1) ?? blank));
-    })));
-  }
-  if (whole) node.append(make("p", {}, button("Убрать раздел", raw => remove(raw, whole))));
-  return node;
-}
-
-const shown = value => typeof value === "number" ? String(value).replace(".", ",") : value ?? "";
-function field(f) {
-  const id = `f-${f.key}`, help = [], title = [f.title, f.symbol ? ", " : "", ...symbol(f.symbol)];
-  if (f.number && f.min !== null) help.push(`от ${printed(f.min, 9)} до ${printed(f.max, 9)} ${f.unit}`);
-  if (f.optional) help.push("можно не задавать");
-  const told = {id, "aria-describedby": `h-${f.key} e-${f.key}`};
-  let drag = null;
-  const input = f.choices
-    ? make("select", {...told, onchange: () => { remember(); change(f, input.value, true); }},
-      ...options([...(f.optional || f.value === null ? [["", "—"]] : []), ...Object.entries(f.choices)], f.value ?? ""))
-    : make("input", {...told, value: shown(f.value), inputmode: f.number ? "decimal" : false, autocomplete: "off",
-      maxlength: 300,
-      oninput: () => { change(f, input.value.trim()); if (drag) drag.value = input.value.replace(",", "."); }});
-  const row = make("div", {class: f.number || f.choices ? "field" : "field wide", "data-key": f.key,
-    "data-text": `${f.title} ${f.key} ${f.symbol}`.toLowerCase()}, make("label", {for: id}, ...title), input,
-  make("span", {}, f.unit));
-  if (f.number && typeof f.value === "number" && f.value && !f.key.includes("[")) {
-    const span = Math.abs(f.value) * .4, step = 10 ** Math.floor(Math.log10(span / 50)), tidy = v => Math.round(v / step) * step;
-    drag = make("input", {type: "range", "aria-label": `${f.title}: подвинуть`, step,
-      min: tidy(Math.max(f.min ?? -Infinity, f.value - span)), max: tidy(Math.min(f.max ?? Infinity, f.value + span)),
-      oninput: () => { input.value = shown(+Number(drag.value).toPrecision(8)); change(f, input.value); }});
-    drag.value = f.value;
-    row.append(drag);
-  }
-  row.append(make("small", {id: `h-${f.key}`}, [...help, f.key].join(" · ")), make("span", {id: `e-${f.key}`, class: "said"}));
-  return row;
-}
-
-let touched = null;
-function change(f, value, shape = false) {
-  if (touched !== f.key && !shape) remember(); // one step of undo for one field
-  touched = f.key;
-  const plain = value.replace(",", ".").replace("−", "-");
-  put(state.raw, f.path, f.number && /^-?\d+(\.\d+)?$/.test(plain) ? Number(plain) : value);
-  if (shape) open(state.raw, false); else solve();
-}
-
-// Each problem stands at its field, else at its list, else above all.
-function problems(errors = [], warnings = []) {
-  for (const place of document.querySelectorAll("#fields .said")) place.replaceChildren();
-  for (const input of document.querySelectorAll("[aria-invalid]")) input.removeAttribute("aria-invalid");
-  const rest = [];
-  for (const [list, kind] of [[errors, "error"], [warnings, "odd"]])
-    for (const problem of list) {
-      const place = document.querySelector(`#fields [data-key="${CSS.escape(problem.where)}"]`);
-      if (!place || !problem.where) { if (kind === "error") rest.push(problem); continue; }
-      place.querySelector(".said").append(make("span", {class: kind}, words(problem)));
-      if (kind === "odd") continue;
-      place.closest("details").open = true;
-      if (place.matches(".field")) place.querySelector("input, select").setAttribute("aria-invalid", "true");
-    }
-  say($("errors"), rest);
-}
-
-function find() {
-  const wanted = $("find").value.trim().toLowerCase();
-  for (const group of document.querySelectorAll("#fields details")) {
-    const rows = [...group.querySelectorAll(".field")];
-    for (const row of rows) row.hidden = wanted && !row.dataset.text.includes(wanted);
-    group.hidden = Boolean(wanted) && rows.every(row => row.hidden);
-    if (wanted && !group.hidden) group.open = true;
-  }
-}
-
-// --- numbers ---
-let running = false, again = false, later = 0;
+let again = false, later = 0;
 async function solve() {
-  try { localStorage.setItem("kshm", JSON.stringify({raw: state.raw, other: state.other})); } catch { /* private window */ }
+  const {raw, other} = state;
+  try { localStorage.setItem("kshm", JSON.stringify({raw, other})); } catch { /* private window */ }
   again = true;
-  if (running) return; // at most one question on its way
-  running = true;
+  if (state.running) return draw(); // at most one question on its way
+  state.running = true;
   while (again) {
     again = false;
-    const asked = {sheet: state.sheet, cylinder: Number($("cylinder").value) || 0};
-    const [own, other] = await Promise.all([ask("api/solve", {raw: copy(state.raw), ...asked}),
-      state.other && ask("api/solve", {raw: state.other, ...asked})]);
-    problems(own.errors, own.warnings);
-    $("results").classList.toggle("late", own.errors.length > 0);
-    if (!own.errors.length) show(own, other);
+    draw();
+    const {sheet, cylinder} = state, put = raw => raw && ask("api/solve", {raw, sheet, cylinder});
+    const [last, second] = await Promise.all([put(state.raw), put(state.other)]);
+    sort(last.errors, last.warnings || []);
+    state.late = last.errors.length > 0;
+    if (state.late) continue;
+    Object.assign(state, {last, second});
+    if (!again) state.cylinder = last.moves.cylinder;
   }
-  running = false;
+  set({running: false});
   clearTimeout(later);
   later = setTimeout(check, 400);
 }
 
 async function check() {
-  const answer = await ask("api/checks", {raw: state.raw});
-  if (answer.errors) return;
-  const verdict = c => c.ok ? ["выполнена", "good"] : c.reason ? [`принято: ${c.reason}`, "odd"] : ["не выполнена", "bad"];
-  $("checks").replaceChildren(table("Проверки расчёта",
-    answer.checks.map(c => row([[c.title], [printed(c.value), "n"], verdict(c)]))));
-  say($("warnings"), [...state.last.warnings, ...answer.remarks]);
+  const {checks, remarks, errors} = await ask("api/checks", {raw: state.raw});
+  if (!errors) set({checks, warnings: [...state.last.warnings, ...remarks]});
 }
 
-function show(own, other) {
-  Object.assign(state, {last: own, second: other});
-  const ids = own.charts.map(spec => spec.id).join();
-  if (ids !== state.figures.map(f => f.id).join()) {
-    state.figures.forEach(f => f.drop());
-    state.figures = own.charts.map(figure);
-    $("charts").replaceChildren(...state.figures.map(f => f.node));
+// Each problem stands at its field, else at its list, else above all.
+function sort(errors, warnings) {
+  const places = new Map(state.groups.flatMap(g => [[g.key, g.key], ...g.entries.flat().map(f => [f.key, g.key])]));
+  Object.assign(state, {problems: {}, errors: errors.filter(p => !places.has(p.where))});
+  for (const p of [...errors.map(p => ({...p, kind: "error"})), ...warnings.map(p => ({...p, kind: "odd"}))]) {
+    if (!places.has(p.where)) continue;
+    (state.problems[p.where] ??= []).push(p);
+    if (p.kind === "error") state.open.add(places.get(p.where));
   }
-  own.charts.forEach((spec, i) => state.figures[i].show(spec, other?.charts?.find(c => c.id === spec.id)));
-  $("scene").hidden = false;
-  $("phi").max = own.moves.phi.at(-1);
-  const numbers = Array.from({length: own.moves.cylinders}, (_, i) => [i, i + 1]);
-  if ($("cylinder").length !== numbers.length) // else a person's choice on its way would be lost
-    $("cylinder").replaceChildren(...options(numbers, own.moves.cylinder));
-  const second = new Map((other?.results || []).flatMap(t => t.rows.map(r => [r.key, r.text])));
-  const closed = new Set([...document.querySelectorAll("#summary details:not([open])")].map(d => d.dataset.id));
-  const begin = !$("summary").children.length;
-  $("summary").replaceChildren(...own.results.map(({id, title, rows}) => make("details",
-    {"data-id": id, open: begin ? /^(summary_torque|geometry)/.test(id) : !closed.has(id)}, make("summary", {}, title),
-    table(title, rows.map(r => dressed(row([[r.title], [symbol(r.symbol), "s"], [r.text, "n"],
-      [second.get(r.key) ?? "", "n"], [r.unit, "s"]]), {"data-key": r.key}, []))))));
-  turn();
 }
 
-function turn() {
-  const {moves} = state.last, phi = Number($("phi").value);
-  $("phiText").textContent = `${printed(phi)}°`;
-  $("phi").setAttribute("aria-valuetext", `${printed(phi)} градусов`);
-  mechanism($("mechanism"), moves, phi);
-  star($("star"), moves, phi);
-  for (const each of state.figures) each.at(phi);
-  $("values").replaceChildren(...Object.values(moves.forces).map(f =>
-    row([[symbol(f.symbol)], [printed(between(moves.phi, f.values, phi), 4), "n"], [f.unit, "s"]])));
+async function order(kind, title) {
+  const {id, errors = []} = await ask("api/files", {raw: state.raw, other: state.other, kind});
+  set({errors});
+  if (!id || state.jobs.some(job => job.id === id && !job.lines)) return;
+  const job = {id, title};
+  state.jobs.unshift(job);
+  while (!job.lines && !job.errors) {
+    Object.assign(job, await ask(`api/files/${id}`));
+    draw();
+    if (!job.lines) await new Promise(done => setTimeout(done, 700));
+  }
 }
+
+// --- what a person does ---
+function remember() {
+  const text = JSON.stringify(state.raw);
+  if (state.past.at(-1) !== text) state.past.push(text);
+  state.past = state.past.slice(-200);
+}
+
+let touched = null;
+function change(f, value, shape = false) {
+  if (touched !== f.key || shape) remember(); // one step of undo for one field
+  touched = f.key;
+  const plain = value.trim().replace(",", ".").replace("−", "-");
+  put(state.raw, f.path, f.number && /^-?\d+(\.\d+)?$/.test(plain) ? Number(plain) : value.trim());
+  state.typed[f.key] = value;
+  if (shape) open(state.raw, false);
+  else solve();
+}
+
+async function edited(what, key) { // a change that alters the shape
+  const raw = copy(state.raw), before = new Set(state.groups.map(g => g.key));
+  what(raw);
+  await open(raw);
+  for (const {key} of state.groups) if (!before.has(key)) state.open.add(key);
+  draw();
+  if (document.activeElement === document.body) document.querySelector(`[data-key="${key}"] summary`)?.focus();
+}
+
+async function fresh(answering) {
+  const {raw, errors = []} = await answering;
+  set({errors, isNew: state.isNew && !raw});
+  if (raw) await open(raw);
+}
+
+function turn(phi) { set({phi: Number(phi)}); }
 
 function play() {
-  const on = $("play").getAttribute("aria-pressed") !== "true";
-  $("play").setAttribute("aria-pressed", on);
-  $("play").textContent = on ? "Стоп" : "Пуск";
-  let before = null;
+  let before = performance.now();
   const step = now => {
-    if ($("play").getAttribute("aria-pressed") !== "true") return;
-    if (before !== null) $("phi").value = (Number($("phi").value) + Math.round((now - before) * .12)) % Number($("phi").max);
+    if (!state.playing) return;
+    turn((state.phi + Math.round((now - before) * .12)) % state.last.moves.phi.at(-1));
     before = now;
-    turn();
     requestAnimationFrame(step);
   };
-  if (on) requestAnimationFrame(step);
+  set({playing: !state.playing});
+  requestAnimationFrame(step);
 }
 
-// --- files ---
-const jobs = new Map();
-async function order(kind, title) {
-  const {id, errors} = await ask("api/files", {raw: state.raw, other: state.other, kind});
-  if (!told({errors}) || jobs.has(id)) return;
-  const item = make("li", {});
-  jobs.set(id, item);
-  $("jobs").prepend(item);
-  for (;;) {
-    const job = await ask(`api/files/${id}`);
-    if (job.state === "waiting") item.textContent = `${title}: в очереди, перед вами ${job.place}`;
-    else if (job.state === "running") item.textContent = `${title}: делается, ${job.seconds} с`;
-    else {
-      const files = (job.files || []).flatMap(({name, size}) => [make("a", {href: `api/files/${id}/${encodeURIComponent(name)}`,
-        download: name}, name), ` (${printed(size / 1e6, 2)} МБ) `]);
-      const kind = job.state === "done" ? "odd" : "bad";
-      item.replaceChildren(`${title}: `, ...files,
-        ...(job.lines || job.errors.map(line)).map(text => make("div", {class: kind}, text)));
-      break;
-    }
-    await new Promise(done => setTimeout(done, 700));
-  }
-  jobs.delete(id);
+async function save() {
+  const {text, errors = []} = await ask("api/toml", {raw: state.raw});
+  set({errors});
+  if (!text) return;
+  const href = URL.createObjectURL(new Blob([text], {type: "application/toml"}));
+  Object.assign(document.createElement("a"), {href, download: "engine.toml"}).click();
+  setTimeout(() => URL.revokeObjectURL(href), 1000);
 }
 
-function download(name, text) {
-  const link = make("a", {href: URL.createObjectURL(new Blob([text], {type: "application/toml"})), download: name});
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+async function link() {
+  location.hash = LZString.compressToEncodedURIComponent(JSON.stringify(state.raw));
+  try { await navigator.clipboard.writeText(location.href); } catch { /* the address shows it */ }
+  set({linked: true});
 }
 
-// --- what the buttons do ---
-async function fresh(answering) {
-  const answer = await answering;
-  if (!told(answer)) return;
-  $("new").open = false;
-  await open(answer.raw);
+const asked = changes => { Object.assign(state, changes); solve(); };
+const compare = other => asked({other});
+const upload = async file => fresh(/\.xlsx$/i.test(file.name)
+  ? ask("api/book", file) : ask("api/read", {text: await file.text()}));
+const step = () => open(JSON.parse(state.past.pop()), false);
+
+function submitted(event, keys) { // the form's values, numbers as numbers
+  event.preventDefault();
+  const given = [...new FormData(event.target)].filter(([key, text]) => text.trim() && keys.includes(key));
+  return Object.fromEntries(given.map(([key, text]) =>
+    [key, ["cylinders", "power", "speed"].includes(key) ? Number(text.replace(",", ".")) : text]));
 }
 
-function wanted() {
-  const out = {cylinders: Number($("cylinders").value)};
-  for (const key of ["layout", "strokes", "kind"]) out[key] = $(key).value;
-  for (const key of ["power", "speed"]) if ($(key).value.trim()) out[key] = Number($(key).value.replace(",", "."));
-  return ask("api/new", out);
+// --- the page ---
+const pick = (title, name, pairs, chosen) => html`
+  <label>${title} <select id=${name} name=${name}>${pairs.map(([value, label]) => html`
+    <option value=${value} selected=${value === chosen}>${label}</option>`)}</select></label>`;
+
+const ownForm = choices => html`
+  <form onSubmit=${e => fresh(ask("api/new", submitted(e, ["sample"])))}>
+    ${pick("Образец", "sample", choices.samples.map(name => [name, name]), "gots-diesel")}
+    <button>Открыть</button></form>
+  <form onSubmit=${e => {
+    const alike = e.submitter.name === "alike", keys = ["cylinders", "layout"];
+    const wanted = submitted(e, alike ? keys : [...keys, "strokes", "kind", "power", "speed"]);
+    fresh(ask("api/new", alike ? {...wanted, raw: state.raw} : wanted));
+  }}>
+    <label>Цилиндров <input id="cylinders" name="cylinders" type="number" min="1" max="12" value="4" required /></label>
+    ${pick("Расположение", "layout", entries(choices.layouts))}
+    ${pick("Тактность", "strokes", entries(choices.strokes), "4")}
+    ${pick("Вид", "kind", entries(choices.kinds))}
+    <label>Мощность, кВт <input name="power" inputmode="decimal" /></label>
+    <label>Частота, мин⁻¹ <input name="speed" inputmode="decimal" /></label>
+    <button>Составить</button>
+    <button name="alike">Вариант этого двигателя</button>
+  </form>
+  <p>${picker("Открыть .toml или книгу .xlsx", ".toml,.xlsx", upload, "upload")}</p>`;
+
+const data = () => html`
+  <section id="data" aria-label="Исходные данные">
+    <details id="new" open=${state.isNew} onToggle=${e => { state.isNew = e.target.open; }}>
+      <summary>Новый двигатель</summary>${ownForm(state.choices)}</details>
+    <p class="tools">
+      <button id="undo" disabled=${!state.past.length} onClick=${step}>Отменить</button>
+      <button id="save" onClick=${save}>Скачать .toml</button>
+      <button id="link" onClick=${link}>${state.linked ? "Ссылка в адресе" : "Ссылка"}</button>
+      <button id="keep" onClick=${() => compare(copy(state.raw))}>Сравнить с этим</button>
+      <button id="drop" hidden=${!state.other} onClick=${() => compare(null)}>Убрать второй</button></p>
+    ${alerts(state.errors)}
+    <p><label>Найти поле <input id="find" type="search" autocomplete="off" value=${state.find}
+      onInput=${e => set({find: e.target.value})} /></label></p>
+    <div id="fields">${state.groups.map(group => section(group, {state, edited, change}))}</div>
+    <p class="tools">Добавить раздел: ${entries(state.absent).map(([id, title]) =>
+      html`<button onClick=${() => edited(raw => add(raw, id), id)}>${title}</button>`)}</p>
+  </section>`;
+
+const scene = ({moves}) => html`
+  <div id="scene" class="cards">
+    <figure>${mechanism(moves, state.phi)}<figcaption><label>Механизм, цилиндр
+      <select id="cylinder" value=${state.cylinder} onChange=${e => asked({cylinder: Number(e.target.value)})}>
+        ${options(Array.from({length: moves.cylinders}, (_, i) => [i, i + 1]))}</select></label></figcaption></figure>
+    <figure>${star(moves, state.phi)}<figcaption>Звезда кривошипов</figcaption></figure>
+    <div>
+      <p><label for="phi">Угол φ:</label> <output>${`${printed(state.phi)}°`}</output>
+        <input id="phi" type="range" min="0" max=${moves.phi.at(-1)} step="1" value=${state.phi}
+          aria-valuetext=${`${printed(state.phi)} градусов`} onInput=${e => turn(e.target.value)} />
+        <button aria-pressed=${String(state.playing)} onClick=${play}>${state.playing ? "Стоп" : "Пуск"}</button></p>
+      <table><caption>Удельные силы при φ</caption><tbody>${Object.values(moves.forces).map(f => row(
+        [[symbol(f.symbol)], [printed(between(moves.phi, f.values, state.phi)), "n"], [f.unit, "s"]]))}</tbody></table>
+    </div>
+  </div>`;
+
+const job = ({id, title, state: now, place, seconds, files = [], lines, errors}) => html`<li>${title}:
+  ${now === "waiting" && ` в очереди, перед вами ${place}`}${now === "running" && ` делается, ${seconds} с`}
+  ${files.map(({name, size}) => html`
+    <a href=${`api/files/${id}/${encodeURIComponent(name)}`} download=${name}>${name}</a>
+    ${` (${printed(size / 1e6, 2)} МБ) `}`)}
+  ${list(lines || errors || [], now === "done" ? "odd" : "bad")}</li>`;
+
+const verdict = ({ok, reason}) =>
+  ok ? ["выполнена", "good"] : reason ? [`принято: ${reason}`, "odd"] : ["не выполнена", "bad"];
+
+function results({last, second}) {
+  const others = new Map((second?.results || []).flatMap(t => t.rows.map(r => [r.key, r.text])));
+  return html`
+    <section id="results" aria-label="Результаты" tabindex="-1" class=${state.late ? "late" : ""}>
+      <h2>${state.raw.engine?.name || "Двигатель"}</h2>
+      ${scene(last)}
+      <p class="tools"><label>Диаграммы листа <select id="sheet" value=${state.sheet}
+        onChange=${e => asked({sheet: e.target.value})}>
+        ${options(state.sheets.map(([id, title]) => [id, id || "Прочее", title]))}</select></label></p>
+      <div id="charts" class="cards">${last.charts.map(own => figure(
+        {own, other: second?.charts?.find(c => c.id === own.id), phi: state.phi, theme: state.theme}))}</div>
+      <div id="files"><h3>Файлы</h3><p class="tools">${entries(state.choices.files).map(([kind, title]) =>
+        html`<button data-kind=${kind} onClick=${() => order(kind, title)}>${title}</button>`)}</p>
+        <ul id="jobs" aria-live="polite">${state.jobs.map(job)}</ul></div>
+      <div id="checks">${state.checks.length > 0 && table("Проверки расчёта", state.checks.map(c =>
+        row([[c.title], [printed(c.value), "n"], verdict(c)])))}</div>
+      ${list(state.warnings, "warnings")}
+      <div id="summary">${last.results.map(({id, title, rows}) => html`
+        <details key=${id} open=${/^(summary_torque|geometry)/.test(id)}><summary>${title}</summary>
+          ${table(title, rows.map(r => row([[r.title], [symbol(r.symbol), "s"], [r.text, "n"],
+            [others.get(r.key) ?? "", "n"], [r.unit, "s"]], {"data-key": r.key})))}</details>`)}</div>
+    </section>`;
 }
 
-const read = async file => /\.xlsx$/i.test(file.name) ? ask("api/book", file) : ask("api/read", {text: await file.text()});
-
-async function through(bytes, way) {
-  return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(way)).arrayBuffer());
-}
-async function packed(text) {
-  const bytes = await through(text, new CompressionStream("deflate-raw"));
-  return btoa(String.fromCharCode(...bytes)).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
-}
-async function unpacked(text) {
-  const bytes = Uint8Array.from(atob(text.replaceAll("-", "+").replaceAll("_", "/")), c => c.charCodeAt(0));
-  return new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw")));
-}
-
-function compare(other) {
-  state.other = other;
-  $("drop").hidden = !other;
-  solve();
-}
-
-const ACTIONS = {
-  undo, play,
-  alike: () => fresh(ask("api/new", {raw: state.raw, cylinders: Number($("cylinders").value), layout: $("layout").value})),
-  keep: () => compare(copy(state.raw)),
-  drop: () => compare(null),
-  save: async () => {
-    const answer = await ask("api/toml", {raw: state.raw});
-    if (told(answer)) download("engine.toml", answer.text);
-  },
-  link: async () => {
-    location.hash = await packed(JSON.stringify(state.raw));
-    try { await navigator.clipboard.writeText(location.href); } catch { /* the address shows it */ }
-    $("link").textContent = "Ссылка в адресе";
-  },
-};
+const page = () => html`
+  <a class="skip" href="#results">К результатам</a>
+  <header><h1>Кривошипно-шатунный механизм</h1>
+    <nav aria-label="Страницы"><a href="teacher">Преподавателю</a></nav></header>
+  <main>${data()}${state.last && results(state)}</main>
+  <nav id="places" aria-label="Части страницы"><a href="#data">Данные</a> <a href="#results">Диаграммы</a>
+    <a href="#files">Файлы</a></nav>`;
 
 async function begin() {
-  const choices = await ask("api/choices"), pairs = Object.entries;
-  $("sample").replaceChildren(...options(choices.samples.map(name => [name, name]), "gots-diesel"));
-  for (const [id, list] of pairs({layout: choices.layouts, strokes: choices.strokes, kind: choices.kinds}))
-    $(id).replaceChildren(...options(pairs(list), "4"));
-  $("kinds").replaceChildren(...pairs(choices.files).map(([kind, title]) =>
-    make("button", {"data-kind": kind, onclick: () => order(kind, title)}, title)));
-  for (const [id, action] of pairs(ACTIONS)) $(id).addEventListener("click", action);
-  $("sampleForm").addEventListener("submit", e => { e.preventDefault(); fresh(ask("api/new", {sample: $("sample").value})); });
-  $("ownForm").addEventListener("submit", e => { e.preventDefault(); fresh(wanted()); });
-  $("upload").addEventListener("change", async e => { await fresh(read(e.target.files[0])); e.target.value = ""; });
-  $("find").addEventListener("input", find);
-  $("sheet").addEventListener("change", () => { state.sheet = $("sheet").value; solve(); });
-  $("cylinder").addEventListener("change", solve);
-  $("phi").addEventListener("input", turn);
-  for (const media of ["(prefers-color-scheme: dark)", "print"])
-    matchMedia(media).addEventListener("change", () => { // colours are drawn in
-      state.figures.splice(0).forEach(f => f.drop());
-      show(state.last, state.second);
-    });
+  state.choices = await ask("api/choices");
+  if (innerWidth > 900) state.open = new Set(["engine", "geometry", "regime"]);
+  for (const media of ["(prefers-color-scheme: dark)", "print"]) // colours are drawn in
+    matchMedia(media).addEventListener("change", () => set({theme: state.theme + 1}));
   let kept = null;
   try {
-    const hash = location.hash.slice(1);
-    kept = hash ? {raw: JSON.parse(await unpacked(hash))} : JSON.parse(localStorage.getItem("kshm"));
+    const hash = location.hash.slice(1), text = hash && LZString.decompressFromEncodedURIComponent(hash);
+    kept = text ? {raw: JSON.parse(text)} : JSON.parse(localStorage.getItem("kshm"));
   } catch { /* a damaged link or store is none */ }
-  state.other = kept?.other || null;
-  $("drop").hidden = !state.other;
-  $("new").open = !kept?.raw;
+  Object.assign(state, {other: kept?.other || null, isNew: !kept?.raw});
   if (!kept?.raw || !await open(kept.raw, false)) {
     await fresh(ask("api/new", {sample: "gots-diesel"}));
-    $("new").open = true;
+    set({isNew: true});
   }
 }
-addEventListener("DOMContentLoaded", begin);
+Object.assign(window, {kshm: state, ask, fresh, turn}); // for a person's console and for the tests
+begin();

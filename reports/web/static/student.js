@@ -1,23 +1,23 @@
-"use strict";
-const door = `../../api/student/${encodeURIComponent(location.pathname.split("/").filter(Boolean).at(-1))}`;
-async function look() {
-  const own = await ask(door);
-  if (own.errors) { say($("errors"), own.errors); return; }
-  $("who").textContent = `${own.student} — ${own.title}`;
+// A student's page: the own book taken and handed in, and its page once it is open.
+import {render} from "./vendor/preact.mjs";
+import {alerts, ask, html, picker, printed} from "./common.js";
+
+const door = `../../api/student/${location.pathname.split("/").filter(Boolean).at(-1)}`;
+
+async function look(errors = []) {
+  const own = await ask(door), points = own.points ?? null;
   const words = [own.handed ? "работа сдана" : "работа ещё не сдана", own.status,
-    own.points === null ? "" : `баллы: ${printed(own.points)}`];
-  $("state").textContent = words.filter(Boolean).join("; ");
-  $("book").href = `${door}/book`;
-  $("book").download = own.file;
-  $("page").hidden = !own.open;
-  $("page").href = `${door}/page`;
+    points === null ? "" : `баллы: ${printed(points)}`];
+  const hand = async file => look((await ask(`${door}/work`, file)).errors);
+  render(html`
+    <header><h1>${own.errors ? "Моя работа" : `${own.student} — ${own.title}`}</h1></header>
+    <main class="single"><section>
+      ${alerts([...errors, ...own.errors || []])}
+      ${!own.errors && html`<p id="state" aria-live="polite">${words.filter(Boolean).join("; ")}</p>
+        <p class="tools">
+          <a id="book" class="button" href=${`${door}/book`} download=${own.file}>Скачать рабочую книгу</a>
+          ${picker("Сдать книгу .xlsx", ".xlsx", hand, "work")}
+          <a id="page" class="button" href=${`${door}/page`} hidden=${!own.open}>Страница проверки</a></p>`}
+    </section></main>`, document.body);
 }
-addEventListener("DOMContentLoaded", () => {
-  $("work").addEventListener("change", async event => {
-    const file = event.target.files[0];
-    if (file) say($("errors"), (await ask(`${door}/work`, file)).errors);
-    event.target.value = "";
-    look();
-  });
-  look();
-});
+look();

@@ -1,0 +1,145 @@
+"""Numbers of an engine as plain data for whoever draws them himself: a page, another program.
+
+Key results, the curves of charts with the place of a cursor, what moves, the checks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from kshm import quantity
+from kshm.results.solution import Solution
+from reports.inputs.checks.grid import grid_remark
+from reports.inputs.units import MM
+from reports.shared.russian import written
+from reports.spec.blocks import Model, ScalarTable
+from reports.spec.charts import ChartSpec
+from reports.spec.evaluation import Evaluation
+from reports.tables.overview.summary import NO
+from reports.tables.overview.verdicts import reasons_of
+
+Data = dict[str, Any]
+_DIGITS = 8  # of the greatest number of a curve: what no screen shows
+_LEAST = 12  # places: what is less is noise of a sum that is zero
+_CHART = ("id", "title", "kind", "x_title", "y_title", "x_is_angle", "x_reversed", "y_reversed")
+
+
+def results(model: Model, solution: Solution) -> Iterator[Data]:
+    """The summaries of workbook and report with the numbers of chain and regimes: what is quick."""
+    quick = solution.scalars if solution.engine.regimes else solution.chain_scalars
+    for block in model.blocks:
+        if isinstance(block, ScalarTable) and block.id.startswith(("summary", "geometry")):
+            found = ((each, solution.scalar(each.key)) for each in block.scalars
+                     if each.key in quick)  # fmt: skip
+            rows = [
+                {"key": each.key, "title": each.note or each.quantity.title,
+                 "symbol": each.quantity.symbol, "unit": each.quantity.unit_label,
+                 "value": value, "text": written(value, each.quantity.digits)}
+                for each, value in found
+            ]  # fmt: skip
+            if rows:
+                yield {"id": block.id, "title": block.title, "rows": rows}
+
+
+def charts(model: Model, solution: Solution, sheet: str) -> list[Data]:
+    """The charts of a sheet; what the solver does not say follows from the formulas."""
+    formulas = Evaluation(model)
+    return [_chart(each, solution, formulas) for each in model.charts if each.sheet == sheet]
+
+
+def _chart(chart: ChartSpec, solution: Solution, formulas: Evaluation) -> Data:
+    """A chart's curves, and where its cursor stands at every φ if it has no angle."""
+
+    def numbers(key: str) -> Any:  # noqa: ANN401
+        try:
+            return solution.column(*key.split(".", 1))
+        except KeyError:
+            return np.asarray(formulas.value(key), dtype=float)
+
+    curves = [(each.name or _symbol(each.y), numbers(each.x), numbers(each.y))
+              for each in chart.drawn_by("report")]  # fmt: skip
+    x = y = np.empty(0)
+    if chart.kind == "polar":
+        _, x, y = curves[0]
+    elif chart.contact:
+        x, y = (numbers(key.lstrip("-")) * (-1 if key[0] == "-" else 1) for key in chart.contact)
+        x, y = np.array([x, y]) / np.maximum(np.hypot(x, y), 1e-12)
+    angles = (solution.column(table, "phi_deg") for table in ("P3_1", "P4_1"))
+    phi = next((phi for phi in angles if len(phi) == len(x)), None)
+    return {
+        **{key: getattr(chart, key) for key in _CHART},
+        "curves": [{"name": name, **_lists(x=x, y=y)} for name, x, y in curves],
+        "path": None if phi is None else _lists(phi=phi, x=x, y=y),
+    }
+
+
+def _symbol(key: str) -> str:
+    try:
+        return quantity(key.rpartition(".")[2]).symbol
+    except KeyError:
+        return ""
+
+
+def _lists(**columns: Any) -> dict[str, list[float | None]]:  # noqa: ANN401
+    return {key: plain_numbers(values) for key, values in columns.items()}
+
+
+def plain_numbers(values: Any) -> list[float | None]:  # noqa: ANN401
+    """A column as JSON carries it: digits that no screen shows are left out."""
+    values = np.asarray(values, dtype=float)
+    finite = np.isfinite(values)
+    most = float(np.max(np.abs(values[finite]), initial=0.0))
+    digits = min(_LEAST, _DIGITS - int(np.ceil(np.log10(most)))) if most > 0 else 0
+    rounded: list[float | None] = np.round(values, digits).tolist()
+    if not finite.all():
+        rounded = [x if ok else None for x, ok in zip(rounded, finite, strict=True)]
+    return rounded
+
+
+def moving(solution: Solution, cylinder: int = 0) -> Data:
+    """What the moving mechanism of a cylinder and the star of cranks are drawn from.
+
+    ``joints`` are the places of crankpin, articulated pin and piston pin [mm] in the frame of
+    the cylinder, its axis upwards, over its own angle ``turn``; forces stand over the engine's.
+    """
+    engine = solution.engine
+    number = cylinder if cylinder in range(engine.cylinders) else 0
+    place, geometry = engine.arrangement[number], engine.geometry
+    table = f"cylinder_{number + 1}" if number else "P4_1"
+    phi = solution.column(table, "phi_deg")
+    phase = solution.column(table, "phase_deg") if number else phi
+    forces = [key for key in solution.chain_tables["P4_1"] if key.endswith("_MPa")]
+    return {
+        **_lists(phi=phi, turn=solution.column("P3_1", "phi_deg")),
+        "shift": float(phi[0] - phase[0]),
+        "joints": [[plain_numbers(x * 1000) for x in joint]
+                   for joint in solution.joints(number)],
+        "forces": {
+            key: {"symbol": quantity(key).symbol, "unit": quantity(key).unit_label,
+                  **_lists(values=solution.column(table, key))}
+            for key in forces
+        },
+        "radius": MM.from_si(geometry.crank_radius), "bore": MM.from_si(geometry.bore),
+        "wall": MM.from_si(geometry.crank_offset or 0.0), "axis": float(np.degrees(place.axis)),
+        "cylinder": number, "cylinders": engine.cylinders,
+        "throws": np.degrees([each.angle for each in engine.crankshaft.throws]).tolist(),
+    }  # fmt: skip
+
+
+def checks(model: Model) -> Data:
+    """The checks of a calculation, each with its value, and what the step leaves out."""
+    value, reasons = Evaluation(model).value, reasons_of(model.input)
+    names = {key.removeprefix("check_"): scalar for key, scalar in model.scalars.items()
+             if key.startswith("check_")}  # fmt: skip
+    grid = grid_remark(model.input)
+    return {
+        "checks": [
+            {"key": name, "title": scalar.note, "value": float(value(f"value_{name}")),
+             "ok": value(f"check_{name}") != NO, "reason": reasons.get(name, "")}
+            for name, scalar in names.items()
+        ],
+        "remarks": [*model.remarks, *((grid,) if grid else ())],
+    }  # fmt: skip

@@ -18,6 +18,7 @@ _HEADING = re.compile(r"<h[1-3]")
 WIDTH = re.compile(r'<(?:svg|img) class="fig"[^>]*?style="width:([\d.]+)mm')
 _LEAST = 0.7  # to which a figure may be reduced to fit the foot of a page
 _TOGETHER = 3  # rows of a table that stand together at its beginning and at its end
+_DIVIDED = 4  # lines of the least paragraph that is divided
 _LAYOUTS = 16  # that are followed
 # What a layout costs: the square of the share of a page that stays blank, and beside it
 _TOO_BLANK = 0.25  # the share from which a page looks like the end of a chapter
@@ -95,16 +96,15 @@ def filled(blocks: Sequence[Block], spot: Spot, room: float, line: float) -> tup
 
 
 def _with_tails(blocks: Sequence[Block]) -> list[Block]:
-    """A line that leads to a formula stands with it, a heading with what follows."""
+    """The last lines that lead to a formula stand with it, a heading with what follows."""
     kept: list[Block] = []
     after = Block("", "other", 0.0)
     for block in reversed(blocks):
         told = block
         if block.kind in ("heading", "chapter"):
             told = replace(block, tail=max(block.below, after.above) + _beginning(after))
-        elif block.kind == "text" and block.height == block.line and _is_formula(after):
-            html = block.html.replace("<p", '<p class="lead"', 1)
-            told = replace(block, html=html, tail=after.above + after.height)
+        elif block.line and block.html.startswith("<p") and _is_formula(after):
+            told = replace(block, html=_leading(block.html), tail=after.above + after.height)
         kept.append(told)
         after = after if block.kind == "float" else told
     return kept[::-1]
@@ -114,12 +114,20 @@ def _is_formula(block: Block) -> bool:
     return block.kind == "tied" and not block.line
 
 
+def _leading(html: str) -> str:
+    head, quote, rest = html.partition('class="')
+    return (
+        f"{head}{quote}lead {rest}" if head == "<p " else html.replace("<p", '<p class="lead"', 1)
+    )
+
+
 def _beginning(block: Block) -> float:
     """The least of a block that stands together [px]."""
     if block.kind == "table":
         divides = len(block.rows) >= 2 * _TOGETHER
         return block.height - sum(block.rows[_TOGETHER:] if divides else ())
-    return block.tail + (min(block.height, 2 * block.line) if block.line else block.height)
+    whole = block.height < _DIVIDED * block.line or not block.line
+    return block.height + block.tail if whole else 2 * block.line
 
 
 def _ways(layout: _Layout, room: float, line: float) -> Iterator[_Layout]:
@@ -190,7 +198,7 @@ def after(block: Block, spot: Spot, room: float) -> Spot:
     total = begin + block.height
     if total + block.tail <= room:
         return Spot(total, block.below, spot.page, spot.cost)
-    divides = not block.tail and (block.kind in ("text", "table") or block.line > 0)
+    divides = block.kind in ("text", "table") or block.line > 0
     end, pages, whole = _over(block, begin, room) if divides else (0.0, 1, True)
     if not divides:
         end = min(block.above + block.height, room)
@@ -222,7 +230,7 @@ def _over(block: Block, begin: float, room: float) -> tuple[float, int, bool]:
     if block.line:  # no line of a paragraph stands alone
         free = int((room - begin) / block.line)
         lines = round(block.height / block.line)
-        free = 0 if free < 2 or lines < 4 else min(free, lines - 2)
+        free = 0 if free < 2 or lines < _DIVIDED else min(free, lines - 2)
         over, whole = (lines - free) * block.line, free == 0
     return over % room, 1 + int(over // room), whole
 

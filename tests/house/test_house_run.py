@@ -273,6 +273,9 @@ def test_the_test_command_runs_all_and_fails_if_one_fails(house):
         in house.calls()
     )
     house.log.write_text("")
+    house.run("test", "--all", KSHM_NO_SYSTEM="1")
+    assert "python -m pytest -n auto --dist loadgroup --no-loadscope-reorder" in house.calls()
+    house.log.write_text("")
     house.tool(house.root / ".venv/bin/mypy", status=1)
     assert house.run("test", KSHM_NO_SYSTEM="1").returncode == 1
     assert "python -m pytest -n auto --dist loadgroup --no-loadscope-reorder" in house.calls()

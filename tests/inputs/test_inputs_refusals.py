@@ -49,6 +49,10 @@ CASES = {
         {"engine.cylinders": 3.5},
         "engine.cylinders: нужно целое число, а задано: число 3.5; допустимо от 1 до 24",
     ),
+    "no cylinder": (
+        {"engine.cylinders": 0},
+        "engine.cylinders: значение 0 вне допустимых пределов; допустимо от 1 до 24",
+    ),
     "negative length": (
         {"geometry.bore_mm": -88},
         f"geometry.bore_mm: значение −88 вне допустимых пределов; {BORE}",

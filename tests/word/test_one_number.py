@@ -31,7 +31,7 @@ def shown(text: str) -> set[str]:
 
 def of_workbook(data: bytes) -> dict[str, float]:
     """Values of the summary by their names."""
-    book = openpyxl.load_workbook(io.BytesIO(data), data_only=True)
+    book = openpyxl.load_workbook(io.BytesIO(data), read_only=True, data_only=True)
     values = {}
     for key in KEYS:
         sheet, cell = next(iter(book.defined_names[key].destinations))

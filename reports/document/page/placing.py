@@ -103,7 +103,7 @@ def _with_tails(blocks: Sequence[Block]) -> list[Block]:
         told = block
         if block.kind in ("heading", "chapter"):
             told = replace(block, tail=max(block.below, after.above) + _beginning(after))
-        elif block.line and block.html.startswith("<p") and _is_formula(after):
+        elif _leads(block) and _is_formula(after):
             told = replace(block, html=_leading(block.html), tail=after.above + after.height)
         kept.append(told)
         after = after if block.kind == "float" else told
@@ -112,6 +112,12 @@ def _with_tails(blocks: Sequence[Block]) -> list[Block]:
 
 def _is_formula(block: Block) -> bool:
     return block.kind == "tied" and not block.line
+
+
+def _leads(block: Block) -> bool:
+    """A line alone, or a paragraph of which two lines may go over: no more is taken along."""
+    lines = round(block.height / block.line) if block.line else 0
+    return block.html.startswith("<p") and (lines == 1 or lines >= _DIVIDED)
 
 
 def _leading(html: str) -> str:

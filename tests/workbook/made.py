@@ -72,6 +72,7 @@ def drawn(model: Model) -> list[ChartSpec]:
 MOVING = 6  # charts of the mechanism's sheet, half of them with one scale on both axes
 
 
-def parts(prefix: str, name: str = "gots-diesel") -> dict[str, bytes]:
-    with zipfile.ZipFile(io.BytesIO(book(name))) as archive:
+def parts(prefix: str, name: str = "gots-diesel", *, coarse: bool = False) -> dict[str, bytes]:
+    data = coarse_book(name) if coarse else book(name)
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
         return {part: archive.read(part) for part in archive.namelist() if part.startswith(prefix)}

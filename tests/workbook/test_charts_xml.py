@@ -6,13 +6,14 @@ defect, and the charts of the textbook's diesel on its own grid are clean.
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 
 import pytest
 from lxml import etree
 
 from tests.workbook.lint import A, C, chart_problems
-from tests.workbook.made import MOVING, drawn, model, parts
+from tests.workbook.made import MOVING, coarse_opened, drawn, model, parts
 
 
 @lru_cache(maxsize=1)
@@ -36,6 +37,26 @@ def test_every_chart_keeps_the_rules() -> None:
 def test_polar_diagrams_are_square() -> None:
     squares = [name for name in charts() if chart(name).find(f".//{C}manualLayout") is not None]
     assert len(squares) == MOVING // 2 + sum(s.kind != "line" for s in drawn(model()))
+
+
+AREA = re.compile(r"('(?:[^']|'')+'|[^',!(]+)!([$A-Z\d:]+)")
+
+
+def test_points_of_charts_are_those_of_the_cells() -> None:
+    """Caches of curves, marks and rays, of six digits, against the values of their cells."""
+    opened, compared = coarse_opened("gots-diesel"), 0
+    for name, text in parts("xl/charts/chart", coarse=True).items():
+        for reference in etree.fromstring(text).iterfind(f".//{C}numRef"):
+            where = reference.findtext(f"{C}f") or ""
+            cells: list[object] = []
+            for sheet, place in AREA.findall(where):
+                found = opened[sheet.strip("'").replace("''", "'")][place.replace("$", "")]
+                rows = found if isinstance(found, tuple) else ((found,),)
+                cells += [cell.value for row in rows for cell in row]
+            points = [float(p.text) for p in reference.iterfind(f"{C}numCache/{C}pt/{C}v")]
+            assert points == pytest.approx(cells, rel=5.1e-6, abs=1e-12), (name, where)
+            compared += len(points)
+    assert compared > 2000
 
 
 def _set(path: str, **attributes: str):

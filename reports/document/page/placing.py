@@ -121,10 +121,10 @@ def _leads(block: Block) -> bool:
 
 
 def _leading(html: str) -> str:
-    head, quote, rest = html.partition('class="')
-    return (
-        f"{head}{quote}lead {rest}" if head == "<p " else html.replace("<p", '<p class="lead"', 1)
-    )
+    looks = '<p class="'
+    if html.startswith(looks):
+        return html.replace(looks, f"{looks}lead ", 1)
+    return html.replace("<p", f'{looks}lead"', 1)
 
 
 def _beginning(block: Block) -> float:

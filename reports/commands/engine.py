@@ -222,8 +222,8 @@ def _print_summary(scalars: dict[str, float]) -> None:
     help="Папка для результатов (по умолчанию текущая).",
 )
 @click.option(
-    "--only", type=click.Choice(["xlsx", "pdf", "html", "docx", "sheet"]),
-    help="Только один вид документа.",
+    "--only", type=click.Choice(["xlsx", "pdf", "html", "docx", "sheet"]), multiple=True,
+    help="Только этот вид документа; можно повторить.",
 )  # fmt: skip
 @path_option("--style", metavar="FILE", help="Оформление отчёта: файл кафедры .toml.")
 @dask_option
@@ -231,7 +231,7 @@ def _print_summary(scalars: dict[str, float]) -> None:
 def build(
     sources: tuple[Path, ...],
     folder: Path,
-    only: str | None,
+    only: tuple[str, ...],
     style: Path | None,
     dask: str | None,
     verbose: bool,

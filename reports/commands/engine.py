@@ -171,6 +171,7 @@ def solve(source: Path, folder: Path | None, target: str | None, verbose: bool) 
     """Посчитать числа без документов."""
     from reports.exports.numbers import csv_text, export_tables, json_text
     from reports.inputs.solved import solved
+    from reports.inputs.to_si.engine import smallness_of
     from reports.shared.files import atomic_path, make_dir, refuse_own, write_text
 
     loaded = load(source)
@@ -192,19 +193,19 @@ def solve(source: Path, folder: Path | None, target: str | None, verbose: bool) 
                 json_text(loaded.model, solution, notes_of(loaded)), encoding="utf-8"
             )
     if folder is None and target is None:
-        _print_summary(solution.scalars)
+        _print_summary(solution.scalars, smallness_of(loaded.model))
         tell_grid(loaded)
     return DONE
 
 
-def _print_summary(scalars: dict[str, float]) -> None:
+def _print_summary(scalars: dict[str, float], small: int) -> None:
     from kshm.nomenclature.quantity import quantity
     from reports.shared.russian import written
 
     for key, value in scalars.items():
         if key.startswith("throw"):
             continue
-        about = quantity(key)
+        about = quantity(key, small)
         text = written(value, about.digits)
         click.echo(f"{about.title}: {about.symbol} = {text} {about.unit_label}".rstrip())
 

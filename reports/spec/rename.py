@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TypeVar
 
-from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
+from reports.spec.blocks import Block, Column, Grid, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec
 
 Names = Callable[[str], str]
@@ -45,6 +45,20 @@ def copied(block: Block, names: Names) -> Block:
         return replace(change(item), key=names(item.key), of=item.of or item.key)
 
     return replace(_changed(block, scalar, change), id=names(block.id))
+
+
+def sized(blocks: tuple[Block, ...], small: int) -> tuple[Block, ...]:
+    """Blocks of an engine of that smallness: its values have more decimals."""
+
+    def made(block: Block) -> Block:
+        if isinstance(block, Grid):
+            rows = tuple(replace(row, small=small) for row in block.rows)
+            block = replace(block, rows=rows)
+        return _changed(
+            block, lambda item: replace(item, small=small), lambda item: replace(item, small=small)
+        )
+
+    return tuple(map(made, blocks)) if small else blocks
 
 
 def copied_chart(chart: ChartSpec, names: Names) -> ChartSpec:

@@ -116,8 +116,7 @@ def energy_resistance(train: Train, modes: Modes, damping: Array, loss_factor: f
 def form_stress(train: Train, modes: Modes) -> Array:
     """Greatest stress of a form of 1 rad M/W_p [Pa/rad], shape (modes,), statics."""
     if train.moduli is None:
-        msg = "the shafts have no sections"
-        raise ValueError(msg)
+        raise ValueError("the shafts have no sections")
     stress: Array = np.abs(train.stiffnesses * np.diff(modes.forms) / train.moduli).max(axis=1)
     return stress
 

@@ -297,7 +297,6 @@ def _numbers(values: list[Any], run: Run) -> tuple[Array, str]:
             kind = TEXT
         elif not (isinstance(value, dict) and value.get("kind") in _ERRORS):
             what = value.get("kind", "") if isinstance(value, dict) else type(value).__name__
-            msg = f"ответ вычислителя: {what}"
-            raise UnknownFormula(msg)
+            raise UnknownFormula(f"ответ вычислителя: {what}")
         kinds.append(kind)
     return numbers, "".join(kinds)

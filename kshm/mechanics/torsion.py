@@ -54,24 +54,6 @@ def modes_of(train: Train) -> Modes:
     return Modes(omega, forms / np.where(moves, forms[:, 0], greatest)[:, None])
 
 
-def holzer(train: Train, omega: float) -> tuple[Array, Array, float]:
-    """Holzer's chain at an angular frequency [rad/s]: angles with θ_1 = 1, torques, what is left.
-
-    Returns:
-        θ_k [rad], shape (masses,); torque of each shaft between [N·m], shape (masses − 1,);
-        torque left over at the last mass [N·m], zero at a frequency of the train.
-    """
-    angle, torque = 1.0, -train.left
-    angles, torques = [angle], []
-    for inertia, spring in zip(train.inertias[:-1], train.stiffnesses, strict=True):
-        torque += omega**2 * inertia * angle
-        angle -= torque / spring
-        torques.append(torque)
-        angles.append(angle)
-    rest = torque + omega**2 * train.inertias[-1] * angle - train.right * angle
-    return np.array(angles), np.array(torques), float(rest)
-
-
 def nodes(forms: Array) -> Array:
     """Place of the node within each shaft [masses from 1], NaN without one, by definition.
 

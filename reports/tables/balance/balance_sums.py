@@ -182,7 +182,7 @@ def turning(shape: Shape, order: int, across: str) -> tuple[str, str, str, str]:
 
 def vectors_table(shape: Shape) -> ScalarTable:
     """Greatest and smallest first-order vector with its direction, before and after."""
-    scalars = []
+    scalars: list[Scalar] = []
     for key, across in (("F", "order"), ("L", "arm")):
         half = "Pj_unit_kN/2"
         for name in ("before", "after"):

@@ -83,7 +83,7 @@ def _inverse() -> TableSpec:
 
 def _error_scalars() -> ScalarTable:
     table = "segal_errors"
-    scalars = []
+    scalars: list[Scalar] = []
     for letter in "svj":
         scalars += scalar_list(f"""
             d{letter}_max = max(col_max({table}.d{letter}), -col_min({table}.d{letter}))

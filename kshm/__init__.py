@@ -67,5 +67,4 @@ def __getattr__(name: str) -> Any:  # noqa: ANN401
     for home, names in _HOMES.items():
         if name in names:
             return getattr(import_module(home), name)
-    msg = f"module 'kshm' has no attribute '{name}'"
-    raise AttributeError(msg)
+    raise AttributeError(f"module 'kshm' has no attribute '{name}'")

@@ -99,11 +99,9 @@ def rank_firing_orders(engine: Engine) -> tuple[FiringOrder, ...]:
             leave no choice.
     """
     if engine.strokes != 4:
-        msg = "a two-stroke engine has one firing order"
-        raise ValueError(msg)
+        raise ValueError("a two-stroke engine has one firing order")
     if engine.cylinders > MAX_CYLINDERS:
-        msg = f"firing orders are listed for up to {MAX_CYLINDERS} cylinders"
-        raise ValueError(msg)
+        raise ValueError(f"firing orders are listed for up to {MAX_CYLINDERS} cylinders")
     table = offsets_table(dead_centres(engine))
     loads = journal_loads(engine, table)
     rough, half = unevenness(table), order_sum(table, 0.5)

@@ -72,8 +72,7 @@ def stack(engines: Sequence[Engine]) -> Batch:
         ValueError: the engines differ in structure or there are none.
     """
     if not engines:
-        msg = "no engines to solve"
-        raise ValueError(msg)
+        raise ValueError("no engines to solve")
     if len({structure(engine) for engine in _one_of_each_kind(engines)}) > 1:
         msg = "engines of one batch must have one structure: layout, strokes, step, rays, gas"
         raise ValueError(msg)

@@ -15,7 +15,7 @@ from kshm.arrays import Array
 from kshm.cycle.dizdn_listing import DEGREE, isobar_end
 from kshm.cycle.errors import CycleError
 from kshm.cycle.result import Cycle
-from kshm.engine.gas import PolytropicGas, TabulatedGas
+from kshm.engine.gas import PolytropicGas
 from kshm.mechanics.kinematics import displacement_exact
 
 # Width of a vertical line of the diagram where a function of φ is needed [rad]
@@ -118,35 +118,6 @@ def diagram_at(cycle: Cycle, phi: Array) -> IndicatorDiagram:
     """
     rising = int(np.searchsorted(phi, 2 * np.pi - EDGE))
     return _points(cycle, phi, phi, rising, isobar_angle(cycle))
-
-
-def tabulated_gas(cycle: Cycle, step_deg: int = 1, *, peak_factor: float = 1.0) -> TabulatedGas:
-    """Gas pressure over the whole cycle 0…720° for the dynamics.
-
-    Intake at p_a, the diagram, exhaust at p_r, not rounded: the fullness φ is left to
-    the comparison of powers.  Vertical lines are 1e-7 rad wide; at TDC of firing the
-    pressure is already p_z, at 0° and 720° it is p_r.
-
-    Args:
-        cycle: calculated with bore and stroke.
-        step_deg: grid step [°].
-        peak_factor: share of p_z that the real pressure reaches (0.85 is usual for
-            petrol); the diagram is cut there.
-    """
-    diagram = indicator_diagram(cycle, step_deg)
-    p_a, p_r = cycle.charge.p_a, cycle.charge.p_r
-    angles = np.array(diagram.phi)
-    corner = int(np.searchsorted(angles, 2 * np.pi))  # the point c, z' follows it
-    angles[corner] -= EDGE
-    ends = [0.0, EDGE], [3 * np.pi + EDGE, 4 * np.pi]
-    phi = np.concatenate([ends[0], angles, ends[1]])
-    p = np.concatenate([[p_r, p_a], diagram.pressure, [p_r, p_r]])
-    p = np.minimum(p, peak_factor * cycle.combustion.p_z)
-    return TabulatedGas(
-        p_ambient=cycle.inputs.p_ambient,
-        angles=tuple(float(x) for x in phi),
-        pressures=tuple(float(x) for x in p),
-    )
 
 
 def polytropic_gas(

@@ -18,19 +18,10 @@ Kind = Literal["diesel", "petrol"]
 
 @dataclass(frozen=True, slots=True)
 class FrictionLaw:
-    """Mechanical losses p_m = A + B c_m: ``a`` [Pa], ``b`` [Pa·s/m]; ``source`` of both."""
+    """Mechanical losses p_m = A + B c_m: ``a`` [Pa], ``b`` [Pa·s/m]."""
 
     a: float
     b: float
-    source: str = ""
-
-
-# Losses by piston speed; "web" pages: transportzones.ru/zimads-640-1.html
-FRICTION: dict[str, FrictionLaw] = {
-    "petrol": FrictionLaw(0.049e6, 0.0152e6, "web"),  # S/D > 1, up to 6 cylinders
-    "petrol_injection": FrictionLaw(0.024e6, 0.0053e6, "web"),
-    "diesel": FrictionLaw(0.089e6, 0.0118e6, "memory"),  # undivided chamber
-}
 
 
 @dataclass(frozen=True, slots=True)

@@ -178,5 +178,4 @@ def engine_pressure(engine: Engine, phi: Array) -> Array:
     if isinstance(gas, RoundedGas):
         eps, ratio = engine.geometry.compression_ratio, engine_stroke(engine.geometry).ratio
         return rounded_pressure(local, gas, eps, ratio)
-    msg = "the diagram is one of polytropes"
-    raise TypeError(msg)
+    raise TypeError("the diagram is one of polytropes")

@@ -37,8 +37,7 @@ def coefficient(lam: float, order: int, terms: int | None = None) -> float:
         ValueError: the order is odd or negative.
     """
     if order < 0 or order % 2:
-        msg = f"the series has even orders only, not {order}"
-        raise ValueError(msg)
+        raise ValueError(f"the series has even orders only, not {order}")
     half = order // 2
     if terms is None:
         terms = half + 8 + math.ceil(18 / max(1e-3, -2 * math.log10(lam)))

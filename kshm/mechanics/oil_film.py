@@ -24,8 +24,7 @@ def check_widths(width: Array) -> None:
         ValueError: b is outside 0.1…1.
     """
     if not np.all((width >= LEAST_WIDTH) & (width <= MOST_WIDTH)):
-        msg = f"the width over the diameter must be {LEAST_WIDTH:g} to {MOST_WIDTH:g}"
-        raise ValueError(msg)
+        raise ValueError(f"the width over the diameter must be {LEAST_WIDTH:g} to {MOST_WIDTH:g}")
 
 
 def _polynomial(b: Array, *coefficients: float) -> Array:

@@ -96,8 +96,7 @@ def orbits(
     """
     check_widths(width)
     if not (np.isfinite(load).all() and np.isfinite(half_speed).all()):
-        msg = "loads and speeds must be finite"
-        raise ValueError(msg)
+        raise ValueError("loads and speeds must be finite")
     run = _Run(phi, load, half_speed, width)
     first = load[:, 0]
     size = np.abs(first)

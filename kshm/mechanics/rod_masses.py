@@ -63,8 +63,7 @@ def swung_centre(data: Swinging) -> float:
     k_c = GRAVITY / (2 * math.pi * data.swings_big) ** 2
     below = k_a + k_c - 2 * data.distance
     if below == 0:
-        msg = "the two swings do not fix the centre of mass"
-        raise ValueError(msg)
+        raise ValueError("the two swings do not fix the centre of mass")
     return data.distance * (k_c - data.distance) / below - data.bore_radius
 
 

@@ -54,24 +54,6 @@ def modes_of(train: Train) -> Modes:
     return Modes(omega, forms / np.where(moves, forms[:, 0], greatest)[:, None])
 
 
-def holzer(train: Train, omega: float) -> tuple[Array, Array, float]:
-    """Holzer's chain at an angular frequency [rad/s]: angles with θ_1 = 1, torques, what is left.
-
-    Returns:
-        θ_k [rad], shape (masses,); torque of each shaft between [N·m], shape (masses − 1,);
-        torque left over at the last mass [N·m], zero at a frequency of the train.
-    """
-    angle, torque = 1.0, -train.left
-    angles, torques = [angle], []
-    for inertia, spring in zip(train.inertias[:-1], train.stiffnesses, strict=True):
-        torque += omega**2 * inertia * angle
-        angle -= torque / spring
-        torques.append(torque)
-        angles.append(angle)
-    rest = torque + omega**2 * train.inertias[-1] * angle - train.right * angle
-    return np.array(angles), np.array(torques), float(rest)
-
-
 def nodes(forms: Array) -> Array:
     """Place of the node within each shaft [masses from 1], NaN without one, by definition.
 
@@ -116,8 +98,7 @@ def energy_resistance(train: Train, modes: Modes, damping: Array, loss_factor: f
 def form_stress(train: Train, modes: Modes) -> Array:
     """Greatest stress of a form of 1 rad M/W_p [Pa/rad], shape (modes,), statics."""
     if train.moduli is None:
-        msg = "the shafts have no sections"
-        raise ValueError(msg)
+        raise ValueError("the shafts have no sections")
     stress: Array = np.abs(train.stiffnesses * np.diff(modes.forms) / train.moduli).max(axis=1)
     return stress
 

@@ -133,7 +133,6 @@ def sum_in_time(amplitudes: Complex, orders: Array, step: float) -> Array:
 def stresses(train: Train, response: Response) -> Complex:
     """Torsional stress of the shafts M/W_p [Pa], shape (shafts, speeds, orders), statics."""
     if train.moduli is None:
-        msg = "the shafts have no sections"
-        raise ValueError(msg)
+        raise ValueError("the shafts have no sections")
     found: Complex = response.torques / train.moduli[:, None, None]
     return found

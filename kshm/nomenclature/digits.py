@@ -10,17 +10,16 @@ from typing import Literal
 class Digits:
     """Digits of a printed value: ``decimals`` after the comma, or how else it is written.
 
-    ``kind`` is ``scientific`` (decimals of the mantissa before a power of ten), ``minutes``
-    (degrees and minutes packed as 100 d + m) or ``text``; ``hides`` tells which values are
-    left blank: zeros, or the marks of a row that does not count.
+    ``kind`` is ``scientific`` (decimals of the mantissa before a power of ten) or ``text``;
+    ``hides`` tells which values are left blank: zeros, or the marks of a row that does not
+    count.
     """
 
     decimals: int = 3
-    kind: Literal["fixed", "scientific", "minutes", "text"] = "fixed"
+    kind: Literal["fixed", "scientific", "text"] = "fixed"
     hides: Literal["", "zeros", "unused"] = ""
 
 
-MINUTES = Digits(0, "minutes")
 TEXT = Digits(0, "text")
 UNLESS_UNUSED = Digits(0, hides="unused")
 

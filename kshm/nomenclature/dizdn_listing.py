@@ -145,6 +145,5 @@ def value_of(source: object, key: str) -> float:
     for name in key.split("."):
         value = getattr(value, name)
     if not isinstance(value, int | float):
-        msg = f"{key} is no number in this cycle"
-        raise AttributeError(msg)
+        raise AttributeError(f"{key} is no number in this cycle")
     return value / _SCALES[key.removeprefix("inputs.")]

@@ -66,8 +66,7 @@ def new(
     if cylinders is None and base is None:
         extra = [key for key, value in wanted.items() if value is not None]
         if extra:
-            msg = f"{extra[0]}: ключ для своего двигателя; добавьте --cylinders"
-            raise KshmError(msg)
+            raise KshmError(f"{extra[0]}: ключ для своего двигателя; добавьте --cylinders")
         text = new_file(sample)
     else:
         text = own_text(sample, base, cylinders, wanted)
@@ -75,8 +74,7 @@ def new(
         click.echo(text, nl=False)
         return DONE
     if output.exists():
-        msg = f"{output}: файл уже есть; укажите другое имя ключом -o или удалите его"
-        raise KshmError(msg)
+        raise KshmError(f"{output}: файл уже есть; укажите другое имя ключом -o или удалите его")
     write_text(output, text)
     click.echo(f"{output}")
     return DONE

@@ -121,11 +121,9 @@ def grade(
         click.echo(f"{folder}: решения записаны, ведомость и страницы обновлены")
         return LOOK if done.needs_a_person else DONE
     if issued is None or submitted is None or folder is None:
-        msg = "нужны папка выдачи, сданные работы и папка для результатов (ключ -o)"
-        raise KshmError(msg)
+        raise KshmError("нужны папка выдачи, сданные работы и папка для результатов (ключ -o)")
     if jobs < 0 or timeout <= 0:
-        msg = "--jobs и --timeout должны быть положительными"
-        raise KshmError(msg)
+        raise KshmError("--jobs и --timeout должны быть положительными")
     done = grade_all(
         issued, submitted, folder, rubric_file=rubric, secret_file=secret,
         options=Options(workers=jobs, timeout_s=timeout, pdf=pdf, dask=dask, decisions=decisions,

@@ -26,16 +26,13 @@ def own_text(
     """
     if sample is not None:
         other = "--from" if base is not None else "--cylinders"
-        msg = f"--sample и {other} вместе не нужны; оставьте один из ключей"
-        raise KshmError(msg)
+        raise KshmError(f"--sample и {other} вместе не нужны; оставьте один из ключей")
     if cylinders is None:
-        msg = "--from: не указано число цилиндров варианта; добавьте --cylinders"
-        raise KshmError(msg)
+        raise KshmError("--from: не указано число цилиндров варианта; добавьте --cylinders")
     for key in ("--power", "--speed"):
         value = wanted[key]
         if value is not None and not (math.isfinite(value) and value > 0):
-            msg = f"{key}: значение должно быть больше нуля"
-            raise KshmError(msg)
+            raise KshmError(f"{key}: значение должно быть больше нуля")
     if base is not None:
         return _alternative(base, cylinders, wanted)
     from reports.inputs.own_engine import own_engine
@@ -60,8 +57,7 @@ def _alternative(base: Path, cylinders: int, wanted: Mapping[str, Any]) -> str:
 
     for key in ("--strokes", "--kind"):
         if wanted[key] is not None:
-            msg = f"{key}: у варианта они те же, что в {base}; уберите ключ"
-            raise KshmError(msg)
+            raise KshmError(f"{key}: у варианта они те же, что в {base}; уберите ключ")
     model = load(base).model
     speed, power, ratio, cause = wanted["--speed"], wanted["--power"], 1.0, ""
     if power is not None:

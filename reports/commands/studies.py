@@ -96,8 +96,7 @@ def sweep(
     from reports.studies.run import sweep as run_sweep
 
     if jobs < 0:
-        msg = "--jobs не может быть отрицательным"
-        raise KshmError(msg)
+        raise KshmError("--jobs не может быть отрицательным")
     done = run_sweep(
         source, vary, target, quantities=quantities, pairwise=pairwise,
         options=Options(jobs=jobs, dask=dask),

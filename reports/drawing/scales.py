@@ -51,8 +51,7 @@ def round_scale(low: float, high: float, room: float, *, angle: bool = False) ->
             made = Scale(unit, low, high)
         if made.length <= room + 1e-9:
             return made
-    msg = f"no scale for {low}…{high} in {room} mm"
-    raise ValueError(msg)
+    raise ValueError(f"no scale for {low}…{high} in {room} mm")
 
 
 def _units(least: float) -> Iterator[float]:

@@ -38,8 +38,7 @@ def _plain(value: Any, *, blank_zero: bool = False) -> float | str | None:  # no
         return value
     number = float(value) + 0.0  # no negative zero
     if not math.isfinite(number):
-        msg = f"a result is not a number: {number}"
-        raise ValueError(msg)
+        raise ValueError(f"a result is not a number: {number}")
     return None if blank_zero and number == 0 else number
 
 

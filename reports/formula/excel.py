@@ -98,8 +98,7 @@ def _emit(node: ast.expr, refs: References) -> tuple[str, int]:
             return f"IF({parts})", _ATOM
         case ast.Call(func=ast.Name(id=name), args=args):
             return _call(name, args, refs)
-    msg = f"unexpected node {ast.dump(node)}"
-    raise AssertionError(msg)
+    raise AssertionError(f"unexpected node {ast.dump(node)}")
 
 
 def _wrapped(node: ast.expr, least: int, refs: References) -> str:
@@ -178,8 +177,7 @@ def _key(node: ast.expr) -> str:
             return name
         case ast.Attribute(value=ast.Name(id=table), attr=column):
             return f"{table}.{column}"
-    msg = "a whole-column function takes a column"
-    raise TypeError(msg)
+    raise TypeError("a whole-column function takes a column")
 
 
 def _aggregate(name: str, node: ast.expr, refs: References) -> str:

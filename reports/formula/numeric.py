@@ -157,8 +157,7 @@ def _made(node: ast.expr, read: Reading) -> Compiled:
             return _applied(_choose, [_made(part, read) for part in (test, body, orelse)])
         case ast.Call(func=ast.Name(id=name), args=args):
             return _applied(_function(name), [_made(arg, read) for arg in args])
-    msg = f"unexpected node {ast.dump(node)}"
-    raise AssertionError(msg)
+    raise AssertionError(f"unexpected node {ast.dump(node)}")
 
 
 def _pair(act: Callable[[Value, Value], Value], left: Compiled, right: Compiled) -> Compiled:

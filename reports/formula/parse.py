@@ -63,8 +63,7 @@ def parse(text: str) -> ast.expr:
     try:
         tree = ast.parse(text.strip(), mode="eval").body
     except SyntaxError as error:
-        msg = f"not an expression: {text!r} ({error.msg})"
-        raise FormulaError(msg) from error
+        raise FormulaError(f"not an expression: {text!r} ({error.msg})") from error
     _check(tree, text)
     return tree
 
@@ -100,8 +99,7 @@ def _check(node: ast.expr, text: str) -> None:
 
 
 def _refuse(node: ast.AST, text: str) -> None:
-    msg = f"not allowed in an expression: {ast.unparse(node)!r} in {text!r}"
-    raise FormulaError(msg)
+    raise FormulaError(f"not allowed in an expression: {ast.unparse(node)!r} in {text!r}")
 
 
 @lru_cache(maxsize=4096)

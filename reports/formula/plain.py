@@ -74,8 +74,7 @@ def _text(node: ast.expr, symbol: Callable[[str], str]) -> tuple[str, int]:
             return f"{said} при {_text(test, symbol)[0]}, иначе {otherwise}", 0
         case ast.Call(func=ast.Name(id=name), args=args):
             return _call(name, [_text(arg, symbol) for arg in args])
-    msg = f"unexpected node {ast.dump(node)}"
-    raise AssertionError(msg)
+    raise AssertionError(f"unexpected node {ast.dump(node)}")
 
 
 def _symbol(text: str) -> tuple[str, int]:

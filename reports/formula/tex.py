@@ -180,8 +180,7 @@ class _Printer:
                 return f"{self.text(left)} {_COMPARISONS[type(op)]} {self.text(right)}", _SUM
             case ast.Call(func=ast.Name(id=name), args=args):
                 return self._call(name, args)
-        msg = f"no printed form: {ast.unparse(node)}"
-        raise NotPrintable(msg)
+        raise NotPrintable(f"no printed form: {ast.unparse(node)}")
 
     def _name(self, name: str) -> tuple[str, int]:
         if self.numbers is None:
@@ -289,8 +288,7 @@ class _Printer:
             return f"{_NAMES[name]} {self._argument(args[0])}", _PRODUCT
         if name in AGGREGATES:
             return self._aggregate(name, args[0]), _ATOM
-        msg = f"no printed form: {name}"
-        raise NotPrintable(msg)
+        raise NotPrintable(f"no printed form: {name}")
 
     def _scale(self, name: str, arg: ast.expr) -> tuple[str, int]:
         if self.numbers is None:

@@ -7,9 +7,10 @@ import typing
 import unicodedata
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler
+from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler
+from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, PydanticCustomError, PydanticKnownError, core_schema
 
 from reports.inputs import units
@@ -52,13 +53,14 @@ class Meta:
         self, source: object, handler: GetCoreSchemaHandler
     ) -> CoreSchema:
         """Add the limits to the schema of the annotated type."""
-        schema: dict[str, Any] = dict(handler(source))
-        if schema["type"] == "nullable":  # a field that may be left out
-            schema["schema"] = self._limited(dict(schema["schema"]))
-            return typing.cast(CoreSchema, schema)
-        return self._limited(schema)
+        return self._limited(dict(handler(source)))
 
     def _limited(self, schema: dict[str, Any]) -> CoreSchema:
+        if schema["type"] == "nullable":  # a field that may be left out
+            schema["schema"] = self._limited(dict(schema["schema"]))
+        if schema["type"] == "tuple":  # a list, which a file has in place of a tuple
+            schema["strict"] = False
+            schema["items_schema"] = [self._limited(dict(item)) for item in schema["items_schema"]]
         if schema["type"] in ("float", "int"):
             if self.minimum is not None:
                 schema["ge"] = self.minimum
@@ -116,26 +118,52 @@ def _whole_number(value: object) -> object:
     return value
 
 
-def number(title: str, symbol: str, unit: Unit, low: float, high: float) -> Meta:
-    """Return the metadata of a number with inclusive hard limits."""
-    return Meta(title, symbol, unit, low, high)
+def number(
+    title: str,
+    symbol: str,
+    unit: Unit,
+    low: float,
+    high: float,
+    default: object = ...,
+    *,
+    structural: bool = False,
+    alias: str | None = None,
+) -> Any:  # noqa: ANN401 - of the field's own type, as pydantic's Field
+    """Return the field of a number, or of a list of them, with inclusive hard limits."""
+    return _field(Meta(title, symbol, unit, low, high, structural=structural), default, alias)
 
 
-def text(title: str) -> Meta:
-    """Return the metadata of a line of text."""
-    return Meta(title)
+def text(title: str, default: object = ...) -> Any:  # noqa: ANN401
+    """Return the field of a line of text."""
+    return _field(Meta(title), default)
 
 
-def choice(title: str, options: Mapping[str, str], *, structural: bool, symbol: str = "") -> Meta:
-    """Return the metadata of a choice; `options` maps each value to its Russian label."""
-    return Meta(title, symbol, choices=options, structural=structural)
+def choice(
+    title: str,
+    options: Mapping[str, str],
+    default: object = ...,
+    *,
+    structural: bool = False,
+    symbol: str = "",
+) -> Any:  # noqa: ANN401
+    """Return the field of a choice; `options` maps each value to its Russian label."""
+    return _field(Meta(title, symbol, choices=options, structural=structural), default)
+
+
+def _field(meta: Meta, default: object, alias: str | None = None) -> Any:  # noqa: ANN401
+    info: Any = Field(default, alias=alias)
+    info.metadata.append(meta)
+    return info
 
 
 @functools.cache
 def hints(model: type[BaseModel]) -> dict[str, Any]:
     """Return the annotations of a model by TOML key, in the order of the file (do not change)."""
-    annotations = typing.get_type_hints(model, include_extras=True)
-    return {info.alias or name: annotations[name] for name, info in model.model_fields.items()}
+    return {info.alias or name: _annotation(info) for name, info in model.model_fields.items()}
+
+
+def _annotation(info: FieldInfo) -> object:
+    return Annotated[(info.annotation, *info.metadata)] if info.metadata else info.annotation
 
 
 def find_meta(annotation: object) -> list[Meta]:

@@ -125,7 +125,7 @@ class Engine:
         found = {}
         for run, values in self._raw.items():
             try:
-                found[run] = _numbers(values, run)
+                found[run] = _numbers(values)
             except UnknownFormula as error:
                 self._unknown[run] = str(error)
         if len(found) < len(self._raw):
@@ -280,7 +280,7 @@ def _is_cell(area: Area) -> bool:
     return area.first_row == area.last_row and area.first_column == area.last_column
 
 
-def _numbers(values: list[Any], run: Run) -> tuple[Array, str]:
+def _numbers(values: list[Any]) -> tuple[Array, str]:
     """Numbers and kinds of values as formualizer gives them.
 
     Raises:
@@ -297,7 +297,6 @@ def _numbers(values: list[Any], run: Run) -> tuple[Array, str]:
             kind = TEXT
         elif not (isinstance(value, dict) and value.get("kind") in _ERRORS):
             what = value.get("kind", "") if isinstance(value, dict) else type(value).__name__
-            msg = f"ответ вычислителя: {what}"
-            raise UnknownFormula(msg)
+            raise UnknownFormula(f"ответ вычислителя: {what}")
         kinds.append(kind)
     return numbers, "".join(kinds)

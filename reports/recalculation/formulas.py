@@ -200,8 +200,7 @@ def _references(found: tuple[Token, ...]) -> Iterator[Reference]:
         if kind == "ref" and tokens[at + 1] == ("op", ":"):
             at += 2 + (tokens[at + 2 : at + 3] != () and tokens[at + 2][0] == "sheet")
             if at >= len(found) or found[at][0] != "ref":
-                msg = "у диапазона одна граница"
-                raise UnknownFormula(msg)
+                raise UnknownFormula("у диапазона одна граница")
             ends = (ref_of(value), ref_of(found[at][1]))
         elif kind == "name" and tokens[at + 1] != ("op", "("):
             name = "" if value.upper() in ("TRUE", "FALSE") else value.casefold()

@@ -69,15 +69,13 @@ def tokens(text: str) -> list[Token]:
         UnknownFormula: a sign outside the language, or a formula that is too long.
     """
     if len(text) > MAX_LENGTH:
-        msg = "формула слишком длинная"
-        raise UnknownFormula(msg)
+        raise UnknownFormula("формула слишком длинная")
     found: list[Token] = []
     at = 0
     while at < len(text):
         match = _TOKEN.match(text, at)
         if match is None:
-            msg = f"непонятный знак «{text[at]}»"
-            raise UnknownFormula(msg)
+            raise UnknownFormula(f"непонятный знак «{text[at]}»")
         if match.lastgroup != "space":
             found.append((str(match.lastgroup), match.group()))
         at = match.end()
@@ -98,8 +96,7 @@ def _distance(cell: str, row: int, column: int) -> str:
     column_fixed, letters, row_fixed, digits = match.groups()
     at_row, at_column = int(digits), column_number(letters)
     if at_row > MAX_ROW or at_column > MAX_COLUMN:
-        msg = f"нет такой ячейки: {cell}"
-        raise UnknownFormula(msg)
+        raise UnknownFormula(f"нет такой ячейки: {cell}")
     first = f"R{at_row}" if row_fixed else f"R[{at_row - row}]"
     return first + (f"C{at_column}" if column_fixed else f"C[{at_column - column}]")
 

@@ -32,21 +32,18 @@ def read_grid(book: bytes | Package, forms: Forms | None = None) -> Grid:
     try:
         return _read(book if isinstance(book, Package) else Package(book), forms)
     except (zipfile.BadZipFile, KeyError, EOFError, NotImplementedError, OSError):
-        msg = "файл .xlsx повреждён"
-        raise BadBook(msg) from None
+        raise BadBook("файл .xlsx повреждён") from None
 
 
 def _read(package: Package, forms: Forms | None) -> Grid:
     root = parse_xml(package.read("xl/workbook.xml"))
     if str(root.tag).startswith(_STRICT):
-        msg = "книга сохранена в строгом формате Open XML; сохраните её как обычную .xlsx"
-        raise BadBook(msg)
+        raise BadBook("книга сохранена в строгом формате Open XML; сохраните её как обычную .xlsx")
     relations = parse_xml(package.read("xl/_rels/workbook.xml.rels"))
     targets = {rel.get("Id"): rel for rel in relations.iter("{*}Relationship")}
     sheets = list(root.iter(f"{MAIN}sheet"))
     if len(sheets) > MAX_SHEETS:
-        msg = f"в книге больше {MAX_SHEETS} листов"
-        raise BadBook(msg)
+        raise BadBook(f"в книге больше {MAX_SHEETS} листов")
     grid = Grid()
     _read_names(grid, root)
     texts = [part for rel in targets.values() if (part := _part(rel, "sharedStrings"))]

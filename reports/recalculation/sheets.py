@@ -40,8 +40,7 @@ def parse_xml(data: bytes) -> etree._Element:
     try:
         return etree.fromstring(data, parser)
     except etree.XMLSyntaxError:
-        msg = "часть книги не читается как XML"
-        raise BadBook(msg) from None
+        raise BadBook("часть книги не читается как XML") from None
 
 
 def rich_text(item: etree._Element) -> str:
@@ -104,8 +103,7 @@ def _parsed(grid: Grid, title: str, data: bytes, strings: list[str]) -> list[Slo
             except (ValueError, IndexError) as error:
                 if isinstance(error, BadBook):
                     raise
-                msg = f"на листе «{title}» есть ячейка с неверным значением"
-                raise BadBook(msg) from None
+                raise BadBook(f"на листе «{title}» есть ячейка с неверным значением") from None
     sheet.finish()
     return slots
 
@@ -121,8 +119,7 @@ def _about(formula: etree._Element) -> About:
 def _place(address: str) -> tuple[int, int]:
     match = _ADDRESS.fullmatch(address)
     if match is None:
-        msg = f"в книге есть ячейка с неверным адресом «{address[:20]}»"
-        raise BadBook(msg)
+        raise BadBook(f"в книге есть ячейка с неверным адресом «{address[:20]}»")
     return int(match[2]), column_number(match[1])
 
 
@@ -147,12 +144,10 @@ class _Sheet:
         if about is None and value is None:
             return
         if not (0 < row <= MAX_ROW and 0 < column <= MAX_COLUMN):
-            msg = f"на листе «{self.title}» есть ячейки далеко за таблицами"
-            raise BadBook(msg)
+            raise BadBook(f"на листе «{self.title}» есть ячейки далеко за таблицами")
         self.grid.cells += 1
         if self.grid.cells > MAX_CELLS:
-            msg = f"в книге больше {MAX_CELLS} заполненных ячеек"
-            raise BadBook(msg)
+            raise BadBook(f"в книге больше {MAX_CELLS} заполненных ячеек")
         known = self.columns.get(column)
         if known is None:
             known = self.columns[column] = Column()
@@ -222,8 +217,7 @@ class _Sheet:
         (top, left), (bottom, right) = ends
         inside = top == row <= bottom <= MAX_ROW and left == column <= right <= MAX_COLUMN
         if not inside or (bottom - top + 1) * (right - left + 1) > MAX_ROW:
-            msg = f"на листе «{self.title}» формула массива с неверными границами"
-            raise BadBook(msg)
+            raise BadBook(f"на листе «{self.title}» формула массива с неверными границами")
         run = self._start(known, row, column, text, "", "")
         run.count, run.array = bottom - top + 1, Area(self.title, top, bottom, left, right)
         self._open.pop(column)

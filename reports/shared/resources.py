@@ -18,8 +18,7 @@ def resource_dir(kind: str) -> Path:
     for folder in (_PACKAGE / "_bundle" / kind, _PACKAGE.parent / kind):
         if folder.is_dir():
             return folder
-    msg = f"установка повреждена: нет папки {kind}; переустановите kshm"
-    raise KshmError(msg)
+    raise KshmError(f"установка повреждена: нет папки {kind}; переустановите kshm")
 
 
 def templates_dir() -> Path:

@@ -43,11 +43,9 @@ def fixed(value: float, digits: int = 2, *, group: bool = True) -> str:
         ValueError: The number is not finite or ``digits`` is negative.
     """
     if not math.isfinite(value):
-        msg = f"Число для печати не конечно: {value!r}"
-        raise ValueError(msg)
+        raise ValueError(f"Число для печати не конечно: {value!r}")
     if digits < 0:
-        msg = f"Число знаков после запятой отрицательно: {digits}"
-        raise ValueError(msg)
+        raise ValueError(f"Число знаков после запятой отрицательно: {digits}")
     text = f"{abs(value):.{digits}f}"
     whole, _, part = text.partition(".")
     negative = value < 0 and text.strip("0.") != ""
@@ -81,8 +79,6 @@ def written(value: float, digits: Digits, *, more: int = 0) -> str:
     """A value of a quantity as plain text; ``more`` decimals than it is printed with."""
     if digits.hides == "zeros" and value == 0:
         return ""
-    if digits.kind == "minutes":
-        return f"{int(value // 100)}°{value % 100:02.0f}′"
     if digits.kind == "scientific":
         text, exponent = mantissa(value, digits.decimals + more)
         return f"{text}·10{str(exponent).translate(_RAISED)}" if exponent else text

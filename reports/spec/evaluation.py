@@ -75,8 +75,7 @@ class Evaluation:
             done[key] = np.array([self.value(name) for name in self.runs[key]], dtype=float)
             return done[key]
         if key in self.running:
-            msg = f"the formulas refer to each other in a circle at {key}"
-            raise ValueError(msg)
+            raise ValueError(f"the formulas refer to each other in a circle at {key}")
         self.running.add(key)
         table = self.model.whole_tables.get(key)
         if table is not None:
@@ -102,8 +101,7 @@ class Evaluation:
     def _computed(self, table: TableSpec) -> dict[str, Array]:
         """Columns that the table's own function gives."""
         if table.computed is None:
-            msg = f"nothing computes {table.id}"
-            raise ValueError(msg)
+            raise ValueError(f"nothing computes {table.id}")
         found = table.computed(self.model.input)
         return {f"{table.id}.{key}": np.asarray(found[key]) for key in found}
 

@@ -45,8 +45,7 @@ def scalar_list(*texts: str) -> tuple[Scalar, ...]:
     for line in _lines(texts):
         key, of, expr, source = _parts(line)
         if expr is None:
-            msg = f"a scalar without a formula: {line!r}"
-            raise ValueError(msg)
+            raise ValueError(f"a scalar without a formula: {line!r}")
         made.append(Scalar(key, expr, source, of=of))
     return tuple(made)
 
@@ -88,6 +87,5 @@ def _parts(line: str) -> tuple[str, str, str | None, str]:
     """Key, quantity, formula and source."""
     found = _LINE.fullmatch(line)
     if found is None:
-        msg = f"not a line of a listing: {line!r}"
-        raise ValueError(msg)
+        raise ValueError(f"not a line of a listing: {line!r}")
     return found["key"], found["of"] or "", found["expr"], found["source"] or ""

@@ -54,8 +54,7 @@ def sink(path: Path, suffix: str, plan: Plan, wanted: Wanted) -> Iterator[Sink]:
             raise
         path.write_bytes(book.data())
     else:
-        msg = f"{path.name}: нужно окончание {', '.join(SUFFIXES)}"
-        raise KshmError(msg)
+        raise KshmError(f"{path.name}: нужно окончание {', '.join(SUFFIXES)}")
 
 
 class _Csv:

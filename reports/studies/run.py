@@ -59,8 +59,7 @@ def sweep(
     options = options or Options()
     suffix = target.suffix.lower()
     if suffix not in SUFFIXES:
-        msg = f"{target}: нужно окончание {', '.join(SUFFIXES)}; укажите его в ключе -o"
-        raise KshmError(msg)
+        raise KshmError(f"{target}: нужно окончание {', '.join(SUFFIXES)}; укажите его в ключе -o")
     loaded = load_input(source)
     refuse_own([target], [source, *loaded.beside])
     model = loaded.model
@@ -85,6 +84,5 @@ def sweep(
                     first_error = first_error or next(iter(errors), "")
                     progress.step(f"Исследование: {done} из {plan.count}")
         except OSError as error:
-            msg = f"{target}: не записать: {reason(error)}"
-            raise OutputError(msg) from None
+            raise OutputError(f"{target}: не записать: {reason(error)}") from None
     return Studied(done, failed, first_error)

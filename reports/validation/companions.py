@@ -42,8 +42,7 @@ def neiman_multiples() -> Lookup:
             return harmonics.printed_coefficient(lam, 0)
         found = _MULTIPLE.fullmatch(column)
         if found is None:
-            msg = f"unknown column {column}"
-            raise KeyError(msg)
+            raise KeyError(f"unknown column {column}")
         return int(found[1] or 1) * harmonics.printed_coefficient(lam, int(found[2]))
 
     return look

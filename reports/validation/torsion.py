@@ -20,8 +20,7 @@ def _discs() -> Modes:
 def _mwm() -> Modes:
     engine = solution("mwm-6").engine
     if engine.torsion is None:
-        msg = "the sample has no train"
-        raise ValueError(msg)
+        raise ValueError("the sample has no train")
     return modes_of(train_of(engine, engine.torsion, 0.0))
 
 

@@ -141,8 +141,7 @@ def _fill(data: bytes, title: str, caches: CacheValues) -> bytes:
 
 def _checked(value: float | str | None, where: str) -> float | str:
     if value is None or (isinstance(value, float) and not math.isfinite(value)):
-        msg = f"formula without a finite value: {where}: {value!r}"
-        raise CacheError(msg)
+        raise CacheError(f"formula without a finite value: {where}: {value!r}")
     return value
 
 

@@ -301,5 +301,4 @@ def check_names(layout: Layout) -> None:
     for name in layout.named:
         other = seen.setdefault(name.casefold(), name)
         if other != name:
-            msg = f"names {other} and {name} differ only in case"
-            raise ValueError(msg)
+            raise ValueError(f"names {other} and {name} differ only in case")

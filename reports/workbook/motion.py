@@ -66,7 +66,7 @@ class _View(RowReferences):
         return self.values[key] if key in self.values else self.inputs[key]
 
 
-def can_move(model: Model, writer: Writer) -> bool:
+def can_move(writer: Writer) -> bool:
     """Whether the book has the numbers of all tables that the sheet shows."""
     columns = writer.values.columns
     return (

@@ -43,7 +43,7 @@ def excel_format(quantity: Quantity) -> str:
     digits = quantity.digits
     plain = "0." + "0" * digits.decimals if digits.decimals else "0"
     if digits.kind != "fixed":
-        return {"scientific": plain + "E+00", "minutes": '0"°"00"′"', "text": "@"}[digits.kind]
+        return {"scientific": plain + "E+00", "text": "@"}[digits.kind]
     return {"": plain, "zeros": f"{plain};-{plain};", "unused": plain}[digits.hides]
 
 

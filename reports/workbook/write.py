@@ -91,7 +91,7 @@ def assemble(
         if notes:
             _note(book[title], " ".join(dict.fromkeys(notes)))
     boxes = _charts(book, model, writer)
-    if motion.can_move(model, writer):
+    if motion.can_move(writer):
         for title in (what_if.SHEET, motion.SHEET):
             _heading(book.create_sheet(title, _index(book, title)), heading(title))
         boxes[motion.SHEET] = motion.write_motion(book, model, writer)

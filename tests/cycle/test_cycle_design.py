@@ -7,11 +7,11 @@ import pytest
 
 from kshm.cycle.cycle import CycleError, Listing, cycle
 from kshm.cycle.design import bore_for, design, round_to_series
-from kshm.cycle.inputs import FRICTION
+from kshm.cycle.inputs import FrictionLaw
 from reports.inputs.cycle_texts import text_of
 from tests.cycle.refusals import refused
 
-LAWS = {"diesel": FRICTION["diesel"], "petrol": FRICTION["petrol_injection"]}
+LAWS = {"diesel": FrictionLaw(0.089e6, 0.0118e6), "petrol": FrictionLaw(0.024e6, 0.0053e6)}
 
 
 @pytest.mark.parametrize("friction", ["efficiency", "law"])
@@ -92,7 +92,7 @@ def test_the_refusal_names_power_and_bore(diesel):
 
 
 def test_friction_that_leaves_nothing(gasoline):
-    fast = replace(gasoline, omega=2000.0, mechanical=FRICTION["petrol"])
+    fast = replace(gasoline, omega=2000.0, mechanical=FrictionLaw(0.049e6, 0.0152e6))
     with refused("механические потери") as caught:
         design(fast, 300e3, 2.0)
     assert caught.value.remark.field == "mechanical"

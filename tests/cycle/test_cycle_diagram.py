@@ -1,13 +1,12 @@
 """Points of the indicator diagram and the gas pressure for the dynamics."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from kshm.cycle.cycle import Listing, cycle
-from kshm.cycle.diagram import indicator_diagram, isobar_angle, polytropic_gas, tabulated_gas
+from kshm.cycle.diagram import indicator_diagram, isobar_angle, polytropic_gas
 from tests.cycle.refusals import refused
 
 
@@ -61,35 +60,11 @@ def test_step_must_divide(engine, step):
         indicator_diagram(cycle(engine), step)
 
 
-def test_gas_of_the_dynamics_covers_the_cycle(engine):
+def test_work_of_the_diagram_is_p_theory(engine):
     r = cycle(engine)
-    gas = tabulated_gas(r, 1)
-    angles, p = np.array(gas.angles), np.array(gas.pressures)
-    assert np.all(np.diff(angles) > 0)
-    assert (angles[0], angles[-1]) == (0.0, 4 * math.pi)
-    assert p[0] == p[-1] == r.charge.p_r
-    at = np.radians([90.0, 180.0, 360.0, 540.0, 630.0])
-    expected = [r.charge.p_a, r.charge.p_a, r.combustion.p_z, r.expansion.p_b, r.charge.p_r]
-    assert np.interp(np.mod(at, angles[-1]), angles, p) == pytest.approx(expected, rel=1e-9)
-
-
-def test_work_of_the_gas_is_p_theory_less_pumping(engine):
-    r = cycle(engine)
-    gas = tabulated_gas(r, 1)
-    angles = np.array(gas.angles)
-    s = 1 + 1 / engine.lam - np.cos(angles) - np.sqrt(1 / engine.lam**2 - np.sin(angles) ** 2)
-    work = np.trapezoid(np.array(gas.pressures), s / 2)
-    expected = r.indicated.p_theory - (r.charge.p_r - r.charge.p_a)
-    assert work == pytest.approx(expected, rel=3e-4)
-
-
-def test_peak_factor_cuts_the_top(gasoline):
-    r = cycle(gasoline)
-    cut = np.array(tabulated_gas(r, peak_factor=0.85).pressures)
-    full = np.array(tabulated_gas(r).pressures)
-    assert cut.max() == pytest.approx(0.85 * r.combustion.p_z)
-    below = full < 0.85 * r.combustion.p_z
-    assert np.array_equal(cut[below], full[below])
+    d = indicator_diagram(r, 1)
+    work = np.trapezoid(d.pressure, d.volume) / r.effective.displacement
+    assert work == pytest.approx(r.indicated.p_theory, rel=3e-4)
 
 
 def test_polytropic_gas_takes_the_numbers_of_the_cycle(engine):

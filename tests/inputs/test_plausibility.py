@@ -6,7 +6,7 @@ import pytest
 
 from kshm.engine.torsion import Torsion
 from kshm.mechanics.torsional_train import throw_inertias, train_of
-from reports.inputs.checks.bands import BANDS, RELATIONS
+from reports.inputs.checks import bands
 from reports.inputs.load import load_mapping, load_toml
 from reports.inputs.template import list_samples
 from reports.inputs.to_si.engine import engine_and_cycle
@@ -177,7 +177,12 @@ def test_random_engines_are_not_odd(seed):
     assert told(random_engine(seed)) == []
 
 
-@pytest.mark.parametrize("band", [*BANDS, *RELATIONS], ids=lambda band: band.words)
+# Pressures that differ as much between engines as a slip of the comma makes them.
+WIDE = (bands.MEAN_PRESSURE, bands.POINTS, bands.LEAST_POINT)
+RELATIONS = [b for b in vars(bands).values() if isinstance(b, bands.Band) and b not in WIDE]
+
+
+@pytest.mark.parametrize("band", [*bands.BANDS, *RELATIONS], ids=lambda band: band.words)
 def test_no_band_holds_a_factor_of_ten(band):
     assert band.high < 10 * band.low or band.key == "cycle.charge_heating_k"
     assert band.source

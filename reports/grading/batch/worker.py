@@ -75,7 +75,6 @@ def forbid_the_world() -> None:
 
     def hook(event: str, _: tuple[Any, ...]) -> None:
         if event in _FORBIDDEN:
-            msg = f"forbidden while grading: {event}"
-            raise PermissionError(msg)
+            raise PermissionError(f"forbidden while grading: {event}")
 
     sys.addaudithook(hook)

@@ -70,7 +70,7 @@ class Assignment:
     @cached_property
     def items(self) -> tuple[Item, ...]:
         """All items, in the order of the book: what a person would calculate."""
-        found = [item for block in self.fill for item in _items(block, self.model)]
+        found = [item for block in self.fill for item in _items(block)]
         found = [item for item in found if not all(map(self._is_fixed, item.nodes))]
         helpers = frozenset(node for item in found if item.helper for node in item.nodes)
         read: dict[str, list[str]] = {}
@@ -278,7 +278,7 @@ def _needed(model: Model, fill: Iterable[Block]) -> set[str]:
     return {graph.owners[name] for name in nodes if name in graph.owners}
 
 
-def _items(block: Block, model: Model) -> Iterator[Item]:
+def _items(block: Block) -> Iterator[Item]:
     if isinstance(block, TableSpec):
         for column in block.columns:
             if column.expr is not None and not _is_mark(column):

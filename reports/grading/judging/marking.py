@@ -99,8 +99,7 @@ class Marker:
             result["manual"].append("не удалось установить, чья это работа")
             return result
         result["properties"] = file_properties(package)
-        assignment, layout = self.assignment(match.book)
-        self._grade(result, assignment, layout, grid, match.book, package)
+        self._grade(result, grid, match.book, package)
         _score(result, self.register.rubric, submission.time)
         return result
 
@@ -146,15 +145,8 @@ class Marker:
         leave_out_unused(made)
         return made
 
-    def _grade(
-        self,
-        result: Result,
-        assignment: Assignment,
-        layout: Layout,
-        grid: Grid,
-        book: Issued,
-        package: Package,
-    ) -> None:
+    def _grade(self, result: Result, grid: Grid, book: Issued, package: Package) -> None:
+        assignment = self.assignment(book)[0]
         student = self.student(book, grid)
         response = self.response(student)
         student.settle(response.settled)

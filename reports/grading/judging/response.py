@@ -182,7 +182,7 @@ class Response:
             own = np.ravel(np.asarray(self.student.expected.value(node), dtype=float))
             largest = float(np.nanmax(np.abs(own))) if own.size else 0.0
             same = np.ones(len(own), dtype=bool)
-            for right in self._right(item, node):
+            for right in self._right(node):
                 same &= np.abs(right - own) <= 1e-9 * largest
             parts.append(same & (len(self.trials) > 0))
         return np.concatenate(parts)
@@ -219,7 +219,7 @@ class Response:
             return False
         return all(
             bool((np.abs(own - right) <= EXACT * np.abs(right).max()).all())
-            for own, right in zip(values, self._right(item, node), strict=True)
+            for own, right in zip(values, self._right(node), strict=True)
         )
 
     def _judged(self, item: Item, node: str, count: int) -> str:
@@ -231,7 +231,7 @@ class Response:
         letters = [NOTHING] * count
         lists = listed(self.student.runs(node))
         pasted: bool | None = None
-        right = self._right(item, node)
+        right = self._right(node)
         good = self._good(item, values, right)
         roughly = self._rounded_good(item, node, values, right)
         for run in self.student.runs(node):
@@ -271,7 +271,7 @@ class Response:
             return WRONG
         return STILL if (stands and moves) or listed else PARTLY
 
-    def _right(self, item: Item, node: str) -> list[Array]:
+    def _right(self, node: str) -> list[Array]:
         return [np.ravel(np.asarray(t.expected.value(node), dtype=float)) for t in self.trials]
 
     def _good(

@@ -39,15 +39,15 @@ def trials_of(assignment: Assignment, books: Sequence[Issued], seed: str) -> tup
     """The sets for a class, the same for the same seed."""
     rng = random.Random(seed)
     values = _varied(assignment, books)
-    found = [_first(assignment, rng, _others(values, rng), decides=True)]
-    found.append(_first(assignment, rng, _between(values, rng), decides=True))
+    found = [_first(assignment, _others(values, rng), decides=True)]
+    found.append(_first(assignment, _between(values, rng), decides=True))
     start = found[-1].inputs if found[-1] is not None else {}
-    found.append(_first(assignment, rng, _everything(assignment, start, rng), decides=False))
+    found.append(_first(assignment, _everything(assignment, start, rng), decides=False))
     return tuple(trial for trial in found if trial is not None)
 
 
 def _first(
-    assignment: Assignment, rng: random.Random, draws: Iterator[dict[str, float]], *, decides: bool
+    assignment: Assignment, draws: Iterator[dict[str, float]], *, decides: bool
 ) -> Trial | None:
     """The first draw for which the engine can be calculated."""
     own = Evaluation(assignment.model)

@@ -169,7 +169,7 @@ def _by_rows(
     if verdict == BROKEN:
         reason = _errors(item, student)
     return replace(made, verdict=verdict, rows=rows, paid=paid, reason=reason,
-                   coarse=_coarse(item, student, letters, good))  # fmt: skip
+                   coarse=_coarse(item, student))  # fmt: skip
 
 
 def _word(kind: str, letter: str, good: bool, fixed: bool) -> str:
@@ -230,7 +230,7 @@ def _errors(item: Item, student: Student) -> str:
     return ", ".join(found)
 
 
-def _coarse(item: Item, student: Student, letters: str, good: NDArray[np.bool_]) -> bool:
+def _coarse(item: Item, student: Student) -> bool:
     """Whether a column is wrong only because it is rounded more than the book prints."""
     from reports.recalculation.bench import rounded_to
 

@@ -195,11 +195,6 @@ LEAST_POINT = Band("gas.points", "", "наименьшее давление", 0.
 THROW_INERTIA = Band("torsion.throws_kg_m2", "", "J/(F_п r²) на шатун", 200, 1950, unit="кг/м²")
 THROW_STIFFNESS = Band("torsion.throws_nm_rad", "", "c к гладкому валу коренных шеек", 0.26, 2.5)
 DAMPING = Band("torsion.damping_nms_rad", "", "b/(F_п r²)", 12, 118, unit="кН·с/м³")
-RELATIONS = (
-    SIZES, LARGE_SIZES, SPEED, LOWER_SPEED, PIN_LENGTH, MAIN_LENGTH, MAIN_TO_PIN, REDUCED_WEB,
-    EFFICIENCY, RESIDUAL, RISE, POWER, MEAN_PRESSURE_OF_POWER,
-    THROW_INERTIA, THROW_STIFFNESS, DAMPING,
-)  # fmt: skip
 # A point of the diagram stands out from both its neighbours by these factors: from near
 # ones and from those further than so many degrees.
 LONE_POINT, LONE_POINT_FAR, NEAR_DEG = 2.5, 4.0, 30.0

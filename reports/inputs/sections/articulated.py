@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
 from reports.inputs.meta import Strictly, number
 from reports.inputs.units import DEG, KG, MM
 
@@ -11,25 +9,16 @@ from reports.inputs.units import DEG, KG, MM
 class ArticulatedSection(Strictly):
     """[articulated]: the right bank's rods hang on the master rods, Gots figure 2 в."""
 
-    rod_length_mm: Annotated[float, number("Прицепной шатун: длина", "L_п", MM, 5, 6000)]
-    radius_mm: Annotated[
-        float,
-        number("Прицепной шатун: расстояние его пальца от шатунной шейки", "ρ_п", MM, 0, 2000),
-    ]
-    angle_deg: Annotated[
-        float,
-        number(
-            "Прицепной шатун: угол пальца от оси главного шатуна по вращению",
-            "γ_п",
-            DEG,
-            -180,
-            180,
-        ),
-    ]
-    reciprocating_kg: Annotated[
-        float,
-        number("Прицепной шатун: возвратно-движущаяся масса цилиндра", "m_jп", KG, 0.001, 5000),
-    ]
-    big_end_kg: Annotated[
-        float, number("Прицепной шатун: масса, отнесённая к его пальцу", "m_2п", KG, 0, 5000)
-    ]
+    rod_length_mm: float = number("Прицепной шатун: длина", "L_п", MM, 5, 6000)
+    radius_mm: float = number(
+        "Прицепной шатун: расстояние его пальца от шатунной шейки", "ρ_п", MM, 0, 2000
+    )
+    angle_deg: float = number(
+        "Прицепной шатун: угол пальца от оси главного шатуна по вращению", "γ_п", DEG, -180, 180
+    )
+    reciprocating_kg: float = number(
+        "Прицепной шатун: возвратно-движущаяся масса цилиндра", "m_jп", KG, 0.001, 5000
+    )
+    big_end_kg: float = number(
+        "Прицепной шатун: масса, отнесённая к его пальцу", "m_2п", KG, 0, 5000
+    )

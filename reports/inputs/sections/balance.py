@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
 from reports.inputs.meta import Strictly, number
 from reports.inputs.units import MM, NONE
 
@@ -11,44 +9,32 @@ from reports.inputs.units import MM, NONE
 class BalanceSection(Strictly):
     """[balance]: every key has a default, a change takes effect in the open workbook."""
 
-    counterweight_share: Annotated[
-        float,
-        number("Доля сил инерции 1-го порядка на противовесах колен", "ε_п", NONE, 0, 1),
-    ] = 0.5
-    first_shafts_share: Annotated[
-        float,
-        number("Доля силы 1-го порядка, снятая балансирными валами", "ψ_1", NONE, 0, 1),
-    ] = 0.0
-    second_shafts_share: Annotated[
-        float,
-        number("Доля силы 2-го порядка, снятая балансирными валами", "ψ_2", NONE, 0, 1),
-    ] = 1.0
-    suppression: Annotated[
-        float,
-        number("Степень гашения опрокидывающего момента 2-го порядка", "ψ", NONE, 0, 2),
-    ] = 0.5
-    shaft_radius_mm: Annotated[
-        float, number("Эксцентриситет грузов балансирных валов", "e_б", MM, 1, 1000)
-    ] = 20.0
-    irregularity: Annotated[
-        float, number("Требуемая неравномерность хода", "δ", NONE, 0.0001, 0.5)
-    ] = 0.015
-    rod_small_end_share: Annotated[
-        float,
-        number(
-            "Доля массы шатуна у пальца, если масса шатуна не задана", "m_1/m_ш", NONE, 0.05, 0.8
-        ),
-    ] = 0.275
-    rod_mass_factor: Annotated[
-        float,
-        number("Момент инерции шатуна к моменту двух замещающих масс", "k_ш", NONE, 0.2, 2),
-    ] = 1.0
-    web_width_share: Annotated[
-        float, number("Ширина щеки к диаметру цилиндра", "b/D", NONE, 0.3, 3)
-    ] = 1.125
-    web_thickness_share: Annotated[
-        float, number("Толщина щеки к диаметру цилиндра", "h/D", NONE, 0.03, 1)
-    ] = 0.175
+    counterweight_share: float = number(
+        "Доля сил инерции 1-го порядка на противовесах колен", "ε_п", NONE, 0, 1, 0.5
+    )
+    first_shafts_share: float = number(
+        "Доля силы 1-го порядка, снятая балансирными валами", "ψ_1", NONE, 0, 1, 0.0
+    )
+    second_shafts_share: float = number(
+        "Доля силы 2-го порядка, снятая балансирными валами", "ψ_2", NONE, 0, 1, 1.0
+    )
+    suppression: float = number(
+        "Степень гашения опрокидывающего момента 2-го порядка", "ψ", NONE, 0, 2, 0.5
+    )
+    shaft_radius_mm: float = number(
+        "Эксцентриситет грузов балансирных валов", "e_б", MM, 1, 1000, 20.0
+    )
+    irregularity: float = number("Требуемая неравномерность хода", "δ", NONE, 0.0001, 0.5, 0.015)
+    rod_small_end_share: float = number(
+        "Доля массы шатуна у пальца, если масса шатуна не задана", "m_1/m_ш", NONE, 0.05, 0.8, 0.275
+    )
+    rod_mass_factor: float = number(
+        "Момент инерции шатуна к моменту двух замещающих масс", "k_ш", NONE, 0.2, 2, 1.0
+    )
+    web_width_share: float = number("Ширина щеки к диаметру цилиндра", "b/D", NONE, 0.3, 3, 1.125)
+    web_thickness_share: float = number(
+        "Толщина щеки к диаметру цилиндра", "h/D", NONE, 0.03, 1, 0.175
+    )
 
     @property
     def asked(self) -> set[str]:

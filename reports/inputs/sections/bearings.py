@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Literal
 
 from reports.inputs.meta import Strictly, choice, number
 from reports.inputs.units import CELSIUS, J_KG_K, KG_M3, MM, MPA, MPA_S, NONE, UM
@@ -60,106 +60,75 @@ MATERIAL_NAMES = {key: material.label for key, material in MATERIALS.items()}
 class BearingsSection(Strictly):
     """[bearings]: a key that is not given follows from a rule, which the workbook names."""
 
-    pin_clearance_min_mm: Annotated[
-        float | None,
-        number("Шатунный подшипник: наименьший зазор по диаметру", "Δ_ш1", MM, 0.001, 5),
-    ] = None
-    pin_clearance_max_mm: Annotated[
-        float | None,
-        number("Шатунный подшипник: наибольший зазор по диаметру", "Δ_ш2", MM, 0.001, 5),
-    ] = None
-    main_clearance_min_mm: Annotated[
-        float | None,
-        number("Коренные подшипники: наименьший зазор по диаметру", "Δ_к1", MM, 0.001, 5),
-    ] = None
-    main_clearance_max_mm: Annotated[
-        float | None,
-        number("Коренные подшипники: наибольший зазор по диаметру", "Δ_к2", MM, 0.001, 5),
-    ] = None
-    pin_width_mm: Annotated[
-        float | None, number("Шатунный подшипник: рабочая ширина", "B_ш", MM, 1, 2000)
-    ] = None
-    main_width_mm: Annotated[
-        float | None, number("Коренные подшипники: рабочая ширина", "B_к", MM, 1, 2000)
-    ] = None
-    pin_groove_mm: Annotated[
-        float, number("Шатунный подшипник: ширина кольцевой канавки, 0 — нет", "g_ш", MM, 0, 500)
-    ] = 0.0
-    main_groove_mm: Annotated[
-        float, number("Коренные подшипники: ширина кольцевой канавки, 0 — нет", "g_к", MM, 0, 500)
-    ] = 0.0
-    hole_mm: Annotated[float, number("Диаметр масляного отверстия", "d_м", MM, 0.5, 100)] = 5.0
-    oil: Annotated[
-        Literal["sae20", "sae30", "sae40", "sae50", "m8", "m10"],
-        choice("Масло", OIL_NAMES, structural=False),
-    ] = "sae30"
-    viscosity_40_mpa_s: Annotated[
-        float | None, number("Вязкость масла при 40 °C", "η_40", MPA_S, 0.5, 5000)
-    ] = None
-    viscosity_100_mpa_s: Annotated[
-        float | None, number("Вязкость масла при 100 °C", "η_100", MPA_S, 0.5, 1000)
-    ] = None
-    oil_temperature_c: Annotated[
-        float | None,
-        number("Температура масла в плёнке (нет — по тепловому балансу)", "t_м", CELSIUS, -20, 200),
-    ] = None
-    supply_c: Annotated[
-        float, number("Температура масла перед подшипниками", "t_0", CELSIUS, -20, 150)
-    ] = 80.0
-    supply_mpa: Annotated[
-        float, number("Давление масла перед подшипниками", "p_м", MPA, 0.01, 5)
-    ] = 0.35
-    density_kg_m3: Annotated[float, number("Плотность масла", "ρ_м", KG_M3, 700, 1000)] = 850.0
-    heat_j_kg_k: Annotated[
-        float, number("Удельная теплоёмкость масла", "c_м", J_KG_K, 1000, 3000)
-    ] = 2100.0
-    journal_roughness_um: Annotated[float, number("Высота неровностей шейки", "h_1", UM, 0, 50)] = (
-        0.8
+    pin_clearance_min_mm: float | None = number(
+        "Шатунный подшипник: наименьший зазор по диаметру", "Δ_ш1", MM, 0.001, 5, None
     )
-    shell_roughness_um: Annotated[
-        float, number("Высота неровностей вкладыша", "h_2", UM, 0, 50)
-    ] = 1.2
-    form_um: Annotated[float, number("Изгиб вала и отклонение формы", "h_3", UM, 0, 100)] = 1.0
-    reserve_allowed: Annotated[float, number("Допускаемый запас плёнки", "[K]", NONE, 1, 20)] = 1.5
-    material: Annotated[
-        Literal["40h2n2ma", "40h", "45", "vch60", "sch35"],
-        choice("Материал вала", MATERIAL_NAMES, structural=False),
-    ] = "45"
-    tensile_mpa: Annotated[float | None, number("Предел прочности", "σ_в", MPA, 50, 3000)] = None
-    bending_limit_mpa: Annotated[
-        float | None, number("Предел выносливости при изгибе", "σ_−1", MPA, 20, 2000)
-    ] = None
-    torsion_limit_mpa: Annotated[
-        float | None, number("Предел выносливости при кручении", "τ_−1", MPA, 20, 2000)
-    ] = None
-    mean_bending: Annotated[
-        float, number("Чувствительность к асимметрии при изгибе", "ψ_σ", NONE, 0, 1)
-    ] = 0.15
-    mean_torsion: Annotated[
-        float, number("Чувствительность к асимметрии при кручении", "ψ_τ", NONE, 0, 1)
-    ] = 0.08
-    fillet_mm: Annotated[float | None, number("Радиус галтели", "ρ_г", MM, 0.2, 200)] = None
-    pin_bore_mm: Annotated[float, number("Диаметр отверстия шатунных шеек", "δ_ш", MM, 0, 2000)] = (
-        0.0
+    pin_clearance_max_mm: float | None = number(
+        "Шатунный подшипник: наибольший зазор по диаметру", "Δ_ш2", MM, 0.001, 5, None
     )
-    main_bore_mm: Annotated[
-        float, number("Диаметр отверстия коренных шеек", "δ_к", MM, 0, 2000)
-    ] = 0.0
-    fillet_bending: Annotated[
-        float, number("Концентрация у галтели при изгибе", "α_σг", NONE, 1, 10)
-    ] = 2.0
-    fillet_torsion: Annotated[
-        float, number("Концентрация у галтели при кручении", "α_τг", NONE, 1, 10)
-    ] = 1.5
-    hole_bending: Annotated[
-        float, number("Концентрация у отверстия при изгибе", "α_σо", NONE, 1, 10)
-    ] = 2.2
-    hole_torsion: Annotated[
-        float, number("Концентрация у отверстия при кручении", "α_τо", NONE, 1, 10)
-    ] = 1.8
-    sensitivity: Annotated[float, number("Чувствительность к концентрации", "q", NONE, 0, 1)] = 0.7
-    size_factor: Annotated[float, number("Масштабный коэффициент", "ε_м", NONE, 0.3, 1.2)] = 0.75
-    surface_factor: Annotated[float, number("Коэффициент поверхности", "ε_п", NONE, 0.3, 2.5)] = 1.0
-    safety_allowed: Annotated[float, number("Допускаемый запас прочности", "[n]", NONE, 1, 20)] = (
-        2.0
+    main_clearance_min_mm: float | None = number(
+        "Коренные подшипники: наименьший зазор по диаметру", "Δ_к1", MM, 0.001, 5, None
     )
+    main_clearance_max_mm: float | None = number(
+        "Коренные подшипники: наибольший зазор по диаметру", "Δ_к2", MM, 0.001, 5, None
+    )
+    pin_width_mm: float | None = number(
+        "Шатунный подшипник: рабочая ширина", "B_ш", MM, 1, 2000, None
+    )
+    main_width_mm: float | None = number(
+        "Коренные подшипники: рабочая ширина", "B_к", MM, 1, 2000, None
+    )
+    pin_groove_mm: float = number(
+        "Шатунный подшипник: ширина кольцевой канавки, 0 — нет", "g_ш", MM, 0, 500, 0.0
+    )
+    main_groove_mm: float = number(
+        "Коренные подшипники: ширина кольцевой канавки, 0 — нет", "g_к", MM, 0, 500, 0.0
+    )
+    hole_mm: float = number("Диаметр масляного отверстия", "d_м", MM, 0.5, 100, 5.0)
+    oil: Literal["sae20", "sae30", "sae40", "sae50", "m8", "m10"] = choice(
+        "Масло", OIL_NAMES, "sae30"
+    )
+    viscosity_40_mpa_s: float | None = number(
+        "Вязкость масла при 40 °C", "η_40", MPA_S, 0.5, 5000, None
+    )
+    viscosity_100_mpa_s: float | None = number(
+        "Вязкость масла при 100 °C", "η_100", MPA_S, 0.5, 1000, None
+    )
+    oil_temperature_c: float | None = number(
+        "Температура масла в плёнке (нет — по тепловому балансу)", "t_м", CELSIUS, -20, 200, None
+    )
+    supply_c: float = number("Температура масла перед подшипниками", "t_0", CELSIUS, -20, 150, 80.0)
+    supply_mpa: float = number("Давление масла перед подшипниками", "p_м", MPA, 0.01, 5, 0.35)
+    density_kg_m3: float = number("Плотность масла", "ρ_м", KG_M3, 700, 1000, 850.0)
+    heat_j_kg_k: float = number("Удельная теплоёмкость масла", "c_м", J_KG_K, 1000, 3000, 2100.0)
+    journal_roughness_um: float = number("Высота неровностей шейки", "h_1", UM, 0, 50, 0.8)
+    shell_roughness_um: float = number("Высота неровностей вкладыша", "h_2", UM, 0, 50, 1.2)
+    form_um: float = number("Изгиб вала и отклонение формы", "h_3", UM, 0, 100, 1.0)
+    reserve_allowed: float = number("Допускаемый запас плёнки", "[K]", NONE, 1, 20, 1.5)
+    material: Literal["40h2n2ma", "40h", "45", "vch60", "sch35"] = choice(
+        "Материал вала", MATERIAL_NAMES, "45"
+    )
+    tensile_mpa: float | None = number("Предел прочности", "σ_в", MPA, 50, 3000, None)
+    bending_limit_mpa: float | None = number(
+        "Предел выносливости при изгибе", "σ_−1", MPA, 20, 2000, None
+    )
+    torsion_limit_mpa: float | None = number(
+        "Предел выносливости при кручении", "τ_−1", MPA, 20, 2000, None
+    )
+    mean_bending: float = number(
+        "Чувствительность к асимметрии при изгибе", "ψ_σ", NONE, 0, 1, 0.15
+    )
+    mean_torsion: float = number(
+        "Чувствительность к асимметрии при кручении", "ψ_τ", NONE, 0, 1, 0.08
+    )
+    fillet_mm: float | None = number("Радиус галтели", "ρ_г", MM, 0.2, 200, None)
+    pin_bore_mm: float = number("Диаметр отверстия шатунных шеек", "δ_ш", MM, 0, 2000, 0.0)
+    main_bore_mm: float = number("Диаметр отверстия коренных шеек", "δ_к", MM, 0, 2000, 0.0)
+    fillet_bending: float = number("Концентрация у галтели при изгибе", "α_σг", NONE, 1, 10, 2.0)
+    fillet_torsion: float = number("Концентрация у галтели при кручении", "α_τг", NONE, 1, 10, 1.5)
+    hole_bending: float = number("Концентрация у отверстия при изгибе", "α_σо", NONE, 1, 10, 2.2)
+    hole_torsion: float = number("Концентрация у отверстия при кручении", "α_τо", NONE, 1, 10, 1.8)
+    sensitivity: float = number("Чувствительность к концентрации", "q", NONE, 0, 1, 0.7)
+    size_factor: float = number("Масштабный коэффициент", "ε_м", NONE, 0.3, 1.2, 0.75)
+    surface_factor: float = number("Коэффициент поверхности", "ε_п", NONE, 0.3, 2.5, 1.0)
+    safety_allowed: float = number("Допускаемый запас прочности", "[n]", NONE, 1, 20, 2.0)

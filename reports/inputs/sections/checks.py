@@ -18,8 +18,8 @@ CHECKS = (
 class Accepted(Strictly):
     """[[checks.accepted]]: a check or a key, and why its failure or oddity is right."""
 
-    what: Annotated[str, text("Принято {n}: проверка или ключ")]
-    reason: Annotated[str, text("Принято {n}: причина")]
+    what: str = text("Принято {n}: проверка или ключ")
+    reason: str = text("Принято {n}: причина")
 
 
 class ChecksSection(Strictly):

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Strict
 
-from reports.inputs.meta import Strictly, choice, number
+from reports.inputs.meta import Meta, Strictly, choice, number
 from reports.inputs.sections.cycle import KINDS
 from reports.inputs.units import DEG, MPA, NONE
 
@@ -20,86 +20,67 @@ INTERPOLATIONS = {"linear": "прямыми", "monotone": "гладко, без 
 PEAK_SHARE = {"petrol": 0.85, "diesel": 1.0}
 PEAK_DEG = {"petrol": 12.0, "diesel": 10.0}
 JOIN_DEG = {"petrol": 40.0, "diesel": 45.0}
-_SOURCE = choice("Индикаторная диаграмма", SOURCES, structural=True)
-_ROUNDED = choice("Индикаторная диаграмма", {"rounded": SOURCES["rounded"]}, structural=True)
+_SOURCE = Meta("Индикаторная диаграмма", choices=SOURCES, structural=True)
+_ROUNDED = Meta("Индикаторная диаграмма", choices={"rounded": SOURCES["rounded"]}, structural=True)
 
 
 class _Ambient(Strictly):
     """What every source has."""
 
     source: Annotated[str, _SOURCE]
-    ambient_pressure_mpa: Annotated[
-        float, number("Давление окружающей среды", "p_0", MPA, 0.01, 0.5)
-    ] = 0.1
+    ambient_pressure_mpa: float = number("Давление окружающей среды", "p_0", MPA, 0.01, 0.5, 0.1)
 
 
 class _Pressures(_Ambient):
     """Pressures and exponents of the polytropes."""
 
-    intake_pressure_mpa: Annotated[float, number("Давление впуска", "p_a", MPA, 0.01, 3)]
-    residual_pressure_mpa: Annotated[
-        float, number("Давление остаточных газов", "p_r", MPA, 0.01, 3)
-    ]
-    max_pressure_mpa: Annotated[float, number("Максимальное давление цикла", "p_z", MPA, 0.2, 60)]
-    compression_exponent: Annotated[
-        float, number("Показатель политропы сжатия", "n_1", NONE, 1, 1.7)
-    ]
-    expansion_exponent: Annotated[
-        float, number("Показатель политропы расширения", "n_2", NONE, 1, 1.7)
-    ]
-    preexpansion_ratio: Annotated[
-        float, number("Степень предварительного расширения", "ρ", NONE, 1, 6)
-    ]
+    intake_pressure_mpa: float = number("Давление впуска", "p_a", MPA, 0.01, 3)
+    residual_pressure_mpa: float = number("Давление остаточных газов", "p_r", MPA, 0.01, 3)
+    max_pressure_mpa: float = number("Максимальное давление цикла", "p_z", MPA, 0.2, 60)
+    compression_exponent: float = number("Показатель политропы сжатия", "n_1", NONE, 1, 1.7)
+    expansion_exponent: float = number("Показатель политропы расширения", "n_2", NONE, 1, 1.7)
+    preexpansion_ratio: float = number("Степень предварительного расширения", "ρ", NONE, 1, 6)
 
 
 class _Ignition(_Ambient):
     """When the charge takes fire."""
 
-    injection_advance_deg: Annotated[
-        float, number("Угол опережения впрыска (зажигания)", "θ_оп", DEG, 0.5, 90)
-    ]
-    ignition_delay_deg: Annotated[
-        float, number("Период задержки воспламенения", "Δφ_з", DEG, 0, 90)
-    ]
+    injection_advance_deg: float = number(
+        "Угол опережения впрыска (зажигания)", "θ_оп", DEG, 0.5, 90
+    )
+    ignition_delay_deg: float = number("Период задержки воспламенения", "Δφ_з", DEG, 0, 90)
 
 
 class _Timing(_Ignition):
     """The angles of Dinn's diagram."""
 
-    combustion_start_deg: Annotated[
-        float | None, number("Угол начала сгорания", "φ_c", DEG, 270, 360)
-    ] = None
-    exhaust_start_before_bdc_deg: Annotated[
-        float, number("Начало выпуска до НМТ", "φ_в1", DEG, 0, 150)
-    ]
-    exhaust_end_after_bdc_deg: Annotated[
-        float, number("Конец выпуска после НМТ", "φ_в2", DEG, 0, 180)
-    ]
+    combustion_start_deg: float | None = number("Угол начала сгорания", "φ_c", DEG, 270, 360, None)
+    exhaust_start_before_bdc_deg: float = number("Начало выпуска до НМТ", "φ_в1", DEG, 0, 150)
+    exhaust_end_after_bdc_deg: float = number("Конец выпуска после НМТ", "φ_в2", DEG, 0, 180)
 
 
 class PolytropicGasSection(_Timing, _Pressures):
     """[gas], source = "polytropic": indicator diagram by polytropes, as Dinn built it."""
 
     source: Annotated[Literal["polytropic"], _SOURCE]
-    scavenge_start_before_bdc_deg: Annotated[
-        float | None, number("Начало продувки до НМТ (двухтактный двигатель)", "φ_пр", DEG, 0, 150)
-    ] = None
+    scavenge_start_before_bdc_deg: float | None = number(
+        "Начало продувки до НМТ (двухтактный двигатель)", "φ_пр", DEG, 0, 150, None
+    )
 
 
 class TableGasSection(_Ambient):
     """[gas], source = "table": points (φ, absolute pressure)."""
 
     source: Annotated[Literal["table"], _SOURCE]
-    interpolation: Annotated[
-        Literal["linear", "monotone"],
-        choice("Соединение точек", INTERPOLATIONS, structural=True),
-    ] = "linear"
+    interpolation: Literal["linear", "monotone"] = choice(
+        "Соединение точек", INTERPOLATIONS, "linear", structural=True
+    )
     points: Annotated[
         tuple[
             Annotated[
                 tuple[
-                    Annotated[float, number("Точка {n}: угол", "φ_{n}", DEG, 0, 720)],
-                    Annotated[float, number("Точка {n}: давление", "p_{n}", MPA, 0.001, 60)],
+                    Annotated[float, Meta("Точка {n}: угол", "φ_{n}", DEG, 0, 720)],
+                    Annotated[float, Meta("Точка {n}: давление", "p_{n}", MPA, 0.001, 60)],
                 ],
                 Strict(False),
             ],
@@ -113,52 +94,46 @@ class CycleGasSection(_Timing):
     """[gas], source = "cycle": pressures from the [cycle] section, the angles of Dinn."""
 
     source: Annotated[Literal["cycle"], _SOURCE]
-    ambient_pressure_mpa: Annotated[
-        float, number("Давление окружающей среды", "p_0", MPA, 0.03, 0.2)
-    ] = 0.1
-    exhaust_end_after_bdc_deg: Annotated[
-        float, number("Конец свободного выпуска после НМТ", "φ_в2", DEG, 0, 180)
-    ]
+    ambient_pressure_mpa: float = number("Давление окружающей среды", "p_0", MPA, 0.03, 0.2, 0.1)
+    exhaust_end_after_bdc_deg: float = number(
+        "Конец свободного выпуска после НМТ", "φ_в2", DEG, 0, 180
+    )
 
 
 class _Kind(Strictly):
     """The kind of engine stands before its pressures."""
 
     source: Annotated[str, _ROUNDED]
-    kind: Annotated[Literal["petrol", "diesel"], choice("Вид двигателя", KINDS, structural=True)]
+    kind: Literal["petrol", "diesel"] = choice("Вид двигателя", KINDS, structural=True)
 
 
 class RoundedGasSection(_Ignition, _Pressures, _Kind):
     """[gas], source = "rounded": c', c'', z_д, b', b'' and r of figure 22 joined smoothly."""
 
     source: Annotated[Literal["rounded"], _ROUNDED]
-    max_pressure_mpa: Annotated[
-        float, number("Расчётное давление конца сгорания в точке z", "p_z", MPA, 0.2, 60)
-    ]
-    preexpansion_ratio: Annotated[
-        float, number("Степень предварительного расширения", "ρ", NONE, 1, 6)
-    ] = 1.0
-    tdc_rise: Annotated[
-        float, number("Давление в точке c'' к давлению конца сжатия", "p_c''/p_c", NONE, 1, 2)
-    ] = 1.2
-    peak_share: Annotated[
-        float | None, number("Действительное давление z_д к расчётному", "p_zд/p_z", NONE, 0.5, 1)
-    ] = None
-    peak_after_tdc_deg: Annotated[
-        float | None, number("Точка z_д после ВМТ", "φ_zд", DEG, 2, 45)
-    ] = None
-    expansion_after_tdc_deg: Annotated[
-        float | None, number("Выход на линию расширения после ВМТ", "φ_j", DEG, 4, 90)
-    ] = None
-    exhaust_start_before_bdc_deg: Annotated[
-        float, number("Начало выпуска до НМТ, точка b'", "φ_в1", DEG, 5, 120)
-    ]
-    exhaust_end_after_bdc_deg: Annotated[
-        float, number("Конец свободного выпуска после НМТ", "φ_в2", DEG, 5, 150)
-    ]
-    intake_settle_deg: Annotated[
-        float, number("Угол после ВМТ, при котором устанавливается p_a", "φ_a'", DEG, 2, 90)
-    ] = 30.0
+    max_pressure_mpa: float = number(
+        "Расчётное давление конца сгорания в точке z", "p_z", MPA, 0.2, 60
+    )
+    preexpansion_ratio: float = number("Степень предварительного расширения", "ρ", NONE, 1, 6, 1.0)
+    tdc_rise: float = number(
+        "Давление в точке c'' к давлению конца сжатия", "p_c''/p_c", NONE, 1, 2, 1.2
+    )
+    peak_share: float | None = number(
+        "Действительное давление z_д к расчётному", "p_zд/p_z", NONE, 0.5, 1, None
+    )
+    peak_after_tdc_deg: float | None = number("Точка z_д после ВМТ", "φ_zд", DEG, 2, 45, None)
+    expansion_after_tdc_deg: float | None = number(
+        "Выход на линию расширения после ВМТ", "φ_j", DEG, 4, 90, None
+    )
+    exhaust_start_before_bdc_deg: float = number(
+        "Начало выпуска до НМТ, точка b'", "φ_в1", DEG, 5, 120
+    )
+    exhaust_end_after_bdc_deg: float = number(
+        "Конец свободного выпуска после НМТ", "φ_в2", DEG, 5, 150
+    )
+    intake_settle_deg: float = number(
+        "Угол после ВМТ, при котором устанавливается p_a", "φ_a'", DEG, 2, 90, 30.0
+    )
 
 
 GasSection = PolytropicGasSection | TableGasSection | CycleGasSection | RoundedGasSection

@@ -41,43 +41,33 @@ STROKES = {"4": "4", "2": "2"}
 class EngineSection(Strictly):
     """[engine]."""
 
-    name: Annotated[str, text("Название двигателя")] = "Двигатель"
-    cylinders: Annotated[
-        int,
-        choice(
-            "Число цилиндров",
-            {str(i): str(i) for i in range(1, MAX_CYLINDERS + 1)},
-            structural=True,
-            symbol="i",
-        ),
-        Field(ge=1, le=MAX_CYLINDERS),
-    ]
-    layout: Annotated[
-        Literal["inline", "v", "opposed"],
-        choice("Расположение цилиндров", LAYOUTS, structural=True),
-    ] = "inline"
-    strokes: Annotated[Literal[4, 2], choice("Тактность", STROKES, structural=True, symbol="τ")] = 4
+    name: str = text("Название двигателя", "Двигатель")
+    cylinders: Annotated[int, Field(ge=1, le=MAX_CYLINDERS)] = choice(
+        "Число цилиндров",
+        {str(i): str(i) for i in range(1, MAX_CYLINDERS + 1)},
+        structural=True,
+        symbol="i",
+    )
+    layout: Literal["inline", "v", "opposed"] = choice(
+        "Расположение цилиндров", LAYOUTS, "inline", structural=True
+    )
+    strokes: Literal[4, 2] = choice("Тактность", STROKES, 4, structural=True, symbol="τ")
 
 
 class Calculation(Strictly):
     """[calculation]: method and grid."""
 
-    method: Annotated[
-        Literal["textbook", "exact"], choice("Метод расчёта", METHODS, structural=False)
-    ] = "textbook"
-    step_deg: Annotated[
-        Literal[1, 2, 3, 5, 10, 15, 30],
-        choice(
-            "Шаг таблиц по углу поворота",
-            {str(step): f"{step}°" for step in STEPS},
-            structural=True,
-            symbol="Δφ",
-        ),
-    ] = 10
-    wear_rays: Annotated[
-        Literal[12, 18],
-        choice("Число лучей диаграммы износа", {"12": "12", "18": "18"}, structural=True),
-    ] = 12
+    method: Literal["textbook", "exact"] = choice("Метод расчёта", METHODS, "textbook")
+    step_deg: Literal[1, 2, 3, 5, 10, 15, 30] = choice(
+        "Шаг таблиц по углу поворота",
+        {str(step): f"{step}°" for step in STEPS},
+        10,
+        structural=True,
+        symbol="Δφ",
+    )
+    wear_rays: Literal[12, 18] = choice(
+        "Число лучей диаграммы износа", {"12": "12", "18": "18"}, 12, structural=True
+    )
 
 
 class GeometrySection(Strictly):
@@ -86,28 +76,20 @@ class GeometrySection(Strictly):
     With an offset S is still twice the radius; the piston's way is a little longer.
     """
 
-    bore_mm: Annotated[float, number("Диаметр цилиндра", "D", MM, 10, 1500)]
-    crank_radius_mm: Annotated[float | None, number("Радиус кривошипа", "r", MM, 5, 2000)] = None
-    stroke_mm: Annotated[float | None, number("Ход поршня", "S", MM, 10, 4000)] = None
-    rod_length_mm: Annotated[float | None, number("Длина шатуна", "L", MM, 10, 6000)] = None
-    lambda_: Annotated[float | None, number("Отношение r/L", "λ", NONE, LAMBDA_MIN, LAMBDA_MAX)] = (
-        Field(default=None, alias="lambda")
+    bore_mm: float = number("Диаметр цилиндра", "D", MM, 10, 1500)
+    crank_radius_mm: float | None = number("Радиус кривошипа", "r", MM, 5, 2000, None)
+    stroke_mm: float | None = number("Ход поршня", "S", MM, 10, 4000, None)
+    rod_length_mm: float | None = number("Длина шатуна", "L", MM, 10, 6000, None)
+    lambda_: float | None = number(
+        "Отношение r/L", "λ", NONE, LAMBDA_MIN, LAMBDA_MAX, None, alias="lambda"
     )
-    compression_ratio: Annotated[float, number("Степень сжатия", "ε", NONE, 2, 50)]
-    crank_offset_mm: Annotated[
-        float | None,
-        number("Смещение оси цилиндра от оси вала в сторону вращения", "e_в", MM, -2000, 2000),
-    ] = None
-    pin_offset_mm: Annotated[
-        float | None,
-        number(
-            "Смещение поршневого пальца от оси цилиндра в сторону вращения",
-            "e_п",
-            MM,
-            -500,
-            500,
-        ),
-    ] = None
+    compression_ratio: float = number("Степень сжатия", "ε", NONE, 2, 50)
+    crank_offset_mm: float | None = number(
+        "Смещение оси цилиндра от оси вала в сторону вращения", "e_в", MM, -2000, 2000, None
+    )
+    pin_offset_mm: float | None = number(
+        "Смещение поршневого пальца от оси цилиндра в сторону вращения", "e_п", MM, -500, 500, None
+    )
 
     @property
     def is_offset(self) -> bool:
@@ -118,30 +100,28 @@ class GeometrySection(Strictly):
 class DesignGeometrySection(Strictly):
     """[geometry] of an engine whose bore and stroke follow from the wanted power."""
 
-    lambda_: Annotated[float, number("Отношение r/L", "λ", NONE, LAMBDA_MIN, LAMBDA_MAX)] = Field(
-        alias="lambda"
-    )
-    compression_ratio: Annotated[float, number("Степень сжатия", "ε", NONE, 2, 50)]
+    lambda_: float = number("Отношение r/L", "λ", NONE, LAMBDA_MIN, LAMBDA_MAX, alias="lambda")
+    compression_ratio: float = number("Степень сжатия", "ε", NONE, 2, 50)
 
 
 class Regime(Strictly):
     """[regime]."""
 
-    name: Annotated[str | None, text("Название режима")] = None
-    speed_rpm: Annotated[float, number("Частота вращения", "n", RPM, 10, 30000)]
-    mechanical_efficiency: Annotated[float, number("Механический КПД", "η_м", NONE, 0.1, 1)] = 1.0
-    indicated_power_kw: Annotated[
-        float | None, number("Индикаторная мощность по расчёту цикла", "N_i", KW, 0.01, 1e5)
-    ] = None
-    fullness: Annotated[float, number("Коэффициент полноты диаграммы", "φ_п", NONE, 0.5, 1)] = 1.0
+    name: str | None = text("Название режима", None)
+    speed_rpm: float = number("Частота вращения", "n", RPM, 10, 30000)
+    mechanical_efficiency: float = number("Механический КПД", "η_м", NONE, 0.1, 1, 1.0)
+    indicated_power_kw: float | None = number(
+        "Индикаторная мощность по расчёту цикла", "N_i", KW, 0.01, 1e5, None
+    )
+    fullness: float = number("Коэффициент полноты диаграммы", "φ_п", NONE, 0.5, 1, 1.0)
 
 
 class RegimeValues(Regime):
     """[[regimes]] without its gas: a further speed and load of the same engine, Gots 2.4."""
 
-    name: Annotated[str, text("Название режима")]
+    name: str = text("Название режима")
     # None at all is left at idle speed.
-    mechanical_efficiency: Annotated[float, number("Механический КПД", "η_м", NONE, 0, 1)] = 1.0
+    mechanical_efficiency: float = number("Механический КПД", "η_м", NONE, 0, 1, 1.0)
 
 
 class RegimeSection(RegimeValues):

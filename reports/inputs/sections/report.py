@@ -5,9 +5,9 @@ from __future__ import annotations
 from datetime import UTC, datetime
 from typing import Annotated, Literal
 
-from pydantic import Field, Strict
+from pydantic import Field
 
-from reports.inputs.meta import Strictly, choice, number, text
+from reports.inputs.meta import Meta, Strictly, choice, text
 from reports.inputs.units import NONE
 
 DETAILS = {
@@ -58,37 +58,26 @@ def _this_year() -> int:
 class Report(Strictly):
     """[report]: title page, assignment sheet, title block, manner of setting."""
 
-    student: Annotated[str, text("Студент")] = ""
-    group: Annotated[str, text("Группа")] = ""
-    institution: Annotated[str, text("Учебное заведение")] = ""
-    department: Annotated[str, text("Кафедра")] = ""
-    supervisor: Annotated[str, text("Руководитель")] = ""
-    variant: Annotated[str, text("Вариант")] = ""
-    year: Annotated[int, number("Год", "", NONE, 1950, 2150)] = Field(default_factory=_this_year)
-    city: Annotated[str, text("Город")] = ""
-    title: Annotated[str, text("Тема работы")] = (
-        "Расчёт кинематики и динамики кривошипно-шатунного механизма"
-    )
-    compare: Annotated[str, text("Сравнить с двигателями: файлы через точку с запятой")] = ""
-    discipline: Annotated[str, text("Дисциплина")] = ""
-    issued: Annotated[str, text("Дата выдачи задания")] = ""
-    due: Annotated[str, text("Срок сдачи работы")] = ""
-    head: Annotated[str, text("Заведующий кафедрой")] = ""
-    designation: Annotated[str, text("Обозначение документа")] = ""
-    controller: Annotated[str, text("Нормоконтроль")] = ""
-    approver: Annotated[str, text("Утвердил")] = ""
-    frame: Annotated[
-        Literal["none", "eskd"], choice("Рамка листов отчёта", FRAMES, structural=False)
-    ] = "none"
-    detail: Annotated[Detail, choice("Объём отчёта", DETAILS, structural=False)] = "course"
-    chapters: Annotated[
-        tuple[Annotated[ChapterName, choice("Глава отчёта {n}", CHAPTERS, structural=False)], ...]
-        | None,
-        Strict(False),
-    ] = None
-    formats: Annotated[
-        tuple[Annotated[Format, choice("Документ {n}", FORMATS, structural=False)], ...] | None,
-        Strict(False),
-    ] = None
-    style: Annotated[str, text("Файл оформления кафедры")] = ""
-    templates: Annotated[str, text("Папка со своими шаблонами отчёта")] = ""
+    student: str = text("Студент", "")
+    group: str = text("Группа", "")
+    institution: str = text("Учебное заведение", "")
+    department: str = text("Кафедра", "")
+    supervisor: str = text("Руководитель", "")
+    variant: str = text("Вариант", "")
+    year: Annotated[int, Meta("Год", "", NONE, 1950, 2150)] = Field(default_factory=_this_year)
+    city: str = text("Город", "")
+    title: str = text("Тема работы", "Расчёт кинематики и динамики кривошипно-шатунного механизма")
+    compare: str = text("Сравнить с двигателями: файлы через точку с запятой", "")
+    discipline: str = text("Дисциплина", "")
+    issued: str = text("Дата выдачи задания", "")
+    due: str = text("Срок сдачи работы", "")
+    head: str = text("Заведующий кафедрой", "")
+    designation: str = text("Обозначение документа", "")
+    controller: str = text("Нормоконтроль", "")
+    approver: str = text("Утвердил", "")
+    frame: Literal["none", "eskd"] = choice("Рамка листов отчёта", FRAMES, "none")
+    detail: Detail = choice("Объём отчёта", DETAILS, "course")
+    chapters: tuple[ChapterName, ...] | None = choice("Глава отчёта {n}", CHAPTERS, None)
+    formats: tuple[Format, ...] | None = choice("Документ {n}", FORMATS, None)
+    style: str = text("Файл оформления кафедры", "")
+    templates: str = text("Папка со своими шаблонами отчёта", "")

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
-
-from pydantic import Strict
+from typing import Literal
 
 from reports.inputs.meta import Strictly, choice
 
@@ -42,12 +40,6 @@ WAYS = {"landscape": "альбомная", "portrait": "книжная"}
 class SheetSection(Strictly):
     """[sheet]: size of the sheet and what stands on it."""
 
-    size: Annotated[Literal["A1", "A2"], choice("Формат листа", SHEETS, structural=False)] = "A1"
-    orientation: Annotated[
-        Literal["landscape", "portrait"], choice("Ориентация листа", WAYS, structural=False)
-    ] = "landscape"
-    diagrams: Annotated[
-        tuple[Annotated[Diagram, choice("Лист: место {n}", DIAGRAMS, structural=False)], ...]
-        | None,
-        Strict(False),
-    ] = None
+    size: Literal["A1", "A2"] = choice("Формат листа", SHEETS, "A1")
+    orientation: Literal["landscape", "portrait"] = choice("Ориентация листа", WAYS, "landscape")
+    diagrams: tuple[Diagram, ...] | None = choice("Лист: место {n}", DIAGRAMS, None)

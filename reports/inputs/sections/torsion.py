@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Strict
 
-from reports.inputs.meta import Meta, Strictly, choice, number, text
+from reports.inputs.meta import Strictly, choice, number, text
 from reports.inputs.units import KG_M2, MM, MPA, NM_RAD, NMS_RAD, NONE, RPM
 
 FORMULAS = {
@@ -22,124 +22,86 @@ SOFT, HARD = 1.0, 1e12  # N·m/rad
 class MassSection(Strictly):
     """[[torsion.masses]]: a mass of a train given directly, from the nose."""
 
-    name: Annotated[str, text("Масса {n}: название")] = ""
-    inertia_kg_m2: Annotated[
-        float, number("Масса {n}: момент инерции", "J_{n}", KG_M2, LEAST, MOST)
-    ]
-    stiffness_nm_rad: Annotated[
-        float,
-        number(
-            "Масса {n}: жёсткость участка за ней (за последней — до заделки, 0 — конец свободен)",
-            "c_{n}", NM_RAD, 0, HARD,
-        ),
-    ] = 0.0  # fmt: skip
-    diameter_mm: Annotated[
-        float | None, number("Масса {n}: диаметр вала за ней", "D_{n}", MM, 1, 5000)
-    ] = None
-    throw: Annotated[
-        float,
-        Meta("Масса {n}: номер колена, 0 — без шатунов", "k_{n}", NONE, 0, 24, structural=True),
-    ] = 0.0
+    name: str = text("Масса {n}: название", "")
+    inertia_kg_m2: float = number("Масса {n}: момент инерции", "J_{n}", KG_M2, LEAST, MOST)
+    stiffness_nm_rad: float = number(
+        "Масса {n}: жёсткость участка за ней (за последней — до заделки, 0 — конец свободен)",
+        "c_{n}",
+        NM_RAD,
+        0,
+        HARD,
+        0.0,
+    )
+    diameter_mm: float | None = number("Масса {n}: диаметр вала за ней", "D_{n}", MM, 1, 5000, None)
+    throw: float = number(
+        "Масса {n}: номер колена, 0 — без шатунов", "k_{n}", NONE, 0, 24, 0.0, structural=True
+    )
 
 
 class PeakSection(Strictly):
     """[[torsion.peaks]]: the greatest pressure of the cycle at a speed."""
 
-    speed_rpm: Annotated[float, number("Точка {n}: частота вращения", "n_{n}", RPM, 10, 30000)]
-    pressure_mpa: Annotated[
-        float, number("Точка {n}: наибольшее давление цикла", "p_{n}", MPA, 0.2, 100)
-    ]
+    speed_rpm: float = number("Точка {n}: частота вращения", "n_{n}", RPM, 10, 30000)
+    pressure_mpa: float = number("Точка {n}: наибольшее давление цикла", "p_{n}", MPA, 0.2, 100)
 
 
 class TorsionSection(Strictly):
     """[torsion]: a key that is not given is estimated from the rest of the file."""
 
-    pulley_kg_m2: Annotated[
-        float | None, number("Момент инерции шкива", "J_шк", KG_M2, LEAST, MOST)
-    ] = None
-    throws_kg_m2: Annotated[
-        tuple[
-            Annotated[float, number("Колено {n}: момент инерции", "J_к{n}", KG_M2, LEAST, MOST)],
-            ...,
-        ]
-        | None,
-        Strict(False),
-    ] = None
-    flywheel_kg_m2: Annotated[
-        float | None, number("Момент инерции маховика", "J_м", KG_M2, LEAST, MOST)
-    ] = None
-    driven_kg_m2: Annotated[
-        float | None, number("Момент инерции за маховиком", "J_пр", KG_M2, LEAST, MOST)
-    ] = None
-    nose_nm_rad: Annotated[
-        float | None, number("Жёсткость от шкива до первого колена", "c_н", NM_RAD, SOFT, HARD)
-    ] = None
-    throws_nm_rad: Annotated[
-        tuple[
-            Annotated[
-                float, number("Жёсткость за коленом {n}", "c_к{n}", NM_RAD, SOFT, HARD)
-            ],
-            ...,
-        ]
-        | None,
-        Strict(False),
-    ] = None  # fmt: skip
-    rear_nm_rad: Annotated[
-        float | None,
-        number("Жёсткость от последнего колена до маховика", "c_м", NM_RAD, SOFT, HARD),
-    ] = None
-    driven_nm_rad: Annotated[
-        float | None, number("Жёсткость за маховиком", "c_пр", NM_RAD, SOFT, HARD)
-    ] = None
-    ground_nm_rad: Annotated[
-        float, number("Жёсткость от первой массы до заделки, 0 — конец свободен",
-                      "c_0", NM_RAD, 0, HARD)
-    ] = 0.0  # fmt: skip
-    formula: Annotated[
-        Literal["wilson", "carter", "zimanenko"],
-        choice("Формула приведённой длины (по памяти)", FORMULAS, structural=False),
-    ] = "wilson"
-    shear_modulus_mpa: Annotated[
-        float, number("Модуль сдвига", "G", MPA, 1e4, 2e5)
-    ] = 80000.0  # fmt: skip
-    main_bore_mm: Annotated[
-        float, number("Диаметр отверстия коренных шеек", "d_j", MM, 0, 2000)
-    ] = 0.0  # fmt: skip
-    pin_bore_mm: Annotated[
-        float, number("Диаметр отверстия шатунных шеек", "d_p", MM, 0, 2000)
-    ] = 0.0  # fmt: skip
-    web_width_mm: Annotated[float | None, number("Ширина щеки", "b", MM, 2, 5000)] = None
-    web_thickness_mm: Annotated[float | None, number("Толщина щеки", "h", MM, 1, 2000)] = None
-    damping_nms_rad: Annotated[
-        float | None, number("Сопротивление в каждом цилиндре", "b_ц", NMS_RAD, 0, 1e6)
-    ] = None
-    loss_factor: Annotated[
-        float, number("Коэффициент потерь вала", "η", NONE, 0, 0.5)
-    ] = 0.035  # fmt: skip
-    speed_min_rpm: Annotated[
-        float | None, number("Наименьшая рабочая частота вращения", "n_min", RPM, 10, 30000)
-    ] = None
-    speed_max_rpm: Annotated[
-        float | None, number("Наибольшая рабочая частота вращения", "n_max", RPM, 10, 30000)
-    ] = None
-    stress_allowed_mpa: Annotated[
-        float, number("Допускаемая амплитуда напряжений кручения", "[τ]", MPA, 1, 500)
-    ] = 30.0
-    other_flywheel_kg_m2: Annotated[
-        float | None, number("Другой маховик для сравнения", "J_м2", KG_M2, LEAST, MOST)
-    ] = None
-    damper: Annotated[
-        Literal["viscous", "tuned"],
-        choice("Гаситель на первой массе", DAMPERS, structural=False),
-    ] = "viscous"
-    damper_kg_m2: Annotated[
-        float | None, number("Момент инерции кольца гасителя", "J_г", KG_M2, LEAST, MOST)
-    ] = None
-    damper_nm_rad: Annotated[
-        float | None, number("Жёсткость настроенного гасителя", "c_г", NM_RAD, SOFT, HARD)
-    ] = None
-    damper_nms_rad: Annotated[
-        float | None, number("Сопротивление гасителя", "b_г", NMS_RAD, 0, 1e8)
-    ] = None
+    pulley_kg_m2: float | None = number("Момент инерции шкива", "J_шк", KG_M2, LEAST, MOST, None)
+    throws_kg_m2: tuple[float, ...] | None = number(
+        "Колено {n}: момент инерции", "J_к{n}", KG_M2, LEAST, MOST, None
+    )
+    flywheel_kg_m2: float | None = number(
+        "Момент инерции маховика", "J_м", KG_M2, LEAST, MOST, None
+    )
+    driven_kg_m2: float | None = number(
+        "Момент инерции за маховиком", "J_пр", KG_M2, LEAST, MOST, None
+    )
+    nose_nm_rad: float | None = number(
+        "Жёсткость от шкива до первого колена", "c_н", NM_RAD, SOFT, HARD, None
+    )
+    throws_nm_rad: tuple[float, ...] | None = number(
+        "Жёсткость за коленом {n}", "c_к{n}", NM_RAD, SOFT, HARD, None
+    )
+    rear_nm_rad: float | None = number(
+        "Жёсткость от последнего колена до маховика", "c_м", NM_RAD, SOFT, HARD, None
+    )
+    driven_nm_rad: float | None = number("Жёсткость за маховиком", "c_пр", NM_RAD, SOFT, HARD, None)
+    ground_nm_rad: float = number(
+        "Жёсткость от первой массы до заделки, 0 — конец свободен", "c_0", NM_RAD, 0, HARD, 0.0
+    )
+    formula: Literal["wilson", "carter", "zimanenko"] = choice(
+        "Формула приведённой длины (по памяти)", FORMULAS, "wilson"
+    )
+    shear_modulus_mpa: float = number("Модуль сдвига", "G", MPA, 1e4, 2e5, 80000.0)
+    main_bore_mm: float = number("Диаметр отверстия коренных шеек", "d_j", MM, 0, 2000, 0.0)
+    pin_bore_mm: float = number("Диаметр отверстия шатунных шеек", "d_p", MM, 0, 2000, 0.0)
+    web_width_mm: float | None = number("Ширина щеки", "b", MM, 2, 5000, None)
+    web_thickness_mm: float | None = number("Толщина щеки", "h", MM, 1, 2000, None)
+    damping_nms_rad: float | None = number(
+        "Сопротивление в каждом цилиндре", "b_ц", NMS_RAD, 0, 1e6, None
+    )
+    loss_factor: float = number("Коэффициент потерь вала", "η", NONE, 0, 0.5, 0.035)
+    speed_min_rpm: float | None = number(
+        "Наименьшая рабочая частота вращения", "n_min", RPM, 10, 30000, None
+    )
+    speed_max_rpm: float | None = number(
+        "Наибольшая рабочая частота вращения", "n_max", RPM, 10, 30000, None
+    )
+    stress_allowed_mpa: float = number(
+        "Допускаемая амплитуда напряжений кручения", "[τ]", MPA, 1, 500, 30.0
+    )
+    other_flywheel_kg_m2: float | None = number(
+        "Другой маховик для сравнения", "J_м2", KG_M2, LEAST, MOST, None
+    )
+    damper: Literal["viscous", "tuned"] = choice("Гаситель на первой массе", DAMPERS, "viscous")
+    damper_kg_m2: float | None = number(
+        "Момент инерции кольца гасителя", "J_г", KG_M2, LEAST, MOST, None
+    )
+    damper_nm_rad: float | None = number(
+        "Жёсткость настроенного гасителя", "c_г", NM_RAD, SOFT, HARD, None
+    )
+    damper_nms_rad: float | None = number("Сопротивление гасителя", "b_г", NMS_RAD, 0, 1e8, None)
     masses: Annotated[tuple[MassSection, ...], Strict(False)] = ()
     peaks: Annotated[tuple[PeakSection, ...], Strict(False)] = ()

@@ -109,8 +109,7 @@ def arrangement_of(model: InputFile) -> Arrangement:
         articulated=model.articulated is not None,
     )
     if places is None:
-        msg = "the layout has no arrangement"
-        raise ValueError(msg)
+        raise ValueError("the layout has no arrangement")
     return places
 
 
@@ -139,8 +138,7 @@ def _geometry(model: InputFile, run: CycleRun | None) -> Geometry:
         radius, rod = MM.to_si(crank_radius_mm(given)), MM.to_si(rod_length_mm(given))
     else:
         if run is None or run.design is None:
-            msg = "geometry without bore needs a wanted power"
-            raise ValueError(msg)
+            raise ValueError("geometry without bore needs a wanted power")
         bore, radius = run.design.bore, run.design.stroke / 2
         rod = radius / given.lambda_
     ratio = float(given.compression_ratio)
@@ -178,8 +176,7 @@ def _gas(gas: GasSection, run: CycleRun | None, *, strokes: int) -> Gas:
             exhaust_close=closes,
         )
     if isinstance(gas, CycleGasSection):
-        msg = "gas from a cycle needs its section"
-        raise TypeError(msg)
+        raise TypeError("gas from a cycle needs its section")
     advance, start, opens, closes = _angles(gas, strokes)
     scavenge = gas.scavenge_start_before_bdc_deg
     return PolytropicGas(

@@ -35,8 +35,7 @@ def sizes_of(model: InputFile, bore_and_stroke: tuple[float, float] | None = Non
     if isinstance(geometry, GeometrySection):
         return Sizes(geometry.bore_mm, crank_radius_mm(geometry), rod_length_mm(geometry))
     if bore_and_stroke is None:
-        msg = "geometry without bore needs a wanted power"
-        raise ValueError(msg)
+        raise ValueError("geometry without bore needs a wanted power")
     bore, stroke = (1000 * size for size in bore_and_stroke)
     return Sizes(bore, stroke / 2, stroke / 2 / geometry.lambda_)
 
@@ -48,8 +47,7 @@ def crank_radius_mm(geometry: GeometrySection) -> float:
     if geometry.stroke_mm is not None:
         return geometry.stroke_mm / 2
     if geometry.lambda_ is None or geometry.rod_length_mm is None:
-        msg = "geometry does not fix the crank radius"
-        raise ValueError(msg)
+        raise ValueError("geometry does not fix the crank radius")
     return geometry.lambda_ * geometry.rod_length_mm
 
 
@@ -58,6 +56,5 @@ def rod_length_mm(geometry: GeometrySection) -> float:
     if geometry.rod_length_mm is not None:
         return float(geometry.rod_length_mm)
     if geometry.lambda_ is None:
-        msg = "geometry does not fix the rod length"
-        raise ValueError(msg)
+        raise ValueError("geometry does not fix the rod length")
     return crank_radius_mm(geometry) / geometry.lambda_

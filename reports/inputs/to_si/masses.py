@@ -33,8 +33,7 @@ def to_masses(model: InputFile, geometry: Geometry) -> Masses:
         piston = near.piston * area if piston is None else piston
         rod = near.rod * area if rod is None else rod
     if piston is None or rod is None:
-        msg = "masses are incomplete"
-        raise ValueError(msg)
+        raise ValueError("masses are incomplete")
     mass, length = KG.to_si(rod), geometry.rod_length
     inertia = given.rod_inertia_kg_m2
     known = None if inertia is None else KG_M2.to_si(inertia)
@@ -52,8 +51,7 @@ def to_masses(model: InputFile, geometry: Geometry) -> Masses:
     elif estimate is not None:
         centre = (1 - ROD_SHARE) * length
     else:
-        msg = "masses do not fix the rod's centre of mass"
-        raise ValueError(msg)
+        raise ValueError("masses do not fix the rod's centre of mass")
     return RodMasses(KG.to_si(piston), mass, centre, known, basis)
 
 

@@ -46,12 +46,10 @@ def _orders(shape: Shape) -> TableSpec:
         columns += _order_columns(shape, across, letter, unit)
     first, second = "balance_first_shafts_share", "balance_second_shafts_share"
     rest = f"(1 - {first} if order == 1 else 1 - {second} if order == 2 else 1)"
-    columns += [
-        *column_list(f"""
-            F_left_kN = F_order_kN*{rest} | балансирные валы
-            M_left_Nm = M_order_Nm*{rest} | балансирные валы
-        """),
-    ]
+    columns += column_list(f"""
+        F_left_kN = F_order_kN*{rest} | балансирные валы
+        M_left_Nm = M_order_Nm*{rest} | балансирные валы
+    """)
     directed = (
         "Силы складываются по осям цилиндров, вверх — вдоль оси цилиндра 1; вектор порядка "
         "описывает эллипс, даны его полуоси и направление большей от оси цилиндра 1 по вращению"

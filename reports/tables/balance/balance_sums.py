@@ -182,7 +182,7 @@ def turning(shape: Shape, order: int, across: str) -> tuple[str, str, str, str]:
 
 def vectors_table(shape: Shape) -> ScalarTable:
     """Greatest and smallest first-order vector with its direction, before and after."""
-    scalars = []
+    scalars: list[Scalar] = []
     for key, across in (("F", "order"), ("L", "arm")):
         half = "Pj_unit_kN/2"
         for name in ("before", "after"):
@@ -193,19 +193,17 @@ def vectors_table(shape: Shape) -> ScalarTable:
             add = {p: f" + {more}*{key}cw_{p}" if name == "after" else "" for p in ("re", "im")}
             least = f"round(min({n}_along, {n}_against), 9) == 0"
             angle = f"(deg(atan2({n}_im, {n}_re)) + deg(atan2({back_sin}, {back_cos})))/2"
-            scalars += [
-                *scalar_list(f"""
-                    {n}_re = {half}*{cos}{rest} + {key}rot_re{add["re"]} | разложение
-                    {n}_im = {key}rot_im{add["im"]} - {half}*{sin}{rest} | разложение
-                    {n}_along = sqrt({n}_re**2 + {n}_im**2) | вектор по вращению
-                    {n}_against = {half}*sqrt({back_cos}**2 + {back_sin}**2){rest}
-                        | вектор против вращения
-                    {n}_max = {n}_along + {n}_against | большая полуось
-                    {n}_min = abs({n}_along - {n}_against) | малая полуось
-                    {n}_deg = 0 if {least} else 90 - mod(90 - {angle} + 0.000001, 180) + 0.000001
-                        | направление
-                """),
-            ]
+            scalars += scalar_list(f"""
+                {n}_re = {half}*{cos}{rest} + {key}rot_re{add["re"]} | разложение
+                {n}_im = {key}rot_im{add["im"]} - {half}*{sin}{rest} | разложение
+                {n}_along = sqrt({n}_re**2 + {n}_im**2) | вектор по вращению
+                {n}_against = {half}*sqrt({back_cos}**2 + {back_sin}**2){rest}
+                    | вектор против вращения
+                {n}_max = {n}_along + {n}_against | большая полуось
+                {n}_min = abs({n}_along - {n}_against) | малая полуось
+                {n}_deg = 0 if {least} else 90 - mod(90 - {angle} + 0.000001, 180) + 0.000001
+                    | направление
+            """)
     title = "Векторы 1-го порядка вместе с вращающимися массами"
     return ScalarTable("balance_vectors", title, RESULTS, tuple(scalars))
 
@@ -227,12 +225,10 @@ def devices_table(shape: Shape) -> ScalarTable:
         if shape.banks:
             found.append((f"shaft{n}_back", back_cos, back_sin))
         for key, one, other in found:
-            scalars += [
-                *scalar_list(f"""
-                    {key}_moment = balance_{share}_shafts_share*m_j*r_crank*({size})*sqrt({one}**2
-                        + {other}**2)/{2 * n * n} | 2·mб·e·({n}ω)² = F{n}
-                    {key}_mass = {key}_moment/{radius} | mб
-                """),
-            ]
+            scalars += scalar_list(f"""
+                {key}_moment = balance_{share}_shafts_share*m_j*r_crank*({size})*sqrt({one}**2
+                    + {other}**2)/{2 * n * n} | 2·mб·e·({n}ω)² = F{n}
+                {key}_mass = {key}_moment/{radius} | mб
+            """)
     title = "Противовесы и балансирные валы"
     return ScalarTable("balance_devices", title, RESULTS, tuple(scalars))

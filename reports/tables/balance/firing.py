@@ -26,15 +26,13 @@ def firing_loads(shape: Shape, cycle: tuple[float, ...]) -> TableSpec:
     for k in range(2, shape.throws + 1):
         t = f"P4_3_{k}"
         later = {axis: f"element(firing_loads.after_{axis}{k}_MPa, row_later)" for axis in "xy"}
-        columns += [
-            *column_list(f"""
-                helpers:
-                after_x{k}_MPa = {t}.bTcos_MPa - {t}.bKsin_MPa | Гоц (56)
-                after_y{k}_MPa = {t}.bTsin_MPa + {t}.bKcos_MPa | Гоц (57)
-                Rturned{k}_MPa = sqrt(({t}.Rx_MPa - after_x{k}_MPa + {later["x"]})**2 + ({t}.Ry_MPa
-                    - after_y{k}_MPa + {later["y"]})**2) | Гоц (59)
-            """),
-        ]
+        columns += column_list(f"""
+            helpers:
+            after_x{k}_MPa = {t}.bTcos_MPa - {t}.bKsin_MPa | Гоц (56)
+            after_y{k}_MPa = {t}.bTsin_MPa + {t}.bKcos_MPa | Гоц (57)
+            Rturned{k}_MPa = sqrt(({t}.Rx_MPa - after_x{k}_MPa + {later["x"]})**2 + ({t}.Ry_MPa
+                - after_y{k}_MPa + {later["y"]})**2) | Гоц (59)
+        """)
     return TableSpec(
         "firing_loads",
         "У.н",

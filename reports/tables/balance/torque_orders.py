@@ -63,21 +63,17 @@ def _orders(model: InputFile) -> TableSpec:
             columns.append(Column(f"{name}_{part}_MPa", text, "ряд Фурье"))
         cos, sin, size = (f"{name}_{part}_MPa" for part in ("cos", "sin", "amplitude"))
         clean = f"(0 if round({cos}, 12) == 0 else {cos})"
-        columns += [
-            *column_list(f"""
-                {size} = sqrt({cos}**2 + {sin}**2) | Чудаков (1)
-                {name}_phase_deg = 0 if round({size}, 12) == 0 else deg(atan2({clean}, {sin}))
-                    | Чудаков (1)
-            """),
-        ]
-    columns += [
-        *column_list(f"""
-            cylinders_sum = sqrt(wave_cos({FIRING}, order)**2
-                + wave_sin({FIRING}, order)**2) | сложение векторов
-            M_engine_order_Nm = of_MPa(total_amplitude_MPa)*F_piston*r_crank*cylinders_sum
-                | сложение векторов
-        """),
-    ]
+        columns += column_list(f"""
+            {size} = sqrt({cos}**2 + {sin}**2) | Чудаков (1)
+            {name}_phase_deg = 0 if round({size}, 12) == 0 else deg(atan2({clean}, {sin}))
+                | Чудаков (1)
+        """)
+    columns += column_list(f"""
+        cylinders_sum = sqrt(wave_cos({FIRING}, order)**2
+            + wave_sin({FIRING}, order)**2) | сложение векторов
+        M_engine_order_Nm = of_MPa(total_amplitude_MPa)*F_piston*r_crank*cylinders_sum
+            | сложение векторов
+    """)
     step = 2 / model.engine.strokes
     last = min(LAST_ORDER, 180 / model.calculation.step_deg - step)
     turns = "цикл — два оборота" if model.engine.strokes == 4 else "цикл — один оборот"

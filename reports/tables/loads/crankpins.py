@@ -49,21 +49,17 @@ def _crankpin(shape: Shape, number: int, rows: tuple[float, ...]) -> TableSpec:
         else:
             columns.append(Column(f"{axis}_MPa", terms, "Гоц, 2.6", of=f"{axis}throw_MPa"))
     normal = "Krod_MPa" if len(group) == 1 else "Krod_MPa of Kpin_MPa"
-    columns += [
-        *column_list(f"""
-            {normal} = K_MPa - {centrifugal} | Гоц (40)
-            Rpin_MPa = sqrt(Krod_MPa**2 + T_MPa**2) | Гоц (41)
-            psi_deg = {angle("T_MPa", "Krod_MPa")} | Гоц, 2.6: tgψ = T/(K − Kr ш)
-        """),
-    ]
+    columns += column_list(f"""
+        {normal} = K_MPa - {centrifugal} | Гоц (40)
+        Rpin_MPa = sqrt(Krod_MPa**2 + T_MPa**2) | Гоц (41)
+        psi_deg = {angle("T_MPa", "Krod_MPa")} | Гоц, 2.6: tgψ = T/(K − Kr ш)
+    """)
     if shape.single_rods:
         title = "Удельные нагрузки на шатунную шейку и колено"
-        columns += [
-            *column_list("""
-                Ksum_MPa = Krod_MPa - K_r_throw | Гоц (42)
-                Rthrow_MPa = sqrt(Ksum_MPa**2 + T_MPa**2) | Гоц (42)
-            """),
-        ]
+        columns += column_list("""
+            Ksum_MPa = Krod_MPa - K_r_throw | Гоц (42)
+            Rthrow_MPa = sqrt(Ksum_MPa**2 + T_MPa**2) | Гоц (42)
+        """)
     return TableSpec(
         "crankpin" if number == 1 else f"crankpin_{number}",
         f"Ш{name}",

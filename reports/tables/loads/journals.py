@@ -33,13 +33,11 @@ def _journal(shape: Shape, number: int, rows: tuple[float, ...], *, forced: bool
         for axis, formula in (("T", "Гоц (51), (53), (55)"), ("K", "Гоц (50), (52), (55)")):
             constant = f"to_MPa(throw{throw}_R{axis}C{support}/F_piston)"
             name, rods = f"{side}{axis}", _on_support(shape, throw, axis, support, forced=forced)
-            columns += [
-                *column_list(f"""
-                    {name}_MPa = {rods} + {constant} | {formula}
-                    {name}cos_MPa = {name}_MPa*cos({gamma}) | Гоц, табл. 10
-                    {name}sin_MPa = {name}_MPa*sin({gamma}) | Гоц, табл. 10
-                """),
-            ]
+            columns += column_list(f"""
+                {name}_MPa = {rods} + {constant} | {formula}
+                {name}cos_MPa = {name}_MPa*cos({gamma}) | Гоц, табл. 10
+                {name}sin_MPa = {name}_MPa*sin({gamma}) | Гоц, табл. 10
+            """)
         x_terms += [f"{side}Tcos_MPa", f"-{side}Ksin_MPa"]
         y_terms += [f"{side}Tsin_MPa", f"{side}Kcos_MPa"]
     turn = "rad(phi_deg)"

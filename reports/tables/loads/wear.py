@@ -57,10 +57,10 @@ def _surface(
             "Шейка изнашивается со стороны, с которой действует сила."
         ),
     )
-    return table, _sums(table_id, name, journal, sheet, rays)
+    return table, _sums(table_id, name, sheet, rays)
 
 
-def _sums(table_id: str, name: str, journal: str, sheet: str, rays: int) -> Grid:
+def _sums(table_id: str, name: str, sheet: str, rays: int) -> Grid:
     """Sums by rays, the least loaded ray and the points of the drawn diagram."""
     numbers = range(1, rays + 1)
     grid = f"{table_id}_sums"

@@ -158,19 +158,17 @@ def _masses(model: InputFile) -> ScalarTable:
         scalars.append(Scalar("m_1", m_1, "Гоц (20)"))
         m_2, m_j = "masses_rod_kg - m_1", "masses_piston_group_kg + m_1"
     unit = "r_crank*omega**2"
-    scalars += [
-        *scalar_list(f"""
-            m_2 = {m_2} | Гоц (20), (22)
-            m_j = {m_j} | Гоц, 2.2
-            m_k = crankshaft_pin_mass_kg + web_1_mass_kg + web_2_mass_kg | Гоц (28)
-            m_r = {_rotating(Shape.of(model))} | Гоц (29)
-            P_unit = to_MPa(m_j*{unit}/F_piston) | Гоц (31)
-            K_r = to_kN(m_r*{unit}) | Гоц (32)
-            K_r_spec = to_MPa(m_r*{unit}/F_piston) | Гоц, 2.9
-            K_r_rod = to_MPa(m_2*{unit}/F_piston) | Гоц, 2.6
-            K_r_throw = to_MPa(m_k*{unit}/F_piston) | Гоц (42)
-        """),
-    ]
+    scalars += scalar_list(f"""
+        m_2 = {m_2} | Гоц (20), (22)
+        m_j = {m_j} | Гоц, 2.2
+        m_k = crankshaft_pin_mass_kg + web_1_mass_kg + web_2_mass_kg | Гоц (28)
+        m_r = {_rotating(Shape.of(model))} | Гоц (29)
+        P_unit = to_MPa(m_j*{unit}/F_piston) | Гоц (31)
+        K_r = to_kN(m_r*{unit}) | Гоц (32)
+        K_r_spec = to_MPa(m_r*{unit}/F_piston) | Гоц, 2.9
+        K_r_rod = to_MPa(m_2*{unit}/F_piston) | Гоц, 2.6
+        K_r_throw = to_MPa(m_k*{unit}/F_piston) | Гоц (42)
+    """)
     return ScalarTable("masses", "Приведённые массы", "Массы", tuple(scalars))
 
 

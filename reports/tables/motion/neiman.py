@@ -40,15 +40,13 @@ def _motion() -> TableSpec:
         text = " + ".join([*constant, *terms])
         columns.append(Column(f"{letter}_series", text, source))
     root = "sqrt(1 - lam**2*sin(rad(alpha_deg))**2)"
-    columns += [
-        *column_list(f"""
-            rod_speed_rel = lam*cos(rad(alpha_deg))/{root} | Нейман (7)
-            rod_acceleration_rel = -(lam*(1 - lam**2)*sin(rad(alpha_deg))/{root}**3) | Нейман (9)
-            rod_on_pin_rel = 1 + rod_speed_rel | Нейман (12)
-            helpers:
-            root = {root}/lam | Нейман (14)
-        """),
-    ]
+    columns += column_list(f"""
+        rod_speed_rel = lam*cos(rad(alpha_deg))/{root} | Нейман (7)
+        rod_acceleration_rel = -(lam*(1 - lam**2)*sin(rad(alpha_deg))/{root}**3) | Нейман (9)
+        rod_on_pin_rel = 1 + rod_speed_rel | Нейман (12)
+        helpers:
+        root = {root}/lam | Нейман (14)
+    """)
     for letter in "svj":
         columns.append(
             *column_list(f"""

@@ -83,22 +83,18 @@ def _inverse() -> TableSpec:
 
 def _error_scalars() -> ScalarTable:
     table = "segal_errors"
-    scalars = []
+    scalars: list[Scalar] = []
     for letter in "svj":
-        scalars += [
-            *scalar_list(f"""
-                d{letter}_max = max(col_max({table}.d{letter}), -col_min({table}.d{letter}))
-                    | Сегаль, с. 13
-                alpha_d{letter}_deg = col_min({table}.at_{letter}_deg) | Сегаль, с. 13
-            """),
-        ]
+        scalars += scalar_list(f"""
+            d{letter}_max = max(col_max({table}.d{letter}), -col_min({table}.d{letter}))
+                | Сегаль, с. 13
+            alpha_d{letter}_deg = col_min({table}.at_{letter}_deg) | Сегаль, с. 13
+        """)
     root = "sqrt(1 - lam**2)"
-    scalars += [
-        *scalar_list(f"""
-            s_error_quarter = ((1 + lam/2)/(1 + (1 - {root})/lam) - 1)*100 | Сегаль, с. 13
-            j_error_quarter = ({root} - 1)*100 | Сегаль, с. 13
-        """),
-    ]
+    scalars += scalar_list(f"""
+        s_error_quarter = ((1 + lam/2)/(1 + (1 - {root})/lam) - 1)*100 | Сегаль, с. 13
+        j_error_quarter = ({root} - 1)*100 | Сегаль, с. 13
+    """)
     return ScalarTable("segal_error_list", "Погрешности приближений", RESULTS, tuple(scalars))
 
 
@@ -125,13 +121,11 @@ def _extremes() -> ScalarTable:
         )
     last = f"cos_j_min_{ITERATIONS}"
     root = f"sqrt(1/lam**2 - 1 + {last}**2)"
-    scalars += [
-        *scalar_list(f"""
-            alpha_j_exact_min_deg = deg(acos({last})) | dj/dφ = 0
-            j_exact_min = {last} + (2*{last}**2 - 1)/{root} + {last}**2*(1 - {last}**2)/{root}**3
-                | Сегаль (1.16)
-        """),
-    ]
+    scalars += scalar_list(f"""
+        alpha_j_exact_min_deg = deg(acos({last})) | dj/dφ = 0
+        j_exact_min = {last} + (2*{last}**2 - 1)/{root} + {last}**2*(1 - {last}**2)/{root}**3
+            | Сегаль (1.16)
+    """)
     return ScalarTable("segal_extremes", "Крайние значения ускорения", RESULTS, tuple(scalars))
 
 

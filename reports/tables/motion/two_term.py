@@ -85,12 +85,10 @@ def _list(model: InputFile) -> ScalarTable:
     for name, suffix, whole in _ERRORS:
         column = f"two_term.e{name}_{suffix}"
         top = f"max(col_max({column}), -col_min({column}))"
-        scalars += [
-            *scalar_list(f"""
-                e{name}_max = {top} | погрешность
-                phi_e{name}_deg = col_min(two_term.at_e{name}) | погрешность
-            """),
-        ]
+        scalars += scalar_list(f"""
+            e{name}_max = {top} | погрешность
+            phi_e{name}_deg = col_min(two_term.at_e{name}) | погрешность
+        """)
         if whole or name == "Pj":
             exact = f"two_term.e{name}_exact_{suffix}"
             scalars.append(

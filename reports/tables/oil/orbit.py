@@ -30,7 +30,7 @@ def orbit(scope: Scope) -> Part:
     if scope.input.bearings is None:
         return Part()
     bearings = bearings_of(scope)
-    blocks: list[Block] = [_summary(scope), _fresh(scope)]
+    blocks: list[Block] = [_summary(scope), _fresh()]
     if 0 in bearings:
         blocks.append(_holes())
     for k in bearings:
@@ -82,8 +82,7 @@ def _summary(scope: Scope) -> TableSpec:
     )
 
 
-def _fresh(scope: Scope) -> ScalarTable:
-    del scope
+def _fresh() -> ScalarTable:
     yes, no = "отвечают исходным данным", "ДАННЫЕ ИЗМЕНЕНЫ: соберите книгу заново"
     text = f'"{yes}" if round(col_max(oil_orbits.oil_changed), 8) == 0 else "{no}"'
     return ScalarTable(

@@ -19,7 +19,7 @@ def safety(scope: Scope) -> Part:
         return Part()
     throws = scope.shape.throws
     blocks: list[Block] = [
-        _list(scope, section),
+        _list(scope),
         _journals(throws),
         _pins(throws),
         _material(section),
@@ -168,8 +168,7 @@ def _pins(throws: int) -> Grid:
     )
 
 
-def _list(scope: Scope, section: BearingsSection) -> ScalarTable:
-    del section
+def _list(scope: Scope) -> ScalarTable:
     throws = scope.shape.throws
     at = "worst_main_torque - 1"
     fillet, hole = (

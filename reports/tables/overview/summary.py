@@ -61,12 +61,10 @@ def _torque(model: InputFile, shape: Shape) -> ScalarTable:
     ]
     if _power_is_known(model):
         reference = f"30/pi*of_kW({power})/(regime_speed_rpm*r_crank*F_piston{fullness})"
-        scalars += [
-            *scalar_list(f"""
-                T_ref = to_MPa({reference}) | Гоц, 2.8
-                T_error = (T_mean/T_ref - 1)*100 | Гоц, 2.8
-            """),
-        ]
+        scalars += scalar_list(f"""
+            T_ref = to_MPa({reference}) | Гоц, 2.8
+            T_error = (T_mean/T_ref - 1)*100 | Гоц, 2.8
+        """)
     return ScalarTable("summary_torque", "Крутящий момент двигателя", SHEET, tuple(scalars))
 
 

@@ -65,8 +65,7 @@ def train_of(model: InputFile, shape: Shape) -> Train:
     """The train given, or the equivalent one of the engine."""
     section = model.torsion
     if section is None:
-        msg = "no torsional vibration is asked for"
-        raise ValueError(msg)
+        raise ValueError("no torsional vibration is asked for")
     alike = model.crankshaft.main_diameters_mm is None
     if section.masses:
         return _given(section, 1 if alike else shape.throws + 1)

@@ -29,7 +29,7 @@ def substituted(blocks: tuple[Block, ...], names: Mapping[str, str]) -> tuple[Bl
     """Blocks in which each name of ``names`` is replaced by the one that stands in for it."""
     if not names:
         return blocks
-    change = _Expressions(lambda name: names.get(name, name))
+    change = _Expressions(lambda name: names.get(name, name), only=tuple(names))
     return tuple(_changed(block, change, change) for block in blocks)
 
 
@@ -76,11 +76,15 @@ def copied_chart(chart: ChartSpec, names: Names) -> ChartSpec:
 class _Expressions:
     """Changes the expression of a scalar or column."""
 
-    def __init__(self, names: Names) -> None:
+    def __init__(self, names: Names, only: tuple[str, ...] = ("",)) -> None:
         self._names = names
+        self._only = only  # no other name is changed
 
     def __call__(self, item: Node) -> Node:
-        return item if item.expr is None else replace(item, expr=renamed(item.expr, self._names))
+        if item.expr is None or not any(name in item.expr for name in self._only):
+            return item
+        expr = renamed(item.expr, self._names)
+        return item if expr == item.expr else replace(item, expr=expr)  # most name none of them
 
 
 def _changed(

@@ -102,16 +102,20 @@ def ray_key(number: int) -> str:
 # How what is printed grows with the length of alike engines: of equal stresses and piston speeds.
 _POWERS = {"dm3": 3, "cm3": 3, "Nm": 3, "J": 3, "kN": 2, "N": 2, "kW": 2, "W": 2,
            "kg": 3, "kgm": 4, "kgm2": 5, "kg_h": 2}  # fmt: skip
-_USUAL_BORE_M = 0.06
+_USUAL_BORES_M = (0.06, 0.2)
 _FIFTHS = 5
 
 
 def smallness(bore_m: float) -> int:
     """How much smaller an engine is than those of the books, in fifths of a power of ten.
 
-    Nothing from a bore of 60 mm on: the books' own decimals serve.
+    Nothing for bores from 60 to 200 mm, for which the books' own decimals serve; negative for
+    larger ones, which have fewer.
     """
-    return max(0, math.ceil(_FIFTHS * math.log10(_USUAL_BORE_M / bore_m) - 1e-9))
+    low, high = _USUAL_BORES_M
+    smaller = math.ceil(_FIFTHS * math.log10(low / bore_m) - 1e-9)
+    larger = math.ceil(_FIFTHS * math.log10(high / bore_m) - 1e-9)
+    return max(0, smaller) + min(0, larger)
 
 
 @lru_cache(maxsize=4096)
@@ -125,7 +129,9 @@ def quantity(key: str, small: int = 0) -> Quantity:
     more = math.ceil(small * _POWERS.get(about.unit, 0) / _FIFTHS)
     if not more or about.digits.kind != "fixed":
         return about
-    return replace(about, digits=replace(about.digits, decimals=about.digits.decimals + more))
+    return replace(
+        about, digits=replace(about.digits, decimals=max(0, about.digits.decimals + more))
+    )
 
 
 def _quantity(key: str) -> Quantity:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 from math import ceil, floor, isfinite
 
 import numpy as np
@@ -25,12 +26,13 @@ from reports.workbook.layout import (
     Layout,
     area,
 )
-from reports.workbook.places import Box, extent, last_cell, room_of
+from reports.workbook.places import DIGIT, Box, column_px, extent, last_cell, room_of, wrap_across
 from reports.workbook.sheets import NARROW, SOURCE_WIDTH, SYMBOL_WIDTH, TITLE_WIDTH
 
 _LIST = {
     1: TITLE_WIDTH, 2: SYMBOL_WIDTH, VALUE_COLUMN: 14, 4: 11, SOURCE_COLUMN: SOURCE_WIDTH, 6: 30,
 }  # fmt: skip
+_SUBTITLE_LETTER = 1.18  # in digits of a column: bold and larger
 _BESIDE, _WIDEST = (34, 10, 11, 8, 20), 64  # of a list beside a table
 _CYCLE_WIDTHS = {2: 20, 4: 17, SOURCE_COLUMN: 28, 6: 17, 7: 17, 8: 17}
 _RANGE_WIDTHS = {1: 76, 2: 4, 4: 16, SOURCE_COLUMN: 42}
@@ -68,6 +70,17 @@ def set_widths(sheet: Worksheet, model: Model, layout: Layout, values: Values) -
     sheet.row_dimensions[HEADER_ROW].height = 48
     for table in tables:
         _fold(sheet, table, layout, values)
+    _wrap_titles(sheet)
+
+
+def _wrap_titles(sheet: Worksheet) -> None:
+    """Titles of tables that the next title beside them would cut off take a line more."""
+    row = HEADER_ROW - 1
+    titles = [cell for cell in sheet[row] if cell.value]
+    for cell, following in pairwise(titles):
+        room = sum(column_px(sheet, i) for i in range(cell.column, following.column)) / DIGIT
+        if _SUBTITLE_LETTER * len(str(cell.value)) > room:
+            wrap_across(sheet, row, cell.column, following.column - 1, _SUBTITLE_LETTER)
 
 
 def _fitting(sheet: Worksheet, layout: Layout, block: ScalarTable) -> list[float]:

@@ -13,7 +13,9 @@ from textwrap import wrap
 
 from openpyxl.drawing.spreadsheet_drawing import AnchorMarker, OneCellAnchor
 from openpyxl.drawing.xdr import XDRPositiveSize2D
+from openpyxl.styles import Alignment
 from openpyxl.utils import get_column_letter
+from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.worksheet import Worksheet
 
 SCREEN = 1475  # px: 1600 less row numbers, bars, and what other programs' columns are wider
@@ -76,6 +78,23 @@ def lines_of(text: str, width: float) -> int:
 def room_of(letters: int) -> int:
     """Width of a column in which so many letters are one line."""
     return ceil(letters / _LETTERS) + 1
+
+
+def wrap_across(sheet: Worksheet, row: int, first: int, last: int, wider: float = 1.0) -> None:
+    """Let the text of a cell wrap within its columns to the last, the row as high as it asks.
+
+    ``wider`` is how much wider its letters are than those of the sheet.
+    """
+    cell = sheet.cell(row, first)
+    cell.alignment = Alignment(wrap_text=True, vertical="top")
+    # Not merge_cells, which compares the borders of cells that have none.
+    sheet.merged_cells.add(CellRange(min_row=row, min_col=first, max_row=row, max_col=last))
+    sheet.cell(row, last)  # the width counts as the sheet's
+    width = sum(column_px(sheet, i) for i in range(first, last + 1))
+    lines = lines_of(str(cell.value), width / DIGIT / wider)
+    if lines > 1:
+        height = sheet.row_dimensions[row].height or LINE
+        sheet.row_dimensions[row].height = max(height, LINE * lines)
 
 
 def raise_row(sheet: Worksheet, row: int, texts: Mapping[str, float]) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from lxml.etree import SerialisationError
 from openpyxl import Workbook
 from openpyxl.formatting.rule import CellIsRule
-from openpyxl.styles import Alignment, Font, PatternFill
+from openpyxl.styles import Font, PatternFill
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.worksheet import Worksheet
@@ -40,7 +40,6 @@ from reports.workbook.layout import (
 from reports.workbook.links import link
 from reports.workbook.paper import UPRIGHT, set_page, set_widths
 from reports.workbook.places import (
-    DIGIT,
     FOLD,
     GAP,
     SCREEN,
@@ -52,6 +51,7 @@ from reports.workbook.places import (
     keep_columns,
     raise_row,
     top_of,
+    wrap_across,
 )
 from reports.workbook.sheets import CacheValues, Writer
 
@@ -241,11 +241,5 @@ def _note(sheet: Worksheet, text: str) -> None:
     while width < _NOTE_PX:
         width += column_px(sheet, last)
         last += 1
-    cell = sheet.cell(NOTE_ROW, NOTE_COLUMN, text)
-    cell.style = styles.NOTE
-    cell.alignment = Alignment(wrap_text=True, vertical="top")
-    # Not merge_cells, which compares the borders of cells that have none.
-    across = CellRange(min_row=NOTE_ROW, min_col=NOTE_COLUMN, max_row=NOTE_ROW, max_col=last - 1)
-    sheet.merged_cells.add(across)
-    sheet.cell(NOTE_ROW, last - 1)  # the note's width counts as the sheet's
-    raise_row(sheet, NOTE_ROW, {text: width / DIGIT})
+    sheet.cell(NOTE_ROW, NOTE_COLUMN, text).style = styles.NOTE
+    wrap_across(sheet, NOTE_ROW, NOTE_COLUMN, last - 1)

@@ -9,8 +9,9 @@ import pytest
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.workbook.chapters import CHAPTERS, chapter_of, diagrams_of, heading, ordered, place_of
+from reports.workbook.layout import HEADER_ROW
 from reports.workbook.motion import SHEET
-from reports.workbook.places import FOLD, SCREEN, Box, column_px, extent, row_px
+from reports.workbook.places import DIGIT, FOLD, SCREEN, Box, column_px, extent, row_px
 from tests.conftest import sample_names
 from tests.cover import charts, quantities, samples_with
 from tests.workbook.made import coarse_model, coarse_opened
@@ -122,3 +123,13 @@ def test_every_number_has_room_in_its_column(name: str) -> None:
         > column_px(sheet, cell.column) + 5  # the margins
     ]
     assert tight == []
+
+
+@pytest.mark.parametrize("name", samples_with(charts, quantities))
+def test_no_title_of_a_table_is_cut_by_the_next(name: str) -> None:
+    for sheet in coarse_opened(name).worksheets:
+        titles = [cell for cell in sheet[HEADER_ROW - 1] if cell.value]
+        for title, following in itertools.pairwise(titles):
+            room = sum(column_px(sheet, i) for i in range(title.column, following.column)) / DIGIT
+            lines = 1 if title.alignment.wrap_text is None else row_px(sheet, title.row) // 20
+            assert 1.1 * len(title.value) < lines * room, (sheet.title, title.value)

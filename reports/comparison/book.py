@@ -99,8 +99,9 @@ def _results(made: _Book) -> None:
         number += 1
         for column, text in enumerate((row.title, row.symbol, row.unit), 1):
             sheet.cell(number, column, text)
-        for column, value in enumerate(row.values, 4):
-            sheet.cell(number, column, value).number_format = excel_format(row.about)
+        for place, value in enumerate(row.values):
+            cell = sheet.cell(number, 4 + place, value)
+            cell.number_format = excel_format(row.quantity(place))
         for place in range(1, count):
             change = row.change(place)
             if change is None:

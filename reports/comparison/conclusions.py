@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from reports.comparison.engines import Row
-from reports.shared.russian import NBSP, fixed, written
+from reports.shared.russian import NBSP, fixed, short
 
 SAME = 0.01  # share within which values count as equal
-STILL = 1e-3  # of the greatest: what is smaller is nought
+STILL = 1e-3  # of the engine's own load or torque: what is smaller is nought
 _NOUGHT = 1e-6  # kN, N·m: rounding
+_THOUSANDS = 1000.0
 _TIMES = 2.0  # from here on "so many times" is said
 
 # Key of the result, what is said of the greatest of it.
@@ -22,9 +23,10 @@ _GREATEST = (
     (r"dM_main\d+", "Наибольший размах набегающего момента коренных шеек"),
     ("I_flywheel", "Самый тяжёлый маховик"),
 )
+# And what an engine's own size is measured by.
 _BALANCE = (
-    ("F1_before_max", "силы инерции 1-го порядка"),
-    ("L1_before_max", "моменты сил инерции 1-го порядка"),
+    ("F1_before_max", "силы инерции 1-го порядка", "Rpin_max_kN"),
+    ("L1_before_max", "моменты сил инерции 1-го порядка", "M_max"),
 )
 
 
@@ -40,14 +42,18 @@ def _volumes(names: Sequence[str], rows: Mapping[str, Row]) -> Iterator[str]:
     if values is None:
         return
     if spread(values) <= SAME:
-        yield f"Рабочий объём у всех одинаков: {fixed(values[0], 2)} л."
+        yield f"Рабочий объём у всех одинаков: {_litres(values[0])} л."
     else:
         big, small = values.index(max(values)), values.index(min(values))
         yield (
-            f"Рабочие объёмы разные: от {fixed(values[small], 2)} л ({names[small]}) до "
-            f"{fixed(values[big], 2)} л ({names[big]}); "
+            f"Рабочие объёмы разные: от {_litres(values[small])} л ({names[small]}) до "
+            f"{_litres(values[big])} л ({names[big]}); "
             "силы и моменты сравниваются с этой оговоркой."
         )
+
+
+def _litres(volume: float) -> str:
+    return fixed(volume, 2) if volume >= 1 else short(volume, 3)
 
 
 def _greatest(names: Sequence[str], rows: Mapping[str, Row]) -> Iterator[str]:
@@ -57,7 +63,11 @@ def _greatest(names: Sequence[str], rows: Mapping[str, Row]) -> Iterator[str]:
         if row is None or values is None or min(values) <= 0:
             continue
         big, small = values.index(max(values)), values.index(min(values))
-        text = f"{written(values[big], row.about.digits)} {row.unit}".rstrip().replace(" ", NBSP)
+        text = (
+            f"{fixed(values[big], row.quantity(big).digits.decimals)} {row.unit}".rstrip().replace(
+                " ", NBSP
+            )
+        )
         if spread(values) <= SAME:
             what = words.removeprefix("Наибольшая ").removeprefix("Наибольший ")
             what = what.removeprefix("Самый тяжёлый ")
@@ -71,7 +81,9 @@ def _more(ratio: float) -> str:
     """By how much something is larger: nobody reads 1800 %."""
     if ratio < _TIMES:
         return f"на {fixed((ratio - 1) * 100, 1)}{NBSP}%"
-    return f"в {fixed(ratio, 1)}{NBSP}раза"
+    if ratio < _THOUSANDS:
+        return f"в {fixed(ratio, 1)}{NBSP}раза"
+    return f"в {fixed(float(f'{ratio:.3g}'), 0)}{NBSP}раз"
 
 
 def _unevenness(names: Sequence[str], rows: Mapping[str, Row]) -> Iterator[str]:
@@ -91,13 +103,16 @@ def _unevenness(names: Sequence[str], rows: Mapping[str, Row]) -> Iterator[str]:
 
 
 def _balance(names: Sequence[str], rows: Mapping[str, Row]) -> Iterator[str]:
-    for key, words in _BALANCE:
+    for key, words, size in _BALANCE:
         values = _known(rows.get(key))
         if values is None:
             continue
-        largest = max(map(abs, values))
-        bound = max(STILL * largest, _NOUGHT)
-        still = [name for name, value in zip(names, values, strict=True) if abs(value) <= bound]
+        sizes = _known(rows.get(size)) or [0.0] * len(values)
+        still = [
+            name
+            for name, value, own in zip(names, values, sizes, strict=True)
+            if abs(value) <= max(STILL * abs(own), _NOUGHT)
+        ]
         if len(still) == len(names):
             yield f"У всех {words} уравновешены самим расположением колен."
         elif still:

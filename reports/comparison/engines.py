@@ -37,7 +37,10 @@ class Compared:
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A result of all engines; None where an engine has no such result."""
+    """A result of all engines; None where an engine has no such result.
+
+    ``smalls`` are their smallnesses: each has its own decimals.
+    """
 
     group: str
     key: str
@@ -45,6 +48,11 @@ class Row:
     symbol: str
     about: Quantity
     values: tuple[float | None, ...]
+    smalls: tuple[int, ...] = ()
+
+    def quantity(self, number: int) -> Quantity:
+        """The quantity with the decimals of an engine."""
+        return quantity(self.about.key, self.smalls[number]) if self.smalls else self.about
 
     @property
     def unit(self) -> str:
@@ -216,11 +224,12 @@ def _result(engines: Sequence[Compared], group: str, entry: str | tuple[str, str
         values.append(0.0 if largest is not None and abs(largest) < _ROUNDING else largest)
     if not known:
         return None
-    about = quantity(known, max(smallness_of(engine.model) for engine in engines))
+    about = quantity(known)
+    smalls = tuple(smallness_of(engine.model) for engine in engines)
     symbol = "" if title else about.symbol
     key = entry if isinstance(entry, str) else pattern
     found = tuple(values)
-    return Row(group, key, capital(title or about.title), symbol, about, found)
+    return Row(group, key, capital(title or about.title), symbol, about, found, smalls)
 
 
 def charts(engines: Sequence[Compared]) -> tuple[Chart, ...]:

@@ -22,10 +22,12 @@ from reports.comparison.engines import (
 )
 from reports.document.page.blocks import Column, DocumentInfo, TableBlock, table_block
 from reports.document.page.numbering import Label, Numbering
+from reports.document.text.numbers import of_digits
 from reports.document.text.texts import spaces_inside
-from reports.shared.russian import comma, fixed, written
+from reports.shared.russian import MINUS, NBSP, comma, fixed, grouped, short
 
 _TITLE = "Сравнение двигателей"
+_MOST_PERCENT = 900
 _FEW = 4  # engines that fit beside the words at the usual size
 
 
@@ -119,15 +121,21 @@ def results_block(labels: Sequence[str], rows: Sequence[Row]) -> TableBlock:
         values = row.values
         line = []
         for number, value in enumerate(values):
-            text = "—" if value is None else written(value, row.about.digits)
-            change = row.change(number) if number else None
-            more = ""
-            if change is not None:
-                percent = fixed(change, 1)
-                more = f"({percent} %)" if percent.startswith("−") else f"(+{percent} %)"
+            text = "—" if value is None else of_digits(value, row.quantity(number).digits)
+            more = _change(row.change(number) if number else None)
             line.append(Markup("{}<br>{}").format(text, more) if more else Markup(text))
         cells.append([_titled(row.title, row.unit), *line])
     return table_block(columns, cells)
+
+
+def _change(percent: float | None) -> str:
+    """The difference in brackets: of ten times and more nobody reads per cent."""
+    if percent is None or percent <= -_MOST_PERCENT:
+        return ""
+    if percent >= _MOST_PERCENT:
+        return f"(×{NBSP}{grouped(short(float(f'{1 + percent / 100:.3g}')))})"
+    text = fixed(percent, 1)
+    return f"({text} %)" if text.startswith(MINUS) else f"(+{text} %)"
 
 
 def _titled(title: str, unit: str) -> str:

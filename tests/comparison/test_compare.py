@@ -17,7 +17,7 @@ from reports.cli import main
 from reports.comparison.book import CURVES, DATA, FIGURES, RESULTS, book_bytes
 from reports.comparison.conclusions import conclusions, spread
 from reports.comparison.engines import Row, charts, differences, labels, read_engines, results
-from reports.comparison.page import comparison_page
+from reports.comparison.page import comparison_page, results_block
 from reports.inputs.load import load_text, load_toml
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.resources import samples_dir
@@ -194,6 +194,13 @@ def row(key, *values):
          "Уравновешены силы инерции 1-го порядка: А; у остальных — нет."),
         ([row("F1_before_max", 1e-12, 0.0)],
          "У всех силы инерции 1-го порядка уравновешены самим расположением колен."),
+        ([row("c_m", 0.002, 25.0)],
+         "Наибольшая средняя скорость поршня — Б: 25,00 м/с, в 12 500 раз больше, чем у А."),
+        ([row("V_engine", 0.0363, 40.0)],
+         "Рабочие объёмы разные: от 0,0363 л (А) до 40,00 л (Б); силы и моменты сравниваются с "
+         "этой оговоркой."),
+        ([row("F1_before_max", 0.04, 0.04), row("Rpin_max_kN", 1e2, 2.0)],
+         "Уравновешены силы инерции 1-го порядка: А; у остальных — нет."),
         ([row("F1_before_max", 2.0, 3.0)],
          "Ни у одного двигателя силы инерции 1-го порядка не уравновешены."),
         ([row("L1_before_max", 2.0, 3.0)],
@@ -201,10 +208,17 @@ def row(key, *values):
     ],
 )  # fmt: skip
 def test_a_conclusion_follows_from_the_values(rows, sentence):
-    (found,) = conclusions(("А", "Б"), rows)
+    *_, found = conclusions(("А", "Б"), rows)
     assert found.replace("\u00a0", " ") == sentence
     # No number stands at the end of a line with its unit, percent or "times" on the next.
     assert not re.search(r"\d (%|раза|м/с)", found)
+
+
+def test_each_engine_has_its_own_decimals_and_no_change_is_told_in_millions_of_per_cent():
+    moment = Row("", "M_max", "М", "", quantity("M_max"), (17.26, 881857.0, 16.0), (2, -3, 2))
+    (line,) = results_block(("А", "Б", "В"), [moment]).rows
+    texts = [str(cell).replace("\u00a0", " ") for cell in line[1:]]
+    assert texts == ["17,26", "881 857<br>(× 51 100)", "16,00<br>(−7,3 %)"]
 
 
 def test_nothing_is_concluded_where_an_engine_has_no_value():

@@ -37,12 +37,16 @@ def test_what_is_told_is_what_the_solver_finds_with_a_step_of_a_degree(name, ste
         assert (key in told) == off, key
         if off:
             assert (told[key].coarse, told[key].fine) == (coarse[key], fine[key])
+            angle = f"phi_{key}_deg"
+            moved = fine[angle] if fine.get(angle) != coarse.get(angle) else None
+            assert told[key].moved_deg == moved
 
 
 def test_the_v6_of_the_issue():
     (found,) = (e for e in grid_errors(stepped("yamz-236", 10.0)) if e.key == "M_max")
     assert round(found.coarse) == 2374 and round(found.fine) == 2557
     assert found.percent == pytest.approx(-7.18, abs=0.01)
+    assert found.moved_deg is not None and found.moved_deg % 10
 
 
 def test_a_fine_grid_has_nothing_to_tell():

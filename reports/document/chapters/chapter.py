@@ -18,7 +18,7 @@ from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms, with_unit
 from reports.inputs.checks.grid import GridError
 from reports.inputs.sections.input_file import InputFile
-from reports.shared.russian import NBSP, joined, runs
+from reports.shared.russian import NBSP, fixed, joined, runs
 from reports.spec.blocks import Grid, Model
 from reports.spec.shape import Shape
 
@@ -164,12 +164,17 @@ class Chapter:
                 stretches += links[first : last + 1]
         return Markup(joined(stretches) + place)
 
-    def told(self, name: str, *, symbol: bool = False) -> Markup:
-        """A scalar with its unit and, where the grid is too coarse for it, with the fine value."""
+    def told(self, name: str, *, symbol: bool = False, angle: bool = False) -> Markup:
+        """A scalar with its unit and, where the grid is too coarse for it, with the fine value.
+
+        ``angle`` adds where the fine value is, if that is elsewhere.
+        """
         value = self.terms.eqv(name) if symbol else self.terms.val(name)
         for error in self.terms.grid_errors:
             if error.key == name:
-                return Markup("{} (при шаге 1° — {})").format(value, self.fine(error))
+                where = error.moved_deg if angle else None
+                more = "" if where is None else f" при φ = {fixed(where, 0)}°"
+                return Markup("{} (при шаге 1° — {}{})").format(value, self.fine(error), more)
         return value
 
     def fine(self, error: GridError) -> Markup:

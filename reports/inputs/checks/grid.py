@@ -33,12 +33,16 @@ _KINDS = tuple(
 
 @dataclass(frozen=True, slots=True)
 class GridError:
-    """A result on the grid and with the fine step, in the quantity's unit."""
+    """A result on the grid and with the fine step, in the quantity's unit.
+
+    ``moved_deg`` is the angle of the fine step's extreme where it is another one [deg].
+    """
 
     key: str
     coarse: float
     fine: float
     small: int = 0
+    moved_deg: float | None = None
 
     @property
     def quantity(self) -> Quantity:
@@ -62,12 +66,13 @@ def grid_errors(model: InputFile) -> tuple[GridError, ...]:
     if model.calculation.step_deg <= FINE:
         return ()
     try:
-        coarse, fine = _results(model), _results(refined(model))
+        scalars = solved(model).scalars, solved(refined(model)).scalars
     except (ValueError, InputError):
         return ()
+    coarse, fine = map(_results, scalars)
     small = smallness_of(model)
     found = [
-        GridError(key, value, fine[key], small)
+        GridError(key, value, fine[key], small, _moved(key, *scalars))
         for key, value in coarse.items()
         if _is_off(value, fine[key], max(map(abs, _family(coarse, key))))
     ]
@@ -87,8 +92,12 @@ def fine_columns(model: InputFile) -> Tables:
     return solved(refined(model)).columns
 
 
-def _results(model: InputFile) -> dict[str, float]:
-    scalars = solved(model).scalars
+def _moved(key: str, coarse: Mapping[str, float], fine: Mapping[str, float]) -> float | None:
+    angle = f"phi_{key.removesuffix('_kN')}_deg"
+    return fine[angle] if angle in fine and fine[angle] != coarse[angle] else None
+
+
+def _results(scalars: Mapping[str, float]) -> dict[str, float]:
     return {key: float(value) for key, value in scalars.items() if _rank(key) < len(_KINDS)}
 
 

@@ -184,7 +184,7 @@ def tab_to(page: Any, selector: str) -> None:
     for _ in range(400):
         page.keyboard.press("Tab")
         stop = page.evaluate("""selector => {
-            const e = document.activeElement, held = e.closest(".button") || e;
+            const e = document.activeElement, held = e.closest("[class='<button>']") || e;
             const seen = held.getBoundingClientRect().width > 0 &&
                 [e, held].some(each => getComputedStyle(each).outlineStyle !== "none");
             return [e.matches(selector), seen || e === document.body, e.outerHTML.slice(0, 120)];

@@ -107,14 +107,10 @@ class Classes(Queue):
         return made
 
     def grade(self, each: Class, decision: tuple[str, ...] = ()) -> None:
-        """Begin to grade what was handed in; what was graded before, the command takes over.
-
-        Args:
-            each: the class.
-            decision: who, what, points, remark, if the instructor has decided.
+        """Begin to grade what was handed in, or to decide: who, what, points, remark.
 
         Raises:
-            InputError: nothing was, or something is being done already.
+            InputError: nothing was handed in, or something is being done already.
         """
         name, folder = each.folder.name, each.folder
         if name in self.waiting or name in self.running:

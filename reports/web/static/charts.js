@@ -7,18 +7,16 @@ export const COLOURS = ["#2f7ed8", "#d94a3d", "#2b9348", "#a05fd0", "#b0771b", "
 
 export function between(xs, ys, x) {
   const i = Math.max(1, xs.findIndex(v => v >= x)), share = (x - xs[i - 1]) / (xs[i] - xs[i - 1] || 1);
-  return ys[i - 1] + share * (ys[i] - ys[i - 1]);
+  return ys[i] === null ? null : ys[i - 1] + share * (ys[i] - ys[i - 1]);
 }
 
-const nearest = (xs, x) => xs.reduce((best, v, i) => Math.abs(v - x) < Math.abs(xs[best] - x) ? i : best, 0);
-
-// Curves of a chart, then those of the other engine; each with its place at φ.
+// Curves of a chart, then those of the other engine; each with its value at φ.
 const curvesOf = ({own, other, phi}) => [own, other].filter(Boolean).flatMap((chart, second) =>
   chart.curves.map((curve, i) => ({
     ...curve, data: curve.data ??= curve.x.map((x, k) => ({x, y: curve.y[k]})),
     label: second ? `${curve.name} (второй)` : curve.name, colour: COLOURS[i % 6],
     dash: second ? [2, 4] : DASHES[i % 6], line: second ? "dotted" : i ? "dashed" : "solid",
-    at: chart.x_is_angle && phi >= curve.x[0] && phi <= curve.x.at(-1) ? nearest(curve.x, phi) : null,
+    at: chart.x_is_angle && phi >= curve.x[0] && phi <= curve.x.at(-1) ? between(curve.x, curve.y, phi) : null,
   })));
 
 const around = (low, high, half) => ({min: (low + high) / 2 - half, max: (low + high) / 2 + half});
@@ -35,14 +33,12 @@ function limits({kind, x_is_angle}, curves) { // of the axes: all of φ, or one 
 
 function cursor({canvas, ctx, scales: {x, y}}) { // a line at φ and a point of each curve, or of the path
   const {own: {path}, phi} = canvas.props, here = curvesOf(canvas.props).filter(c => c.at !== null);
-  const dots = here.map(c => [c.x[c.at], c.y[c.at], c.colour]);
+  const dots = here.map(c => [phi, c.at, c.colour]);
   ctx.fillStyle = "#888";
   if (here.length) ctx.fillRect(x.getPixelForValue(phi), y.top, 1, y.height);
-  if (path) {
-    const i = nearest(path.phi, phi > path.phi.at(-1) ? phi % path.phi.at(-1) : phi);
-    dots.push([path.x[i], path.y[i], COLOURS[0]]);
-  }
-  for (const [px, py, colour] of dots) if (py !== null) {
+  const place = key => between(path.phi, path[key], phi % path.phi.at(-1) || phi);
+  if (path) dots.push([place("x"), place("y"), COLOURS[0]]);
+  for (const [px, py, colour] of dots) {
     ctx.fillStyle = colour;
     ctx.beginPath();
     ctx.arc(x.getPixelForValue(px), y.getPixelForValue(py), 4, 0, 7);
@@ -83,6 +79,6 @@ export const figure = props => html`
   <figure key=${props.own.id} id=${`chart-${props.own.id}`}>
     <figcaption>${props.own.title}</figcaption>
     <div class="plot"><canvas ref=${canvas => canvas && draw(canvas, props)} role="img" aria-label=${props.own.title} /></div>
-    <ul class="legend">${curvesOf(props).map(({label, colour, line, at, y}) => html`
-      <li style=${`--ink: ${line} ${colour}`}>${symbol(label)} <output>${at === null ? "" : printed(y[at], 5)}</output></li>`)}</ul>
+    <ul class="legend">${curvesOf(props).map(({label, colour, line, at}) => html`
+      <li style=${`--ink: ${line} ${colour}`}>${symbol(label)} <output>${printed(at, 5)}</output></li>`)}</ul>
   </figure>`;

@@ -29,7 +29,8 @@ async function solve() {
     const {raw, other, sheet, cylinder} = state, put = raw => raw && ask("api/solve", {raw, sheet, cylinder});
     try { localStorage.setItem("kshm", JSON.stringify({raw, other})); } catch { /* private window */ }
     const [last, second] = await Promise.all([put(raw), put(other)]);
-    set(last.errors ? {wrong: last.errors} : {wrong: [], warnings: last.warnings, last, second});
+    const phi = last.errors ? 0 : Math.min(state.phi, last.moves.phi.at(-1)); // of a cycle that may be shorter
+    set(last.errors ? {wrong: last.errors} : {wrong: [], warnings: last.warnings, last, second, phi});
   }
   set({running: false});
   clearTimeout(later);

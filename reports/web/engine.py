@@ -92,7 +92,7 @@ def fresh(wanted: Mapping[str, Any]) -> Data:
     Raises:
         KshmError: there is no such engine.
     """
-    options = [f"--{key}={wanted[key]}" for key in _OPTIONS if wanted.get(key)]
+    options = [f"--{key}={wanted[key]}".replace(",", ".") for key in _OPTIONS if wanted.get(key)]
     if "sample" in wanted:
         options = [f"--sample={wanted['sample']}"]
     else:

@@ -121,5 +121,7 @@ def figures() -> Iterator[Figure]:
     yield Figure("книг", float(len(files)), "")
     yield Figure("ждали книгу, медиана", median(files), "с")
     yield Figure("ждали книгу, дольше всех", files[-1], "с")
+    each = sorted(median(found) for found in seen.files.values() if found)
+    yield Figure("ждали книгу, медиана самого терпеливого", each[-1], "с")
     yield Figure("память в первой половине, наибольшая", max(early), "МБ")
     yield Figure("память во второй половине, наибольшая", max(late), "МБ")

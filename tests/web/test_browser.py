@@ -220,6 +220,9 @@ def test_an_own_engine_by_the_keyboard_alone_to_workbook_and_pdf(
     page.wait_for_selector("#chart-fig46 output")
     tab_to(page, ".skip")
     tab_to(page, "#cylinders")
+    typed(page, "5")
+    page.evaluate("turn(10)")  # what is typed stays, whatever is drawn anew
+    assert page.input_value("#cylinders") == "5"
     typed(page, "4")
     page.keyboard.press("Enter")  # the form's own button
     until(page, "kshm.raw?.engine.cylinders === 4 && kshm.last?.moves.throws.length === 4")

@@ -120,7 +120,7 @@ const ownForm = choices => html`
     ${pick("Образец", "sample", choices.samples.map(name => [name, name]), "gots-diesel")}
     <button>Открыть</button></form>
   <form onSubmit=${compose}>
-    <label>Цилиндров <input id="cylinders" name="cylinders" type="number" min="1" max="12" value="4" required /></label>
+    <label>Цилиндров <input id="cylinders" name="cylinders" type="number" min="1" max="12" defaultValue="4" required /></label>
     ${pick("Расположение", "layout", entries(choices.layouts))}
     ${pick("Тактность", "strokes", entries(choices.strokes), "4")}
     ${pick("Вид", "kind", entries(choices.kinds))}
@@ -168,8 +168,8 @@ const scene = ({moves}) => html`
     </div>
   </div>`;
 
-const job = ({id, title, state: now, place, seconds, files = [], lines, errors}) => html`<li>${title}:
-  ${now === "waiting" && ` в очереди, перед вами ${place}`}${now === "running" && ` делается, ${seconds} с`}
+const job = ({id, title, state: now, place, seconds, files = [], lines, errors}) => html`<li>${`${title}: `}
+  ${now === "waiting" && `в очереди, перед вами ${place}`}${now === "running" && `делается, ${seconds} с`}
   ${files.map(({name, size}) => html`
     <a href=${`api/files/${id}/${encodeURIComponent(name)}`} download=${name}>${name}</a>
     ${` (${printed(size / 1e6, 2)} МБ) `}`)}

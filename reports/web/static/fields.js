@@ -36,7 +36,7 @@ export function section({title, key, path, entries, blank, drawing, whole}, edit
   return html`
     <details key=${key} data-key=${key} open=${wanted || isWrong || state.open.has(key)}
       hidden=${wanted && !all.some(found)}
-      onToggle=${e => state.open[e.target.open ? "add" : "delete"](key)}>
+      onToggle=${e => wanted || state.open[e.target.open ? "add" : "delete"](key)}>
       <summary>${title}</summary>${allSaid(key)}
       ${drawing && html`<img src=${`images/${drawing}.svg`} alt=${`${title}: что есть что`} loading="lazy" />`}
       ${entries.map((entry, i) => !path ? fields(entry) : html`<fieldset>

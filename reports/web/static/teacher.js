@@ -112,7 +112,7 @@ const issuing = () => html`
       ${asked("Двигатель с [variants], .toml", "base.toml", {type: "file", accept: ".toml", required: true})}
       ${asked("Список группы, .csv", "roster.csv", {type: "file", accept: ".csv,.txt", required: true})}
       ${asked("Рубрика, .toml (можно без неё)", "rubric.toml", {type: "file", accept: ".toml"})}
-      ${asked("Зерно", "seed", {type: "number", value: 1, required: true})}
+      ${asked("Зерно", "seed", {type: "number", defaultValue: 1, required: true})}
       <button>Выдать</button>
     </form></details>`;
 

@@ -69,7 +69,7 @@ const gradebook = own => table("Ведомость", own.rows.map(each => {
   const shown = each.points === null && points !== null ? `(${printed(points)})` : printed(points);
   return row([[judged ? link(each.page, each.student, {target: "_blank"}) : each.student], [each.status],
     [shown, "n"], [each.remark], [judged && decision(each)]],
-  {key: each.number ?? each.student, class: each.manual ? "odd" : ""});
+  {key: each.number ?? each.student, class: each.manual ? "odd warn color" : ""});
 }), html`<thead><tr>${["Студент", "Состояние", "Баллы", "Примечание", "Решение"].map(title =>
   html`<th scope="col">${title}</th>`)}</tr></thead>`);
 

@@ -102,6 +102,14 @@ def test_every_chart_has_room_for_all_that_it_draws(page: Any) -> None:
     settle(page)
 
 
+def test_charts_are_as_wide_as_their_places_whichever_way_a_window_changes(page: Any) -> None:
+    gaps = """[...document.querySelectorAll("#charts canvas")]
+        .map(canvas => Math.abs(canvas.clientWidth - canvas.parentElement.clientWidth))"""
+    for width in (390, 1280):
+        page.set_viewport_size({"width": width, "height": 900})
+        until(page, f"{gaps}.every(gap => gap < 2) && {gaps}.length > 1")
+
+
 def test_every_fields_error_is_shown_at_the_field(page: Any) -> None:
     silent = page.evaluate(r"""async () => {
         const silent = [];

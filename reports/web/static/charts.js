@@ -58,7 +58,7 @@ function draw(canvas, props) {
     ticks: {color, stepSize, maxTicksLimit: 8, includeBounds: false, callback: v => printed(v)},
   });
   const options = {
-    animation: false, locale: "ru", aspectRatio: plain ? 1.6 : 1,
+    animation: false, locale: "ru", maintainAspectRatio: false,
     interaction: {mode: "nearest", axis: own.x_is_angle ? "x" : "xy", intersect: false},
     elements: {point: {radius: 0, hitRadius: 8}, line: {borderWidth: 2}},
     plugins: {legend: {display: false}},
@@ -78,7 +78,8 @@ function draw(canvas, props) {
 export const figure = props => html`
   <figure key=${props.own.id} id=${`chart-${props.own.id}`}>
     <figcaption>${props.own.title}</figcaption>
-    <div class="plot"><canvas ref=${canvas => canvas && draw(canvas, props)} role="img" aria-label=${props.own.title} /></div>
+    <div class="plot" style=${`aspect-ratio: ${props.own.kind === "line" ? 1.6 : 1}`}>
+      <canvas ref=${canvas => canvas && draw(canvas, props)} role="img" aria-label=${props.own.title} /></div>
     <ul class="legend">${curvesOf(props).map(({label, colour, line, at}) => html`
       <li style=${`--ink: ${line} ${colour}`}>${symbol(label)} <output>${printed(at, 5)}</output></li>`)}</ul>
   </figure>`;

@@ -45,31 +45,17 @@ if TYPE_CHECKING:
 @click.option("--power", "power_kw", type=float, metavar="кВт", help="Эффективная мощность, кВт.")
 @click.option("--speed", "speed_rpm", type=float, metavar="МИН⁻¹", help="Частота вращения, мин⁻¹.")
 @verbose_option
-def new(
-    output: Path | None, sample: str | None, base: Path | None, cylinders: int | None,
-    layout: str | None, strokes: str | None, kind: str | None, power_kw: float | None,
-    speed_rpm: float | None, verbose: bool,
-) -> int:  # fmt: skip
+def new(output: Path | None, base: Path | None, verbose: bool, **wanted: Any) -> int:  # noqa: ANN401
     """Дать файл исходных данных с пояснениями.
 
     С ключом --cylinders — свой двигатель из обычных значений, вместе с --from — вариант
     данного двигателя с другим числом цилиндров.
     """
-    from reports.commands.own import own_text
-    from reports.inputs.template import new_file
+    from reports.commands.own import new_text
     from reports.shared.files import write_text
 
-    wanted = {
-        "--layout": layout, "--strokes": strokes, "--kind": kind,
-        "--power": power_kw, "--speed": speed_rpm,
-    }  # fmt: skip
-    if cylinders is None and base is None:
-        extra = [key for key, value in wanted.items() if value is not None]
-        if extra:
-            raise KshmError(f"{extra[0]}: ключ для своего двигателя; добавьте --cylinders")
-        text = new_file(sample)
-    else:
-        text = own_text(sample, base, cylinders, wanted)
+    given = None if base is None else (str(base), lambda: load(base).model)
+    text = new_text(given, **wanted)
     if output is None:
         click.echo(text, nl=False)
         return DONE

@@ -3,63 +3,74 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from pathlib import Path
-from typing import Any
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
 
 from reports.shared.errors import KshmError
 
+if TYPE_CHECKING:
+    from reports.inputs.sections.input_file import InputFile
 
-def own_text(
-    sample: str | None, base: Path | None, cylinders: int | None, wanted: Mapping[str, Any]
+Base = tuple[str, Callable[[], "InputFile"]]
+
+
+def new_text(
+    base: Base | None,
+    *,
+    sample: str | None,
+    cylinders: int | None,
+    **wanted: Any,  # noqa: ANN401
 ) -> str:
-    """The file of an own engine, or of an alternative to that of ``base``.
+    """The file of a sample, of an own engine, or of an alternative to ``base``.
 
     Args:
+        base: Name of the engine of --from, and what reads it.
         sample: Value of --sample, which does not go with the other two.
-        base: Value of --from.
         cylinders: Value of --cylinders.
-        wanted: Values of --layout, --strokes, --kind, --power and --speed; None is not given.
+        wanted: ``layout``, ``strokes``, ``kind``, ``power_kw``, ``speed_rpm``; None is not given.
 
     Raises:
         KshmError: the options do not go together, or there is no such engine.
     """
+    if cylinders is None and base is None:
+        extra = [key for key, value in wanted.items() if value is not None]
+        if extra:
+            raise KshmError(f"{_option(extra[0])}: ключ для своего двигателя; добавьте --cylinders")
+        from reports.inputs.template import new_file
+
+        return new_file(sample)
     if sample is not None:
         other = "--from" if base is not None else "--cylinders"
         raise KshmError(f"--sample и {other} вместе не нужны; оставьте один из ключей")
     if cylinders is None:
         raise KshmError("--from: не указано число цилиндров варианта; добавьте --cylinders")
-    for key in ("--power", "--speed"):
+    for key in ("power_kw", "speed_rpm"):
         value = wanted[key]
         if value is not None and not (math.isfinite(value) and value > 0):
-            raise KshmError(f"{key}: значение должно быть больше нуля")
+            raise KshmError(f"{_option(key)}: значение должно быть больше нуля")
     if base is not None:
         return _alternative(base, cylinders, wanted)
     from reports.inputs.own_engine import own_engine
     from reports.inputs.own_file import file_text
 
-    made = own_engine(
-        cylinders,
-        layout=wanted["--layout"] or "inline",
-        strokes=int(wanted["--strokes"] or 4),
-        kind=wanted["--kind"] or "petrol",
-        power_kw=wanted["--power"],
-        speed_rpm=wanted["--speed"],
-    )
-    return file_text(made)
+    given = {key: value for key, value in wanted.items() if value is not None}
+    return file_text(own_engine(cylinders, **{**given, "strokes": int(wanted["strokes"] or 4)}))
 
 
-def _alternative(base: Path, cylinders: int, wanted: Mapping[str, Any]) -> str:
-    from reports.commands.common import load
+def _option(key: str) -> str:
+    return "--" + key.partition("_")[0]
+
+
+def _alternative(base: Base, cylinders: int, wanted: Mapping[str, Any]) -> str:
     from reports.inputs.own_file import file_text
     from reports.inputs.own_similar import alternative
     from reports.shared.russian import comma
 
-    for key in ("--strokes", "--kind"):
+    for key in ("strokes", "kind"):
         if wanted[key] is not None:
-            raise KshmError(f"{key}: у варианта они те же, что в {base}; уберите ключ")
-    model = load(base).model
-    speed, power, ratio, cause = wanted["--speed"], wanted["--power"], 1.0, ""
+            raise KshmError(f"{_option(key)}: у варианта они те же, что в {base[0]}; уберите ключ")
+    model = base[1]()
+    speed, power, ratio, cause = wanted["speed_rpm"], wanted["power_kw"], 1.0, ""
     if power is not None:
         old = _power_kw(model)
         faster = 1.0 if speed is None else speed / model.regime.speed_rpm
@@ -69,7 +80,7 @@ def _alternative(base: Path, cylinders: int, wanted: Mapping[str, Any]) -> str:
         alternative(
             model,
             cylinders,
-            layout=wanted["--layout"],
+            layout=wanted["layout"],
             speed_rpm=speed,
             displacement=ratio,
             cause=cause,

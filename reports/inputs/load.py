@@ -33,6 +33,7 @@ from reports.inputs.sections.input_file import (
     RegimeSection,
     RegimeValues,
 )
+from reports.inputs.sections.report import FILE_KEYS
 from reports.inputs.source import read_text, refuse_bomb, refused
 from reports.inputs.to_si.geometry import sizes_of
 from reports.inputs.understood import understood
@@ -86,7 +87,7 @@ def load_text(text: str, *, source: str, folder: FilePath | None = None) -> Load
         problems = read_ranges(section, raw, source)[1]
         if problems:
             raise InputError(problems)
-    raw = understood(raw)
+    raw = understood(raw, source)
     home = folder or FilePath()
     loaded = load_mapping(with_points(raw, home, source), source=source)
     return replace(loaded, beside=tuple(home / name for name in files_of(raw)))
@@ -125,7 +126,7 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
         InputError: With everything that is wrong.
     """
     reader = _Reader(source, locate)
-    data = understood(raw)
+    data = understood(raw, source)
     regimes = data.pop("regimes", ())
     if locate is not None:
         data = reader.from_cells(data)
@@ -155,6 +156,20 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
     odd = check_plausibility(model, sizes_of(model, found))
     reader.take(finding for finding in odd if key_text(finding.path) not in known)
     return reader.loaded(model)
+
+
+def load_apart(raw: Mapping[str, Any]) -> Loaded:
+    """As `load_mapping`, of a person elsewhere: problems are named by their keys alone.
+
+    Raises:
+        InputError: With everything that is wrong, or that names files of this machine.
+    """
+    loaded = load_mapping(raw, source="")
+    named = [key for key in FILE_KEYS if getattr(loaded.model.report, key)]
+    if named:
+        what, hint = "файлов с диска здесь не читают", "уберите ключ; команде kshm он доступен"
+        raise InputError([Problem(f"report.{key}", what, hint) for key in named])
+    return loaded
 
 
 class _Reader:

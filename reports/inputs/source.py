@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from reports.shared import files
 from reports.shared.errors import InputError, Problem, one_line
@@ -11,6 +13,7 @@ from reports.shared.errors import InputError, Problem, one_line
 MAX_BYTES = 2_000_000
 MAX_LINES = 20_000
 MAX_DOTS = 40
+MAX_ENTRIES = 10_000  # of a list: longer ones only hold a process up
 _DECIMAL = re.compile(r"(?<![\w.])\d+\.\d+(?:[eE][-+]?\d+)?(?![\w.])")
 
 
@@ -73,6 +76,18 @@ def refuse_bomb(source: str, text: str) -> None:
         if _DECIMAL.sub("", line).count(".") > MAX_DOTS:
             what = f"строка {row}: слишком длинный составной ключ"
             raise refused(source, what, "ключ состоит из одного слова")
+
+
+def refuse_endless(source: str, raw: Mapping[str, Any]) -> None:
+    """Refuse what is no mapping, or has a list so long that to count it holds all up."""
+    if not isinstance(raw, dict):
+        raise refused(source, "нет исходных данных", "откройте файл двигателя")
+    for name, part in raw.items():
+        for key, value in part.items() if isinstance(part, dict) else [("", part)]:
+            if isinstance(value, list | tuple) and len(value) > MAX_ENTRIES:
+                place = ": ".join(filter(None, (source, f"{name}.{key}".rstrip("."))))
+                what = f"в списке {len(value)} строк"
+                raise refused(place, what, f"допустимо не больше {MAX_ENTRIES}")
 
 
 def refused(source: str, what: str, hint: str) -> InputError:

@@ -14,6 +14,7 @@ from reports.inputs.meta import Meta, Strictly, find_meta, hints, leaf_types, su
 from reports.inputs.registry import SECTIONS
 from reports.inputs.sections.gas import SOURCES
 from reports.inputs.sections.input_file import RegimeValues
+from reports.inputs.source import refuse_endless
 
 _SOURCE = Meta("", choices={**SOURCES, "file": "из файла"})
 _NUMBER = re.compile(r"[-+−]?(\d+|\d{1,3}([ \u00a0\u202f]\d{3})+)([.,]\d+)?([eE][-+]?\d+)?")
@@ -36,8 +37,13 @@ _ONE_WORD = {  # besides the labels of the choices
 }
 
 
-def understood(data: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the mapping of a file with its values in the types of their keys."""
+def understood(data: Mapping[str, Any], source: str = "") -> dict[str, Any]:
+    """Return the mapping of a file with its values in the types of their keys.
+
+    Raises:
+        InputError: It is none, or has a list without end; `source` names it.
+    """
+    refuse_endless(source, data)
     result = {name: _section(name, part) for name, part in data.items()}
     regimes = result.get("regimes")
     if isinstance(regimes, list | tuple):

@@ -5,14 +5,17 @@ from __future__ import annotations
 import atexit
 import contextlib
 import errno
+import json
 import os
 import secrets
 import shutil
 import signal
 import stat
-from collections.abc import Iterable, Iterator
+import zipfile
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from reports.shared.errors import OutputError, Problem
 from reports.shared.interrupt import check, held
@@ -50,6 +53,30 @@ def write_bytes(path: Path, data: bytes) -> None:
     """
     with atomic_path(path) as temporary, _reported(path):
         temporary.write_bytes(data)
+
+
+def write_json(path: Path, data: Mapping[str, Any]) -> None:
+    """Write plain data atomically; raises as `write_text`."""
+    write_text(path, json.dumps(data, ensure_ascii=False))
+
+
+def read_json(path: Path) -> dict[str, Any]:
+    """Return what a file of `write_json` says, nothing if it is not there or damaged."""
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return found if isinstance(found, dict) else {}
+
+
+def write_zip(path: Path, files: Mapping[str, Path], more: Path | None = None) -> None:
+    """Pack files by their names atomically, after what the archive ``more`` holds."""
+    with atomic_path(path) as temporary:
+        if more is not None and more.exists():
+            shutil.copyfile(more, temporary)
+        with zipfile.ZipFile(temporary, "a", zipfile.ZIP_DEFLATED) as archive:
+            for name, file in files.items():
+                archive.write(file, name)
 
 
 @contextmanager

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from reports.inputs.fields import iter_fields
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+from reports.inputs.fields import Value, iter_fields, tables_shape
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import smallness_of
 from reports.spec.blocks import Model
@@ -79,6 +82,25 @@ def build_model(model: InputFile, remarks: tuple[str, ...] = ()) -> Model:
     note = left_out_note(model)
     remarks = (*remarks, *accepted_checks(model, blocks), *((note,) if note else ()))
     return Model(model, tuple(iter_fields(model)), blocks, charts, remarks)
+
+
+@dataclass(frozen=True)
+class _Like:
+    """An input, the same as any other whose tables are the same."""
+
+    shape: tuple[tuple[str, Value | None], ...]
+    model: InputFile = field(compare=False)
+
+
+@lru_cache(maxsize=24)
+def _built_once(like: _Like) -> Model:
+    return build_model(like.model)
+
+
+def kept_model(model: InputFile) -> Model:
+    """As `build_model`; of inputs of one shape the tables are made once and kept."""
+    fields = tuple(iter_fields(model))
+    return _built_once(_Like(tables_shape(fields), model)).with_inputs(model, fields)
 
 
 def stand_ins(model: InputFile) -> dict[str, str]:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from string import Template
 from typing import Any
+from urllib.parse import urlsplit
 
 from starlette.applications import Starlette
 from starlette.exceptions import HTTPException
@@ -31,7 +32,7 @@ from reports.shared.files import make_dir
 from reports.shared.resources import resource_dir
 from reports.web import engine, files, teacher
 from reports.web.classes import Classes
-from reports.web.doors import MOST_BOOK, Door, body, good, route, uploaded
+from reports.web.doors import MOST_BOOK, Door, body, route, uploaded
 from reports.web.guard import Guard, Rate, refusal
 from reports.web.jobs import Jobs
 from reports.web.pool import Busy, Pool
@@ -39,31 +40,20 @@ from reports.web.pool import Busy, Pool
 STATIC = Path(__file__).parent / "static"
 BOOK_S = 60.0
 SESSION_S = 12 * 3600
+_OWN_NAMES = ("127.0.0.1", "localhost", "::1")
 
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """How the page is served.
+    """How the page is served."""
 
-    Attributes:
-        data: folder of all that is kept.
-        hosts: names under which it is known, besides this machine's own.
-        prefix: path under which a proxy shows it.
-        secure: it is known by https: cookies go no other way.
-        dask: address of a cluster that builds the files.
-        per_s: requests a second of one address: a class may stand behind one.
-        workers: processes that solve; None takes the processors.
-        body_s: seconds that the body of a form may take.
-    """
-
-    data: Path
-    hosts: tuple[str, ...] = ()
-    prefix: str = ""
-    secure: bool = False
-    dask: str | None = None
-    per_s: float = 200.0
-    workers: int | None = None
-    body_s: float = 30.0
+    data: Path  # folder of all that is kept
+    hosts: tuple[str, ...] = ()  # names under which it is known, besides this machine's own
+    public: str = ""  # where a proxy shows it; by https cookies go no other way
+    dask: str | None = None  # address of a cluster that builds the files
+    per_s: float = 200.0  # requests a second of one address: a class may stand behind one
+    workers: int | None = None  # processes that solve; None takes the processors
+    body_s: float = 30.0  # seconds that the body of a form may take
 
 
 def page(name: str, root: str = ".") -> Door:
@@ -83,7 +73,10 @@ def asked(function: Callable[..., Data], *keys: str) -> Door:
     async def answer(request: Request) -> Data:
         data = await body(request)
         values = [data.get(key) for key in keys] or [data]
-        found: Data = await request.app.state.pool.ask(function, *values)
+        try:
+            found: Data = await request.app.state.pool.ask(function, *values)
+        except KshmError as error:  # usual while one types
+            return {"errors": engine.told(error)}
         return found
 
     return answer
@@ -92,14 +85,15 @@ def asked(function: Callable[..., Data], *keys: str) -> Door:
 async def choices(_: Request) -> Data:
     """What may be chosen before there is an engine."""
     return {"samples": list_samples(), "layouts": LAYOUTS, "strokes": STROKES, "kinds": KINDS,
-            "files": files.kinds()}  # fmt: skip
+            "files": files.KINDS}  # fmt: skip
 
 
 async def book(request: Request) -> Data:
     """The input that an edited workbook holds, read by a solving process."""
-    ask = request.app.state.pool.ask
     async with uploaded(request, MOST_BOOK) as path:
-        return good(await ask(engine.read_book, str(path), seconds=BOOK_S))
+        ask = request.app.state.pool.ask
+        found: Data = await ask(engine.read_book, str(path), seconds=BOOK_S)
+        return found
 
 
 def server_secret(folder: Path) -> bytes:
@@ -126,15 +120,6 @@ def create_app(settings: Settings) -> Guard:
             await jobs.stop()
             pool.stop()
 
-    questions = {
-        "new": asked(engine.fresh),
-        "read": asked(engine.read_toml, "text"),
-        "start": asked(engine.start, "raw"),
-        "solve": asked(engine.answer, "raw", "sheet", "cylinder"),
-        "checks": asked(engine.checks, "raw"),
-        "toml": asked(engine.as_toml, "raw"),
-        "book": book,
-    }
     routes = [
         route("/", page("engine")),
         route("/teacher", page("teacher")),
@@ -142,24 +127,34 @@ def create_app(settings: Settings) -> Guard:
         Mount("/static", StaticFiles(directory=STATIC)),
         Mount("/images", StaticFiles(directory=resource_dir("docs/images"))),
         route("/api/choices", choices),
-        *(route(f"/api/{name}", door, "POST") for name, door in questions.items()),
+        route("/api/new", asked(engine.fresh), "POST"),
+        route("/api/read", asked(engine.read_toml, "text"), "POST"),
+        route("/api/start", asked(engine.start, "raw"), "POST"),
+        route("/api/solve", asked(engine.answer, "raw", "sheet", "cylinder"), "POST"),
+        route("/api/checks", asked(engine.checks, "raw"), "POST"),
+        route("/api/toml", asked(engine.as_toml, "raw"), "POST"),
+        route("/api/book", book, "POST"),
         *files.routes(jobs, settings.dask),
         *teacher.routes(classes, secret),
         *teacher.student_routes(classes),
     ]
+    public = urlsplit(settings.public)
     session = Middleware(
         SessionMiddleware, secret.hex(), "kshm", SESSION_S, same_site="lax",
-        https_only=settings.secure,
+        https_only=public.scheme == "https",
     )  # fmt: skip
     small = Middleware(GZipMiddleware, minimum_size=1000)
     errors: Any = dict.fromkeys((KshmError, Busy, HTTPException, 500), failed)
+    prefixed = [Mount(public.path.rstrip("/"), routes=routes)] if public.path.strip("/") else []
     app = Starlette(
-        routes=routes, lifespan=lifespan, exception_handlers=errors, middleware=[small, session]
-    )
+        routes=[*prefixed, *routes], lifespan=lifespan, exception_handlers=errors,
+        middleware=[small, session],
+    )  # fmt: skip
     app.state.pool, app.state.settings = pool, settings
     app.state.jobs, app.state.classes = jobs, classes
-    hosts = frozenset({"127.0.0.1", "localhost", "::1", *map(str.lower, settings.hosts)})
-    return Guard(app, hosts, settings.prefix, Rate(settings.per_s, 2 * settings.per_s))
+    hosts = frozenset({*_OWN_NAMES, *map(str.lower, settings.hosts), public.hostname or ""} - {""})
+    origin = f"{public.scheme}://{public.netloc}" if public.netloc else ""
+    return Guard(app, hosts, origin, Rate(10 * settings.per_s, 10))
 
 
 async def failed(_: Request, error: Exception) -> Response:

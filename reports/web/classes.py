@@ -6,9 +6,7 @@ A class is a folder with an unguessable name, and a job of its own queue.
 from __future__ import annotations
 
 import secrets
-import shutil
-import zipfile
-from collections.abc import Iterable
+from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -17,14 +15,13 @@ from typing import Any
 from itsdangerous import BadData, URLSafeSerializer
 from starlette.exceptions import HTTPException
 
-from reports.grading.issuing.register import Issued, load_register
+from reports.grading.batch.grade import PAGES
+from reports.grading.issuing.register import FILE, Issued, load_register
 from reports.shared.errors import InputError, Problem, one_line
-from reports.shared.files import atomic_path, make_dir, write_text
-from reports.web.jobs import Queue, read_json, write_json
+from reports.shared.files import make_dir, read_json, write_json, write_text, write_zip
+from reports.web.jobs import Queue
 
 GRADE_S = 3600.0
-RESULTS = ("gradebook.xlsx", "gradebook.csv", "moodle.csv", "moodle-worksheet.csv",
-           "moodle-feedback.zip", "summary.html")  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,65 +39,40 @@ class Class:
     def books(self) -> tuple[Issued, ...]:
         """The books, once they are issued."""
         path = self.folder / "issued"
-        return load_register(path).books if (path / "register.json").exists() else ()
-
-    @property
-    def results(self) -> Path:
-        """The folder of all that grading has made."""
-        return self.folder / "results"
+        return load_register(path).books if (path / FILE).exists() else ()
 
     @property
     def rows(self) -> list[dict[str, Any]]:
         """Rows of the gradebook, once there are any."""
-        found: list[dict[str, Any]] = read_json(self.results / "summary.json").get("rows", [])
-        return found
-
-    def row(self, number: int) -> dict[str, Any]:
-        """The row of a student, empty before the work is graded."""
-        return next((row for row in self.rows if row["number"] == number), {})
-
-    def page(self, number: int) -> Path | None:
-        """The page of a student's work: one that the gradebook names itself."""
-        name = self.row(number).get("page")
-        return self.results / name if name else None
+        return list(read_json(self.folder / "results/summary.json").get("rows", ()))
 
     def issued(self, book: Issued) -> Path:
         """A student's work-book."""
         return self.folder / "issued" / book.folder / book.file
 
-    def issued_zip(self) -> Path:
-        """All work-books that were issued, each in its folder."""
-        target = self.folder / "issued.zip"
-        if not target.exists() and (books := self.books):
-            _pack(target, ((self.issued(each), f"{each.folder}/{each.file}") for each in books))
-        return target
-
     def work(self, book: Issued) -> Path:
         """Where a student's own upload lies."""
         return self.folder / "works" / f"{book.folder}.xlsx"
 
-    def keep_open(self, is_open: bool) -> None:
-        """Say whether students see their own pages."""
-        write_json(self.folder / "about.json", {**self.about, "open": is_open})
+    def files(self) -> dict[str, Path]:
+        """All that an instructor may take or look at by its name: what grading has made."""
+        results = self.folder / "results"
+        found = (*results.glob("[!.]*.*"), *results.glob(f"{PAGES}/*.html"))
+        return {path.relative_to(results).as_posix(): path for path in found
+                if path.suffix != ".json"}  # fmt: skip
 
-
-def _pack(target: Path, files: Iterable[tuple[Path, str]], base: Path | None = None) -> None:
-    """Pack files by name, added to those of another archive."""
-    with atomic_path(target) as part:
-        if base is not None and base.exists():
-            shutil.copyfile(base, part)
-        with zipfile.ZipFile(part, "a", zipfile.ZIP_DEFLATED) as archive:
-            for path, name in files:
-                archive.write(path, name)
+    def issued_zip(self) -> Path:
+        """All work-books that were issued, each in its folder."""
+        target = self.folder / "issued.zip"
+        if not target.exists() and (books := self.books):
+            write_zip(target, {f"{each.folder}/{each.file}": self.issued(each) for each in books})
+        return target
 
 
 class Classes(Queue):
     """All classes of a server; grading takes all processors by itself, so one at a time.
 
-    Args:
-        folder: where they lie.
-        secret: what makes students' links unguessable.
-        dask: address of a cluster that grades.
+    ``secret`` makes students' links unguessable, a cluster at ``dask`` grades.
     """
 
     def __init__(self, folder: Path, secret: bytes, dask: str | None) -> None:
@@ -113,67 +85,55 @@ class Classes(Queue):
         return sorted(found, key=lambda each: str(each.about.get("date")), reverse=True)
 
     def find(self, name: str) -> Class:
-        """A class by the name of its folder.
-
-        Raises:
-            HTTPException: there is none.
-        """
+        """A class by the name of its folder; HTTPException if there is none."""
         for path in self.folder.glob("*/about.json"):  # never a path from the name
             if path.parent.name == name:
                 return Class(path.parent)
         raise HTTPException(404, "нет такой группы")
 
-    def issue(self, seed: int, title: str, base: str, roster: str, rubric: str) -> Class:
-        """A new class, its books being issued."""
+    def issue(self, seed: int, title: str, files: Mapping[str, str]) -> Class:
+        """A new class, its books being issued out of base, roster and rubric."""
         made = Class(self.folder / secrets.token_hex(8))
         make_dir(made.folder / "works")
-        for file, text in (("base.toml", base), ("roster.csv", roster), ("rubric.toml", rubric)):
-            if text.strip():
-                write_text(made.folder / file, text)
-        more = ["--rubric", "rubric.toml"] if rubric.strip() else []
+        for file, text in files.items():
+            write_text(made.folder / file, text)
         date = datetime.now().isoformat(timespec="seconds")
         about = {"title": one_line(title, 120) or "Группа", "open": False, "date": date}
         write_json(made.folder / "about.json", about)
+        more = ["--rubric", "rubric.toml"] if "rubric.toml" in files else []
         command = ["issue", "base.toml", "--roster", "roster.csv", "-o", "issued",
                    "--seed", str(seed), "--secret", "secret.key", *more]  # fmt: skip
         self.put(made.folder.name, command)
         return made
 
     def grade(self, each: Class, decision: tuple[str, ...] = ()) -> None:
-        """Begin to grade what was handed in; what was graded before, the command takes over.
-
-        Args:
-            each: the class.
-            decision: who, what, points, remark, if the instructor has decided.
+        """Begin to grade what was handed in, or to decide: who, what, points, remark.
 
         Raises:
-            InputError: nothing was, or something is being done already.
+            InputError: nothing was handed in, or something is being done already.
         """
         name, folder = each.folder.name, each.folder
         if name in self.waiting or name in self.running:
             raise InputError(Problem("", "группа занята", "дождитесь окончания"))
-        works = sorted((folder / "works").glob("*.xlsx"))
-        if not works and not (folder / "moodle.zip").exists():
+        own, archive = sorted((folder / "works").glob("*.xlsx")), folder / "moodle.zip"
+        if not own and not archive.exists():
             raise InputError(Problem("", "нет ни одной работы", "загрузите архив"))
-        if not decision:
-            own = ((path, f"страница/{path.name}") for path in works)
-            _pack(folder / "submitted.zip", own, folder / "moodle.zip")
-        word = ["--decide", *decision, "--author", "преподаватель"] if decision else []
-        worksheet = ["--moodle", "worksheet.csv"] if (folder / "worksheet.csv").exists() else []
-        far = ["--dask", self.dask] if self.dask else []
         command = ["grade", "issued", "submitted.zip", "-o", "results", "--secret", "secret.key"]
-        self.put(name, [*command, *worksheet, *far, *word])
+        if decision:
+            command += ["--decide", *decision, "--author", "преподаватель"]
+        else:
+            works = {f"страница/{path.name}": path for path in own}
+            write_zip(folder / "submitted.zip", works, archive)
+        if (folder / "worksheet.csv").exists():
+            command += ["--moodle", "worksheet.csv"]
+        self.put(name, command + (["--dask", self.dask] if self.dask else []))
 
-    def link(self, each: Class, number: int) -> str:
+    def link(self, each: Class, book: Issued) -> str:
         """The word of a student's own page."""
-        return str(self.signer.dumps([each.folder.name, number]))
+        return str(self.signer.dumps([each.folder.name, book.number]))
 
     def student(self, link: str) -> tuple[Class, Issued]:
-        """The class and the issued book that a link belongs to.
-
-        Raises:
-            HTTPException: there are none.
-        """
+        """The class and the issued book that a link belongs to; HTTPException if to none."""
         try:
             name, number = self.signer.loads(link)
             each = self.find(name)

@@ -46,10 +46,8 @@ def serve(port: int, host: str, folder: Path, public: str, dask: str | None, ver
         make_dir(folder)
         folder.chmod(0o700)
     wide = host in ("0.0.0.0", "::")
-    own = (socket.gethostname().lower(), "*") if wide else (host,)
-    hosts = tuple(name for name in (*own, address.hostname) if name)
-    prefix = address.path.rstrip("/")
-    app = create_app(Settings(folder.resolve(), hosts, prefix, address.scheme == "https", dask))
+    hosts = (socket.gethostname(), "*") if wide else (host,)
+    app = create_app(Settings(folder.resolve(), hosts, public, dask))
     shown = public.rstrip("/") or f"http://{'127.0.0.1' if host == '0.0.0.0' else host}:{port}"
     click.echo(f"Страница: {shown}/")
     click.echo(f"Преподавателю: {shown}/teacher#{token_of(server_secret(folder))}")

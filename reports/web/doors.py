@@ -19,22 +19,21 @@ from starlette.routing import Route
 from reports.inputs.described import Data
 from reports.shared.errors import InputError, Problem
 
-Door = Callable[[Request], Awaitable[Response | Data]]
+Door = Callable[[Request], Awaitable[Response | Data | None]]
 MOST_JSON, MOST_BOOK, MOST_ARCHIVE = 2_000_000, 30 * 2**20, 100_000_000
 FILE_S = 300.0  # for an uploaded file
-_WORK_POLICY = (
-    "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:; font-src data:"
-)
+# A page about a work may hold a student's words: nothing in a file that is shown may act.
+_SANDBOX = "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:; font-src data:"
 
 
-def route(path: str, door: Door, *methods: str) -> Route:
-    """A door at a path, GET where nothing is said, its plain data as JSON."""
+def route(path: str, door: Door, method: str = "GET") -> Route:
+    """A door at a path, its plain data as JSON."""
 
     async def answer(request: Request) -> Response:
         found = await door(request)
-        return found if isinstance(found, Response) else JSONResponse(found)
+        return found if isinstance(found, Response) else JSONResponse(found or {})
 
-    return Route(path, answer, methods=list(methods) or None)
+    return Route(path, answer, methods=[method])
 
 
 async def _read(request: Request, target: BinaryIO, most: int, seconds: float) -> None:
@@ -49,11 +48,7 @@ async def _read(request: Request, target: BinaryIO, most: int, seconds: float) -
 
 
 async def body(request: Request) -> Data:
-    """The JSON object of a request.
-
-    Raises:
-        InputError: it is none.
-    """
+    """The JSON object of a request; InputError if it is none."""
     found: Any = None
     stream = io.BytesIO()
     await _read(request, stream, MOST_JSON, request.app.state.settings.body_s)
@@ -68,32 +63,18 @@ async def body(request: Request) -> Data:
 async def uploaded(request: Request, most: int) -> AsyncIterator[Path]:
     """The body of a request as a file that goes with the block, unless it is moved."""
     with tempfile.TemporaryDirectory(prefix="book-", dir=request.app.state.settings.data) as name:
-        path = Path(name) / "книга.xlsx"
+        path = Path(name, "книга.xlsx")
         with path.open("wb") as stream:
             await _read(request, stream, most, FILE_S)
         yield path
 
 
-def good(found: Data) -> Data:
-    """An answer of the solving processes without errors.
-
-    Raises:
-        InputError: its errors.
-    """
-    if found.get("errors"):
-        raise InputError([Problem(**each) for each in found["errors"]])
-    return found
-
-
-def attachment(path: Path | None) -> FileResponse:
-    """A file to be kept, never to be shown by the browser as a page of ours."""
-    if path is None or not path.exists():
+def handed(path: Path | None) -> FileResponse:
+    """A file to be kept, or a page that can do nothing; HTTPException if there is none."""
+    if path is None or not path.is_file():
         raise HTTPException(404, "нет такого файла; закажите заново")
-    return FileResponse(path, filename=path.name, media_type="application/octet-stream")
-
-
-def shown(path: Path | None) -> FileResponse:
-    """A page about a work, which may hold a student's words: nothing in it may act."""
-    if path is None or not path.exists():
-        raise HTTPException(404, "такой страницы ещё нет")
-    return FileResponse(path, headers={"content-security-policy": _WORK_POLICY})
+    how = "inline" if path.suffix == ".html" else "attachment"
+    return FileResponse(
+        path, headers={"content-security-policy": _SANDBOX}, filename=path.name,
+        content_disposition_type=how,
+    )  # fmt: skip

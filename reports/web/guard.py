@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import time
-from collections import OrderedDict
-from dataclasses import dataclass, field
+from collections import Counter
+from dataclasses import dataclass
 from ipaddress import ip_address
 from urllib.parse import urlsplit
 
@@ -14,13 +14,12 @@ from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 MARK = "x-kshm"  # a header that no foreign page can send without being asked for leave
-POLICY = (
-    "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
-    "img-src 'self' data:; font-src 'self' data:; connect-src 'self'; form-action 'none'; "
-    "base-uri 'none'; frame-ancestors 'none'"
-)
 _HEADERS = {
-    "content-security-policy": POLICY,
+    "content-security-policy": (
+        "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
+        "img-src 'self' data:; font-src 'self' data:; connect-src 'self'; form-action 'none'; "
+        "base-uri 'none'; frame-ancestors 'none'"
+    ),
     "x-content-type-options": "nosniff",
     "x-frame-options": "DENY",
     "referrer-policy": "no-referrer",
@@ -29,26 +28,21 @@ _HEADERS = {
     "permissions-policy": "camera=(), microphone=(), geolocation=()",
 }
 _KINDS = ("application/json", "application/octet-stream")
-_MOST_VISITORS = 10_000
 
 
-@dataclass(slots=True)
 class Rate:
-    """So many requests a second from one address, with a burst."""
+    """So many requests of one address in so many seconds, counted anew after them."""
 
-    per_s: float
-    burst: float
-    left: OrderedDict[str, tuple[float, float]] = field(default_factory=OrderedDict)
+    def __init__(self, most: float, seconds: float) -> None:
+        self.most, self.seconds = most, seconds
+        self._seen, self._end = Counter[str](), 0.0
 
     def allows(self, who: str) -> bool:
         """Take one request of ``who``, if there is one left."""
-        now = time.monotonic()
-        tokens, since = self.left.pop(who, (self.burst, now))
-        tokens = min(self.burst, tokens + (now - since) * self.per_s)
-        self.left[who] = (tokens - (tokens >= 1), now)
-        if len(self.left) > _MOST_VISITORS:
-            self.left.popitem(last=False)
-        return tokens >= 1
+        if time.monotonic() >= self._end:
+            self._seen, self._end = Counter(), time.monotonic() + self.seconds
+        self._seen[who] += 1
+        return self._seen[who] <= self.most
 
 
 def refusal(code: int, what: str) -> JSONResponse:
@@ -58,30 +52,20 @@ def refusal(code: int, what: str) -> JSONResponse:
 
 @dataclass(frozen=True, slots=True)
 class Guard:
-    """Lets through what a person's own page may ask for.
-
-    Attributes:
-        app: what answers.
-        hosts: names under which the page is known, «*» any bare address; others are answered 421.
-        prefix: path under which a proxy shows the page, ``/kshm``.
-        rate: requests of one address.
-    """
+    """Lets through what a person's own page may ask for."""
 
     app: ASGIApp
-    hosts: frozenset[str]
-    prefix: str
-    rate: Rate
+    hosts: frozenset[str]  # under which the page is known, «*» any bare address
+    public: str  # scheme and host before which a proxy shows it
+    rate: Rate  # of one address
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Refuse or hand on."""
+        if scope["type"] == "lifespan":
+            await self.app(scope, receive, send)
         if scope["type"] != "http":
-            if scope["type"] == "lifespan":
-                await self.app(scope, receive, send)
             return
-        path = scope["path"]
-        if self.prefix and path.startswith(self.prefix + "/"):
-            path = path.removeprefix(self.prefix)
-        cache = "no-cache" if path.startswith("/static/") else "no-store"
+        cache = "no-cache" if "/static/" in scope["path"] else "no-store"
 
         async def sender(message: Message) -> None:
             if message["type"] == "http.response.start":
@@ -91,12 +75,10 @@ class Guard:
             await send(message)
 
         why = self._refused(scope, Headers(scope=scope))
-        app = self.app if why is None else refusal(*why)
-        await app({**scope, "path": path}, receive, sender)
+        await (refusal(*why) if why else self.app)(scope, receive, sender)
 
     def _refused(self, scope: Scope, headers: Headers) -> tuple[int, str] | None:
-        client = scope.get("client")
-        if not self.rate.allows(client[0] if client else ""):
+        if not self.rate.allows((scope.get("client") or ("",))[0]):
             return 429, "слишком много запросов; подождите немного"
         if len(headers.getlist("host")) != 1 or not self._known(headers["host"]):
             return 421, "страница известна под другим адресом; см. ключ --public"
@@ -104,7 +86,9 @@ class Guard:
             return None
         if scope["method"] != "POST":
             return 405, "нет такого действия"
-        if not self._own(headers) or MARK not in headers:
+        own = {f"{scheme}://{headers['host']}" for scheme in ("http", "https")} | {self.public}
+        foreign = headers.get("sec-fetch-site", "same-origin") != "same-origin"
+        if foreign or MARK not in headers or headers.get("origin", self.public) not in own:
             return 403, "запрос с чужой страницы"
         if not headers.get("content-type", "").startswith(_KINDS):
             return 415, "неверный вид данных"
@@ -116,12 +100,3 @@ class Guard:
             name = urlsplit(f"//{host}").hostname or ""
             return name in self.hosts or ("*" in self.hosts and bool(ip_address(name)))
         return False
-
-    def _own(self, headers: Headers) -> bool:
-        """Whether a page of ours asks: behind a proxy its host is any of ours."""
-        origin = urlsplit(headers.get("origin", ""))
-        if headers.get("sec-fetch-site", "same-origin") != "same-origin":
-            return False
-        if "origin" not in headers or origin.netloc.lower() == headers["host"].lower():
-            return True
-        return bool(self.prefix or origin.scheme == "https") and self._known(origin.netloc)

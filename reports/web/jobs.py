@@ -22,7 +22,7 @@ from typing import Any
 
 from reports.commands.apart import failed, run
 from reports.shared.errors import InputError, KshmError, Problem
-from reports.shared.files import make_dir, write_text
+from reports.shared.files import make_dir, read_json, write_json, write_text
 
 TIMEOUT_S = 300.0
 MOST_WAITING, MOST_OWN = 500, 6
@@ -30,42 +30,23 @@ MOST_BYTES = 2 * 10**9  # of all files kept
 KEEP_S = 14 * 86400.0
 
 
-def read_json(path: Path) -> dict[str, Any]:
-    """What a file says; nothing if it is not there or damaged."""
-    with contextlib.suppress(OSError, ValueError):
-        found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-        return found
-    return {}
-
-
-def write_json(path: Path, data: Mapping[str, Any]) -> None:
-    """Keep plain data, whole or not at all."""
-    write_text(path, json.dumps(data, ensure_ascii=False))
-
-
 class Queue:
-    """Commands in folders of one folder: everybody's first before anybody's second.
-
-    Args:
-        folder: where the jobs lie.
-        at_once: how many are done at the same time.
-        timeout_s: how long one may take.
-    """
+    """Commands in folders of one folder, ``at_once`` together, each for ``timeout_s`` at most."""
 
     def __init__(self, folder: Path, at_once: int, timeout_s: float = TIMEOUT_S) -> None:
         self.folder, self.at_once, self.timeout_s = folder, at_once, timeout_s
         self.waiting: dict[str, str] = {}  # job → visitor, in the order of coming
         self.running: dict[str, tuple[str, float]] = {}  # job → visitor, beginning
         self._wake = asyncio.Event()
-        self._tasks: list[asyncio.Task[None]] = []
 
     def start(self) -> None:
         """Take up what an earlier server has left, and begin."""
         make_dir(self.folder)
         left = [path for path in self.folder.glob("*/order.json")
-                if not (path.parent / "done.json").exists()]  # fmt: skip
+                if not path.with_name("done.json").exists()]  # fmt: skip
         for path in sorted(left, key=lambda path: path.stat().st_mtime):
             self.waiting[path.parent.name] = read_json(path).get("visitor", "")
+        self._wake.set()
         self._tasks = [asyncio.create_task(self._work()) for _ in range(self.at_once)]
 
     async def stop(self) -> None:
@@ -83,7 +64,7 @@ class Queue:
         self._wake.set()
 
     def line(self) -> list[str]:
-        """The waiting jobs in the order in which they will be done."""
+        """The waiting jobs in their order: everybody's first before anybody's second."""
         turn = Counter(who for who, _ in self.running.values())
         ordered = []
         for place, (name, visitor) in enumerate(self.waiting.items()):
@@ -101,22 +82,19 @@ class Queue:
         return read_json(self.folder / name / "done.json") if is_name else {}
 
     async def _work(self) -> None:
-        while True:
+        while await self._wake.wait():
             if not (line := self.line()):
                 self._wake.clear()
-                await self._wake.wait()
                 continue
             name = line[0]
             self.running[name] = self.waiting.pop(name), time.monotonic()
             try:
-                try:
-                    done = await self.make(self.folder / name)
-                except OSError:
-                    done = failed("на сервере не удаётся записать файл; сообщите кафедре")
-                with contextlib.suppress(OSError, KshmError):  # a full disk must not end the queue
-                    write_json(self.folder / name / "done.json", done)
-            finally:
-                self.running.pop(name, None)
+                done = await self.make(self.folder / name)
+            except OSError:
+                done = failed("на сервере не удаётся записать файл; сообщите кафедре")
+            with contextlib.suppress(OSError, KshmError):  # a full disk must not end the queue
+                write_json(self.folder / name / "done.json", done)
+            del self.running[name]
 
     async def make(self, folder: Path) -> dict[str, Any]:
         """Run the command of a job; how it ended."""
@@ -175,9 +153,7 @@ class Jobs(Queue):
         files = [{"name": path.name, "size": path.stat().st_size}
                  for path in sorted(out.iterdir()) if path.is_file()]  # fmt: skip
         self.clean()
-        if not files or done["state"] == "failed":
-            return {**done, "state": "failed"}
-        return {**done, "files": files}
+        return {**done, "files": files} if files else {**done, "state": "failed"}
 
     def clean(self) -> None:
         """Forget the oldest files where they are too old or too many."""

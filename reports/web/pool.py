@@ -33,6 +33,13 @@ def _begin() -> None:
     forbid_the_world()
 
 
+def _answer(function: Callable[..., Data], *arguments: Any) -> Data:  # noqa: ANN401
+    try:
+        return function(*arguments)
+    except MemoryError:  # the heap may be in pieces: a new process takes over
+        os._exit(1)
+
+
 class Pool:
     """As many solving processes as processors, each with one question at a time."""
 
@@ -50,7 +57,7 @@ class Pool:
     async def ask(
         self,
         function: Callable[..., Data],
-        *arguments: Any,  # noqa: ANN401
+        *values: Any,  # noqa: ANN401
         seconds: float = TIMEOUT_S,
     ) -> Data:
         """A function's answer from a process that has nothing else to do.
@@ -60,7 +67,7 @@ class Pool:
         """
         if not self._pool.active:
             self.start()
-        asked = self._pool.schedule(engine.answered, (function, *arguments), timeout=seconds)
+        asked = self._pool.schedule(_answer, (function, *values), timeout=seconds)
         try:
             return await asyncio.wait_for(asyncio.wrap_future(asked), WAIT_S + seconds)
         except (TimeoutError, ProcessExpired):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import hmac
+import zipfile
 
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
@@ -13,25 +14,15 @@ from starlette.routing import Route
 from reports.grading.issuing.register import Issued
 from reports.inputs.described import Data
 from reports.shared.errors import InputError, Problem
+from reports.shared.files import write_json
 from reports.web import engine
-from reports.web.classes import RESULTS, Class, Classes
-from reports.web.doors import (
-    MOST_ARCHIVE,
-    MOST_BOOK,
-    Door,
-    attachment,
-    body,
-    good,
-    route,
-    shown,
-    uploaded,
-)
+from reports.web.classes import Class, Classes
+from reports.web.doors import MOST_ARCHIVE, MOST_BOOK, Door, body, handed, route, uploaded
 from reports.web.guard import Rate
 from reports.workbook.intake import check_data
 
-_TEXTS = ("title", "base", "roster", "rubric")
-_UPLOADS = {"moodle.zip": b"PK\x03\x04", "worksheet.csv": b""}  # how they begin
-_DONE = {"ok": True}
+_TEXTS = ("base.toml", "roster.csv", "rubric.toml")
+_UPLOADS = ("moodle.zip", "worksheet.csv")
 
 
 def token_of(secret: bytes) -> str:
@@ -41,130 +32,116 @@ def token_of(secret: bytes) -> str:
 
 def routes(classes: Classes, secret: bytes) -> list[Route]:
     """Doors of the instructor, all but the first behind the token."""
-    tries = Rate(0.1, 10)
+    tries = Rate(10, 60)
 
     def asked_for(request: Request) -> Class:
         return classes.find(request.path_params["name"])
 
-    async def login(request: Request) -> Data:
+    async def login(request: Request) -> None:
         given = str((await body(request)).get("token", "")).strip()
         if not tries.allows(request.client.host if request.client else ""):
             raise HTTPException(429, "слишком много попыток; подождите минуту")
         if not hmac.compare_digest(token_of(secret).encode(), given.encode("utf-8", "replace")):
             raise HTTPException(403, "неверный ключ; его печатает команда kshm serve")
         request.session["teacher"] = True
-        return _DONE
 
     async def listed(_: Request) -> Data:
         return {"classes": [{"name": each.folder.name, **each.about} for each in classes.all()]}
 
     async def issue(request: Request) -> Data:
-        data = await body(request)
-        texts, seed = [str(data.get(key) or "") for key in _TEXTS], data.get("seed", 1)
-        if not isinstance(seed, int) or isinstance(seed, bool) or abs(seed) > 10**9:
+        data, ask = await body(request), request.app.state.pool.ask
+        files = {name: text for name in _TEXTS if (text := str(data.get(name) or "")).strip()}
+        if not (seed := str(data.get("seed", ""))).lstrip("-").isdecimal() or len(seed) > 9:
             raise InputError(Problem("seed", "нужно целое число", "например 1"))
-        ask = request.app.state.pool.ask  # a base without its ranges is an input of its own
-        good(await ask(engine.as_toml, good(await ask(engine.read_toml, texts[1]))["raw"]))
-        return {"name": classes.issue(seed, *texts).folder.name}
+        base = await ask(engine.read_toml, files.get("base.toml", ""))
+        await ask(engine.as_toml, base["raw"])  # without its ranges it is an input of its own
+        return {"name": classes.issue(int(seed), str(data.get("title")), files).folder.name}
 
     async def about(request: Request) -> Data:
         each = asked_for(request)
         students = [
-            {"number": book.number, "name": book.student.full, "group": book.student.group,
-             "link": classes.link(each, book.number), "handed": each.work(book).exists()}
+            {"name": book.student.full, "group": book.student.group,
+             "link": classes.link(each, book), "handed": each.work(book).exists()}
             for book in each.books
         ]  # fmt: skip
+        results = each.folder / "results/results"
         return {
             **each.about, **classes.about(each.folder.name), "students": students,
-            "graded": max(0, len([*each.results.glob("results/*.json")]) - 1),  # and the register
-            "rows": each.rows,
-            "files": [name for name in RESULTS if (each.results / name).exists()],
+            "graded": max(0, len([*results.glob("*.json")]) - 1),  # and the register
+            "rows": each.rows, "files": [name for name in each.files() if "/" not in name],
         }  # fmt: skip
 
-    async def upload(request: Request) -> Data:
+    async def upload(request: Request) -> None:
         folder, name = asked_for(request).folder, request.path_params["file"]
         if name not in _UPLOADS:
             raise HTTPException(404, "такого файла здесь не ждут")
         async with uploaded(request, MOST_ARCHIVE) as path:
-            with path.open("rb") as stream:
-                begin = stream.read(4)
-            if not begin or not begin.startswith(_UPLOADS[name]):
+            if not path.stat().st_size or zipfile.is_zipfile(path) != name.endswith(".zip"):
                 raise InputError(Problem("", "это не тот файл", "загрузите архив .zip"))
             path.replace(folder / name)
-        return _DONE
 
-    async def grade(request: Request) -> Data:
+    async def grade(request: Request) -> None:
         each, data = asked_for(request), await body(request)
         words = ("who", "what", "points", "remark") if "who" in data else ()
         classes.grade(each, tuple(str(data.get(key, ""))[:500] for key in words))
-        return _DONE
 
-    async def show(request: Request) -> Data:
-        each = asked_for(request)
-        each.keep_open(bool((await body(request)).get("open")))
-        return _DONE
+    async def show(request: Request) -> None:
+        each, data = asked_for(request), await body(request)
+        write_json(each.folder / "about.json", {**each.about, "open": bool(data.get("open"))})
 
-    async def result(request: Request) -> Response:
+    async def given(request: Request) -> Response:
         each, name = asked_for(request), request.path_params["file"]
-        if name == "issued.zip":
-            return attachment(each.issued_zip())
-        path = each.results / name if name in RESULTS else None
-        return shown(path) if path and path.suffix == ".html" else attachment(path)
+        return handed(each.issued_zip() if name == "issued.zip" else each.files().get(name))
 
-    async def page(request: Request) -> Response:
-        return shown(asked_for(request).page(request.path_params["number"]))
-
-    def behind(door: Door) -> Door:
-        async def inside(request: Request) -> Response | Data:
+    def behind(path: str, door: Door, method: str = "GET") -> Route:
+        async def inside(request: Request) -> Response | Data | None:
             if not request.session.get("teacher"):
                 raise HTTPException(403, "войдите с ключом преподавателя")
             return await door(request)
 
-        return inside
+        return route(f"/api/teacher{path}", inside, method)
 
-    mine = "/api/teacher/{name}"
     return [
         route("/api/login", login, "POST"),
-        route("/api/teacher", behind(listed)),
-        route("/api/teacher", behind(issue), "POST"),
-        route(mine, behind(about)),
-        route(f"{mine}/page/{{number:int}}", behind(page)),
-        route(f"{mine}/file/{{file}}", behind(result)),
-        route(f"{mine}/file/{{file}}", behind(upload), "POST"),
-        route(f"{mine}/grade", behind(grade), "POST"),
-        route(f"{mine}/open", behind(show), "POST"),
+        behind("", listed),
+        behind("", issue, "POST"),
+        behind("/{name}", about),
+        behind("/{name}/file/{file:path}", given),
+        behind("/{name}/file/{file}", upload, "POST"),
+        behind("/{name}/grade", grade, "POST"),
+        behind("/{name}/open", show, "POST"),
     ]
 
 
 def student_routes(classes: Classes) -> list[Route]:
     """Doors of the students: each knows the own one alone."""
 
-    def own(request: Request) -> tuple[Class, Issued]:
-        return classes.student(request.path_params["link"])
+    def own(request: Request) -> tuple[Class, Issued, Data]:
+        each, book = classes.student(request.path_params["link"])
+        rows = each.rows if each.about.get("open") else ()
+        return each, book, next((row for row in rows if row["number"] == book.number), {})
 
     async def about(request: Request) -> Data:
-        each, book = own(request)
-        seen = each.row(book.number) if each.about.get("open") else {}
+        each, book, row = own(request)
         return {
             "title": each.about["title"], "student": book.student.full, "file": book.file,
-            "handed": each.work(book).exists(), "open": bool(seen.get("page")),
-            "points": seen.get("points"), "status": seen.get("status", ""),
+            "handed": each.work(book).exists(), "open": bool(row.get("page")),
+            "points": row.get("points"), "status": row.get("status", ""),
         }  # fmt: skip
 
     async def issued(request: Request) -> Response:
-        each, book = own(request)
-        return attachment(each.issued(book))
+        each, book, _ = own(request)
+        return handed(each.issued(book))
 
     async def page(request: Request) -> Response:
-        each, book = own(request)
-        return shown(each.page(book.number) if each.about.get("open") else None)
+        each, _, row = own(request)
+        return handed(each.files().get(row.get("page", "")))
 
-    async def hand_in(request: Request) -> Data:
-        each, book = own(request)
+    async def hand_in(request: Request) -> None:
+        each, book, _ = own(request)
         async with uploaded(request, MOST_BOOK) as path:
             check_data(path.read_bytes(), "работа")
             path.replace(each.work(book))
-        return _DONE
 
     student = "/api/student/{link}"
     return [

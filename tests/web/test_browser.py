@@ -102,6 +102,14 @@ def test_every_chart_has_room_for_all_that_it_draws(page: Any) -> None:
     settle(page)
 
 
+def test_charts_are_as_wide_as_their_places_whichever_way_a_window_changes(page: Any) -> None:
+    gaps = """[...document.querySelectorAll("#charts canvas")]
+        .map(canvas => Math.abs(canvas.clientWidth - canvas.parentElement.clientWidth))"""
+    for width in (390, 1280):
+        page.set_viewport_size({"width": width, "height": 900})
+        until(page, f"{gaps}.every(gap => gap < 2) && {gaps}.length > 1")
+
+
 def test_every_fields_error_is_shown_at_the_field(page: Any) -> None:
     silent = page.evaluate(r"""async () => {
         const silent = [];
@@ -184,7 +192,7 @@ def tab_to(page: Any, selector: str) -> None:
     for _ in range(400):
         page.keyboard.press("Tab")
         stop = page.evaluate("""selector => {
-            const e = document.activeElement, held = e.closest(".button") || e;
+            const e = document.activeElement, held = e.closest("[class='<button>']") || e;
             const seen = held.getBoundingClientRect().width > 0 &&
                 [e, held].some(each => getComputedStyle(each).outlineStyle !== "none");
             return [e.matches(selector), seen || e === document.body, e.outerHTML.slice(0, 120)];
@@ -220,6 +228,9 @@ def test_an_own_engine_by_the_keyboard_alone_to_workbook_and_pdf(
     page.wait_for_selector("#chart-fig46 output")
     tab_to(page, ".skip")
     tab_to(page, "#cylinders")
+    typed(page, "5")
+    page.evaluate("turn(10)")  # what is typed stays, whatever is drawn anew
+    assert page.input_value("#cylinders") == "5"
     typed(page, "4")
     page.keyboard.press("Enter")  # the form's own button
     until(page, "kshm.raw?.engine.cylinders === 4 && kshm.last?.moves.throws.length === 4")

@@ -260,13 +260,15 @@ def test_a_slow_body_is_given_up(tmp_path: Path) -> None:
 
 
 def test_one_address_may_not_ask_for_ever() -> None:
-    rate = Rate(per_s=1, burst=5)
+    rate = Rate(5, seconds=60)
     assert sum(rate.allows("1.2.3.4") for _ in range(50)) == 5
     assert rate.allows("5.6.7.8")
 
 
 def test_behind_a_proxy_under_a_path(tmp_path: Path) -> None:
-    app = create_app(Settings(tmp_path, ("kafedra.example",), "/kshm", per_s=1e6, workers=1))
+    app = create_app(
+        Settings(tmp_path, public="https://kafedra.example/kshm", per_s=1e6, workers=1)
+    )
     with TestClient(app, base_url="http://127.0.0.1:8321") as proxied:
         head = {"host": "kafedra.example"}
         assert "api/" not in proxied.get("/kshm/", headers=head).text

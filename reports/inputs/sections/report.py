@@ -48,6 +48,7 @@ FORMATS = {
 }
 Format = Literal["xlsx", "pdf", "html", "docx", "sheet"]
 USUAL_FORMATS: tuple[Format, ...] = ("xlsx", "pdf")
+FILE_KEYS = ("style", "templates", "compare")  # what names files of the machine
 FRAMES = {"none": "без рамки", "eskd": "рамка и основная надпись по ГОСТ 2.104"}
 
 

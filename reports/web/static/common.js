@@ -1,27 +1,20 @@
-// What all pages share: elements, questions to the server, numbers as Russian print has them.
-import {h} from "./vendor/preact.mjs";
+// What all pages share: their state, elements, questions to the server, numbers as Russian print has them.
+import {h, render} from "./vendor/preact.mjs";
 import htm from "./vendor/htm.mjs";
 
 export const html = htm.bind(h);
+export const state = {errors: []};
+let page = null;
 
-export const options = list => list.map(([value, label, title]) =>
-  html`<option key=${value} value=${value} title=${title}>${label}</option>`);
-export const row = (cells, more) => html`
-  <tr ...${more}>${cells.map(([text, name]) => html`<td class=${name}>${text}</td>`)}</tr>`;
-export const table = (caption, rows, head) => html`
-  <div class="box" tabindex="0" role="region" aria-label=${caption}>
-    <table><caption>${caption}</caption>${head}<tbody>${rows}</tbody></table>
-  </div>`;
-export const list = (problems, name, more) => html`
-  <ul class=${name} ...${more}>${problems.map(p => html`<li>${line(p)}</li>`)}</ul>`;
-export const alerts = problems => list(problems, "errors", {id: "errors", role: "alert", "aria-live": "polite"});
+export function show(template) {
+  page = template;
+  set({});
+}
 
-// A file chosen at a button goes to `taken`; the same file may be chosen again.
-export const picker = (title, accept, taken, id) => html`<label class="button">${title}
-  <input id=${id} type="file" class="hidden" accept=${accept} onChange=${async ({target}) => {
-    if (target.files[0]) await taken(target.files[0]);
-    target.value = "";
-  }} /></label>`;
+export function set(changes) {
+  Object.assign(state, changes);
+  render(page(), document.body);
+}
 
 export async function ask(path, data) {
   const file = data instanceof Blob;
@@ -36,9 +29,38 @@ export async function ask(path, data) {
   }
 }
 
+export async function send(path, data) { // an answer, or nothing and its errors on the page
+  const {errors, ...answer} = await ask(path, data);
+  set({errors: errors || []});
+  return errors ? null : answer;
+}
+
+export function given(event) { // what a form says
+  event.preventDefault();
+  return Object.fromEntries(new FormData(event.target));
+}
+
+export const options = (list, chosen) => list.map(([value, label, title]) =>
+  html`<option key=${value} value=${value} title=${title} selected=${value === chosen}>${label}</option>`);
+export const row = (cells, more) => html`
+  <tr ...${more}>${cells.map(([text, name]) => html`<td class=${name}>${text}</td>`)}</tr>`;
+export const table = (caption, rows, head) => html`
+  <div class="scroll" tabindex="0" role="region" aria-label=${caption}>
+    <table><caption>${caption}</caption>${head}<tbody>${rows}</tbody></table>
+  </div>`;
+export const list = (problems, name, more) => html`
+  <ul class=${`${name} color`} ...${more}>${problems.map(p => html`<li>${line(p)}</li>`)}</ul>`;
+export const alerts = problems => list(problems, "bad", {id: "errors", role: "alert"});
+
+// A file chosen at a button goes to `taken`; the same file may be chosen again.
+export const picker = (title, accept, taken, id) => html`<label class="<button>">${title}
+  <input id=${id} type="file" class="vh" accept=${accept} onChange=${async ({target}) => {
+    await taken(target.files[0]);
+    target.value = "";
+  }} /></label>`;
+
 export const words = problem => [problem.what, problem.hint].filter(Boolean).join("; ");
-const line = problem => typeof problem === "string" ? problem
-  : [problem.where, words(problem)].filter(Boolean).join(": ");
+const line = problem => problem.what ? [problem.where, words(problem)].filter(Boolean).join(": ") : problem;
 
 export function printed(value, digits = 4) {
   if (typeof value !== "number") return value ?? "";

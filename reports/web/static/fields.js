@@ -1,73 +1,69 @@
 // The fields of an input in groups, each with its unit, range, slider and what is wrong with it.
-import {html, options, printed, symbol, words} from "./common.js";
+import {html, options, printed, state, symbol, words} from "./common.js";
 
 export const shown = value => typeof value === "number" ? String(value).replace(".", ",") : value ?? "";
-const number = text => Number(text.replace(",", ".").replace("−", "-"));
+const inner = (raw, path) => path.reduce((part, key) => part[key] ??= {}, raw);
 
-export function put(raw, path, value) {
-  const last = path.at(-1), part = path.slice(0, -1).reduce((inner, key) => inner[key] ??= {}, raw);
-  if (value !== "" || Array.isArray(part)) part[last] = value;
-  else delete part[last];
-}
-
-function remove(raw, path) {
-  const last = path.at(-1), part = path.slice(0, -1).reduce((inner, key) => inner[key], raw);
-  if (Array.isArray(part)) part.splice(last, 1);
-  else delete part[last];
+export function put(raw, path, value) { // nothing takes the place away
+  const part = inner(raw, path.slice(0, -1)), last = path.at(-1), isList = Array.isArray(part);
+  if (value === undefined && isList) part.splice(last, 1);
+  else if (value === undefined || value === "" && !isList) delete part[last];
+  else part[last] = value;
 }
 
 function repeat(raw, path, blank) { // a list grows by its last entry
-  const part = path.slice(0, -1).reduce((inner, key) => inner[key] ??= {}, raw), list = part[path.at(-1)] ??= [];
+  const list = inner(raw, path.slice(0, -1))[path.at(-1)] ??= [];
   list.push(structuredClone(list.at(-1) ?? blank));
 }
 
 export function add(raw, id) { // a section, or a regime that begins as the main one
-  if (id !== "regimes") raw[id] = {};
-  else {
-    const list = raw.regimes ??= [], name = `Режим ${list.length + 2}`;
-    list.push(structuredClone({...raw.regime, name, gas: raw.gas}));
-  }
+  if (id !== "regimes") return put(raw, [id], {});
+  const {regime, gas, regimes = []} = structuredClone(raw);
+  raw.regimes = [...regimes, {...regime, name: `Режим ${regimes.length + 2}`, gas}];
 }
 
-const said = problems => (problems || []).map(p => html`<span class=${p.kind}>${words(p)}</span>`);
+const of = (problems, key) => problems.filter(p => p.where === key);
+const said = (problems, name) => problems.map(p => html`<div class=${name}>${words(p)}</div>`);
+const allSaid = key => [said(of(state.wrong, key), "error bad color"), said(of(state.warnings, key), "warn color")];
 
 // A group; `edited` changes the shape of the input, `change` a value.
-export function section({title, key, path, entries, blank, drawing, whole}, {state, edited, change}) {
-  const wanted = state.find.trim().toLowerCase();
+export function section({title, key, path, entries, blank, drawing, whole}, edited, change) {
+  const wanted = state.find.trim().toLowerCase(), all = entries.flat();
   const found = f => `${f.title} ${f.key} ${f.symbol}`.toLowerCase().includes(wanted);
-  const button = (label, what) => html`<button class="small" onClick=${() => edited(what, key)}>${label}</button>`;
-  const fields = entry => entry.filter(found).map(f => field(f, state, change));
+  const isWrong = [key, ...all.map(f => f.key)].some(each => of(state.wrong, each).length);
+  const button = (label, what) => html`<button onClick=${() => edited(what, key)}>${label}</button>`;
+  const fields = entry => entry.filter(found).map(f => field(f, change));
   return html`
-    <details key=${key} data-key=${key} open=${Boolean(wanted) || state.open.has(key)}
-      hidden=${wanted && !entries.flat().some(found)}
-      onToggle=${e => state.open[e.target.open ? "add" : "delete"](key)}>
-      <summary>${title}</summary><span class="said">${said(state.problems[key])}</span>
+    <details key=${key} data-key=${key} open=${wanted || isWrong || state.open.has(key)}
+      hidden=${wanted && !all.some(found)}
+      onToggle=${e => wanted || state.open[e.target.open ? "add" : "delete"](key)}>
+      <summary>${title}</summary>${allSaid(key)}
       ${drawing && html`<img src=${`images/${drawing}.svg`} alt=${`${title}: что есть что`} loading="lazy" />`}
       ${entries.map((entry, i) => !path ? fields(entry) : html`<fieldset>
-        <legend>${`№ ${i + 1} `}${button(`Убрать ${i + 1}`, raw => remove(raw, [...path, i]))}</legend>
+        <legend>${`№ ${i + 1} `}${button(`Убрать ${i + 1}`, raw => put(raw, [...path, i]))}</legend>
         ${fields(entry)}
       </fieldset>`)}
-      <p class="tools">${path && button("Добавить", raw => repeat(raw, path, blank))}
-        ${whole && button("Убрать раздел", raw => remove(raw, whole))}</p>
+      <p class="tool-bar">${path && button("Добавить", raw => repeat(raw, path, blank))}
+        ${whole && button("Убрать раздел", raw => put(raw, whole))}</p>
     </details>`;
 }
 
-function field(f, state, change) {
-  const text = state.typed[f.key] ?? shown(f.value), wrong = state.problems[f.key]?.some(p => p.kind === "error");
-  const told = {id: `f-${f.key}`, "aria-describedby": `h-${f.key} e-${f.key}`, "aria-invalid": wrong || undefined};
+function field(f, change) {
+  const text = state.typed[f.key] ?? shown(f.value), id = `f-${f.key}`;
+  const told = {id, "aria-describedby": `h-${f.key} e-${f.key}`, "aria-invalid": of(state.wrong, f.key).length > 0};
   const range = f.number && f.min !== null && `от ${printed(f.min, 9)} до ${printed(f.max, 9)} ${f.unit}`;
   const empty = f.optional || f.value === null ? [["", "—"]] : [];
   return html`
     <div key=${f.key} class=${f.number || f.choices ? "field" : "field wide"} data-key=${f.key}>
-      <label for=${told.id}>${f.title}${f.symbol && ", "}${symbol(f.symbol)}</label>
+      <label for=${id}>${f.title}${f.symbol && ", "}${symbol(f.symbol)}</label>
       ${f.choices
-        ? html`<select ...${told} value=${text} onChange=${e => change(f, e.target.value, true)}>
-            ${options([...empty, ...Object.entries(f.choices)])}</select>`
-        : html`<input ...${told} value=${text} inputmode=${f.number ? "decimal" : undefined} autocomplete="off"
+        ? html`<select ...${told} onChange=${e => change(f, e.target.value, true)}>
+            ${options([...empty, ...Object.entries(f.choices)], text)}</select>`
+        : html`<input ...${told} value=${text} inputmode=${f.number && "decimal"} autocomplete="off"
             maxlength="300" onInput=${e => change(f, e.target.value)} />`}
       <span>${f.unit}</span>${slider(f, text, change)}
       <small id=${`h-${f.key}`}>${[range, f.optional && "можно не задавать", f.key].filter(Boolean).join(" · ")}</small>
-      <span id=${`e-${f.key}`} class="said">${said(state.problems[f.key])}</span>
+      <div id=${`e-${f.key}`}>${allSaid(f.key)}</div>
     </div>`;
 }
 
@@ -77,5 +73,5 @@ function slider(f, text, change) {
   const tidy = value => Math.round(value / step) * step;
   return html`<input type="range" aria-label=${`${f.title}: подвинуть`} step=${step}
     min=${tidy(Math.max(f.min ?? -Infinity, f.value - span))} max=${tidy(Math.min(f.max ?? Infinity, f.value + span))}
-    value=${number(text)} onInput=${e => change(f, shown(Number(Number(e.target.value).toPrecision(8))))} />`;
+    value=${text.replace(",", ".")} onInput=${e => change(f, shown(Number(Number(e.target.value).toPrecision(8))))} />`;
 }

@@ -21,6 +21,8 @@ settings.register_profile("kshm", deadline=None, derandomize=True, print_blob=Tr
 settings.load_profile("kshm")
 
 
+ROOT = Path(__file__).parents[1]
+QUICK = os.environ.get("KSHM_QUICK") == "1"
 # What ./run test --quick leaves out: tests of more than about a second, of which each kind of
 # check keeps one.  Of the checks over all samples this sample's stay.
 QUICK_SAMPLES = {"gots-diesel"}
@@ -144,6 +146,13 @@ FIRST_ALONE = (
 
 # Files that look at the same finished reports.
 REPORTS = ("browser", "figures", "pdf", "sheets", "tags", "text")
+
+
+def pytest_ignore_collect(collection_path: Path) -> bool | None:
+    """Quick tests do not even read the files of which they take nothing."""
+    whole = tuple(entry for entry in SLOW if "::" not in entry)
+    name = collection_path.relative_to(ROOT).as_posix() if QUICK else ""
+    return True if name.endswith(".py") and name.startswith(whole) else None
 
 
 @pytest.hookimpl(tryfirst=True)  # before xdist reads the groups

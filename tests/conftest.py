@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import gc
 import os
+import shutil
 from functools import lru_cache
 from pathlib import Path
+from tempfile import mkdtemp
 from typing import NoReturn
 
 import pytest
@@ -14,6 +16,7 @@ from hypothesis import settings
 from reports.inputs.load import load_toml
 from reports.inputs.sections.input_file import InputFile
 from reports.shared.resources import samples_dir
+from tests.kept import FOLDER
 from tools.referees.by_libreoffice import LibreOffice, find_soffice
 
 # Random engines are slow to solve on a loaded machine: no deadline, the same examples in CI.
@@ -21,6 +24,8 @@ settings.register_profile("kshm", deadline=None, derandomize=True, print_blob=Tr
 settings.load_profile("kshm")
 
 
+ROOT = Path(__file__).parents[1]
+QUICK = os.environ.get("KSHM_QUICK") == "1"
 # What ./run test --quick leaves out: tests of more than about a second, of which each kind of
 # check keeps one.  Of the checks over all samples this sample's stay.
 QUICK_SAMPLES = {"gots-diesel"}
@@ -144,6 +149,24 @@ FIRST_ALONE = (
 
 # Files that look at the same finished reports.
 REPORTS = ("browser", "figures", "pdf", "sheets", "tags", "text")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """A folder for what processes make for each other; those of xdist inherit its name."""
+    if not hasattr(config, "workerinput"):
+        os.environ[FOLDER] = mkdtemp(prefix="kshm-kept-")
+
+
+def pytest_unconfigure(config: pytest.Config) -> None:
+    if not hasattr(config, "workerinput"):
+        shutil.rmtree(os.environ.pop(FOLDER), ignore_errors=True)
+
+
+def pytest_ignore_collect(collection_path: Path) -> bool | None:
+    """Quick tests do not even read the files of which they take nothing."""
+    whole = tuple(entry for entry in SLOW if "::" not in entry)
+    name = collection_path.relative_to(ROOT).as_posix() if QUICK else ""
+    return True if name.endswith(".py") and name.startswith(whole) else None
 
 
 @pytest.hookimpl(tryfirst=True)  # before xdist reads the groups

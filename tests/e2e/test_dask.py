@@ -22,8 +22,6 @@ from reports.studies.run import Options, sweep
 from tests.grading import classroom
 from tests.grading.fill import filled_book
 
-distributed = pytest.importorskip("distributed")
-
 BASE = samples_dir() / "gots-diesel.toml"
 VARY = ("regime.speed_rpm=1500:4400:10", "geometry.bore_mm=84:92:6")
 
@@ -31,6 +29,7 @@ VARY = ("regime.speed_rpm=1500:4400:10", "geometry.bore_mm=84:92:6")
 @pytest.fixture(scope="module")
 def cluster() -> Iterator[Any]:
     """Two workers, each a process of its own; a dead one is started again."""
+    distributed = pytest.importorskip("distributed")  # a second, which the quick tests spare
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None,
         silence_logs=50,

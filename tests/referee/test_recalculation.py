@@ -36,6 +36,9 @@ from tools.referees.by_formualizer import Formualizer
 from tools.referees.by_libreoffice import LibreOffice
 from tools.referees.cells import formula_cells
 
+# Both programs open the same changed books: made once.
+pytestmark = pytest.mark.xdist_group("recalculation")
+
 # Shares by which all inputs change at once: little, so that nearly all are taken, and much,
 # so that choices between branches come out otherwise.
 SPREADS = (0.03, 0.2)

@@ -18,6 +18,7 @@ from reports.shared.resources import samples_dir
 from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from reports.word.write import from_page, report_docx
+from tests.kept import kept
 
 W = "{http://schemas.openxmlformats.org/wordprocessingml/2006/main}"
 M = "{http://schemas.openxmlformats.org/officeDocument/2006/math}"
@@ -34,11 +35,18 @@ def model_of(name: str):
 @lru_cache(maxsize=4)
 def page_of(name: str, **style: object) -> str:
     """The page as the PDF has it, with tables cell by cell."""
+    if not style:
+        return _usual_page(name).decode()
     look = Style(tagged_tables=True, **style)
     return report_page(*model_of(name), media="print", style=look)
 
 
-@lru_cache(maxsize=4)
+@kept
+def _usual_page(name: str) -> bytes:
+    return report_page(*model_of(name), media="print", style=Style(tagged_tables=True)).encode()
+
+
+@kept
 def docx_of(name: str) -> bytes:
     """The file that ``report_docx`` makes, of the page that is there already."""
     return styled(name)

@@ -23,7 +23,7 @@ WRITER = Path("/usr/lib/libreoffice/program/libswlo.so")
 NAME = "gots-diesel"
 
 
-@pytest.fixture(autouse=True)
+@pytest.fixture(scope="module", autouse=True)
 def _writer() -> None:
     if not (WRITER.exists() and shutil.which("soffice") and shutil.which("pdftotext")):
         missing("LibreOffice Writer", "libreoffice-writer-nogui libreoffice-math-nogui")
@@ -42,6 +42,12 @@ def renewed(data: bytes, folder: Path) -> tuple[dict[str, int], Path]:
     return json.loads(done.stdout.splitlines()[-1]), target
 
 
+@pytest.fixture(scope="module")
+def as_made(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[str, int], Path]:
+    """The same of the file as it is made."""
+    return renewed(docx_of(NAME), tmp_path_factory.mktemp("made"))
+
+
 def pages(pdf: Path) -> int:
     told = subprocess.run(["pdfinfo", str(pdf)], capture_output=True, text=True, check=True)
     return int(re.search(r"Pages:\s+(\d+)", told.stdout)[1])
@@ -54,9 +60,9 @@ def text_of(pdf: Path) -> str:
     return re.sub(r"[ \u00a0]+", " ", told.stdout.decode())
 
 
-def test_nothing_is_lost(tmp_path):
+def test_nothing_is_lost(tmp_path, as_made):
     data = docx_of(NAME)
-    counts, made = renewed(data, tmp_path)
+    counts, made = as_made
     document = part(data)
     assert counts["formulas"] == len(document.findall(f".//{M}oMath"))
     assert counts["tables"] == len(document.findall(f".//{W}tbl"))
@@ -91,9 +97,8 @@ def numbers_of(text: str, words: str) -> list[int]:
     return [int(n) for n in re.findall(rf"{words} (\d+) —", text)]
 
 
-def test_a_chapter_put_in_renumbers_what_follows(tmp_path):
-    before = renewed(docx_of(NAME), tmp_path)[1]
-    old = text_of(before)
+def test_a_chapter_put_in_renumbers_what_follows(tmp_path, as_made):
+    old = text_of(as_made[1])
     new = text_of(renewed(with_chapter(docx_of(NAME)), tmp_path)[1])
     figures, tables = (numbers_of(new, words) for words in ("Рисунок", "Таблица"))
     assert figures == list(range(1, len(numbers_of(old, "Рисунок")) + 2))

@@ -21,6 +21,7 @@ from reports.workbook.cockpit import CHARTS
 from reports.workbook.layout import Layout
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
+from tests.kept import kept
 
 
 @lru_cache(maxsize=4)
@@ -28,8 +29,8 @@ def model(name: str = "gots-diesel") -> Model:
     return build_model(sample(name))
 
 
-@lru_cache(maxsize=4)
-def book(name: str = "gots-diesel") -> bytes:
+@kept
+def book(name: str) -> bytes:
     return workbook_bytes(model(name))
 
 
@@ -51,8 +52,8 @@ def coarse_values(name: str = "gots-diesel") -> Values:
     return evaluate_model(coarse_model(name))
 
 
-@lru_cache(maxsize=4)
-def coarse_book(name: str = "gots-diesel") -> bytes:
+@kept
+def coarse_book(name: str) -> bytes:
     return workbook_bytes(coarse_model(name), coarse_values(name))
 
 

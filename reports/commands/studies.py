@@ -28,7 +28,7 @@ from reports.shared.errors import KshmError
     "--only", type=click.Choice(["csv", "html", "pdf"]), help="Только один вид документа."
 )
 @verbose_option
-def validate(folder: Path, only: str | None, verbose: bool) -> int:
+def validate(folder: Path, only: str | None) -> int:
     """Пересчитать печатные таблицы пяти источников и показать, что с ними сходится."""
     from reports.validation.write import KINDS, write
 
@@ -84,7 +84,7 @@ def validate(folder: Path, only: str | None, verbose: bool) -> int:
 @verbose_option
 def sweep(
     source: Path, vary: tuple[str, ...], quantities: tuple[str, ...], pairwise: bool,
-    target: Path, jobs: int, dask: str | None, verbose: bool,
+    target: Path, jobs: int, dask: str | None,
 ) -> int:  # fmt: skip
     """Исследовать параметры: наибольшие и средние значения при всех сочетаниях.
 
@@ -115,7 +115,7 @@ def sweep(
     "-o", "--output", "target", required=True, metavar="FILE", help="Файл .xlsx, .pdf или .html."
 )
 @verbose_option
-def compare(sources: tuple[Path, ...], target: Path, verbose: bool) -> int:
+def compare(sources: tuple[Path, ...], target: Path) -> int:
     """Сравнить двигатели: данные, результаты, диаграммы и выводы рядом.
 
     От двух до шести файлов .toml или книг; проценты — отличие от первого.

@@ -7,6 +7,7 @@ numbers (``M2_Nm``) is an instance of a family (``M#_Nm``).
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -98,18 +99,47 @@ def ray_key(number: int) -> str:
     return f"ray_{roman(number)}_MPa"
 
 
-@lru_cache(maxsize=1024)
-def quantity(key: str) -> Quantity:
-    """Quantity of a key.
+# How what is printed grows with the length of alike engines: of equal stresses and piston speeds.
+_POWERS = {"dm3": 3, "cm3": 3, "Nm": 3, "J": 3, "kN": 2, "N": 2, "kW": 2, "W": 2,
+           "kg": 3, "kgm": 4, "kgm2": 5, "kg_h": 2}  # fmt: skip
+_USUAL_BORES_M = (0.06, 0.2)
+_FIFTHS = 5
+
+
+def smallness(bore_m: float) -> int:
+    """How much smaller an engine is than those of the books, in fifths of a power of ten.
+
+    Nothing for bores from 60 to 200 mm, for which the books' own decimals serve; negative for
+    larger ones, which have fewer.
+    """
+    low, high = _USUAL_BORES_M
+    smaller = math.ceil(_FIFTHS * math.log10(low / bore_m) - 1e-9)
+    larger = math.ceil(_FIFTHS * math.log10(high / bore_m) - 1e-9)
+    return max(0, smaller) + min(0, larger)
+
+
+@lru_cache(maxsize=4096)
+def quantity(key: str, small: int = 0) -> Quantity:
+    """Quantity of a key; with more decimals for an engine of that smallness.
 
     Raises:
         KeyError: nobody knows the key.
     """
+    about = _quantity(key)
+    more = math.ceil(small * _POWERS.get(about.unit, 0) / _FIFTHS)
+    if not more or about.digits.kind != "fixed":
+        return about
+    return replace(
+        about, digits=replace(about.digits, decimals=max(0, about.digits.decimals + more))
+    )
+
+
+def _quantity(key: str) -> Quantity:
     if key in _ALL:
         return _ALL[key]
     further = re.fullmatch(r"(\w+)_R(\d+)", key)
     if further is not None:  # the same quantity of a further regime
-        found = quantity(further[1])
+        found = _quantity(further[1])
         return replace(found, key=key, title=f"{found.title}, режим {further[2]}")
     if key.startswith("throw") and "_" in key:
         return replace(_ALL[key.split("_", 1)[1]], key=key)

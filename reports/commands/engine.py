@@ -169,6 +169,7 @@ def solve(source: Path, folder: Path | None, target: str | None) -> int:
     """Посчитать числа без документов."""
     from reports.exports.numbers import csv_text, export_tables, json_text
     from reports.inputs.solved import solved
+    from reports.inputs.to_si.engine import smallness_of
     from reports.shared.files import atomic_path, make_dir, refuse_own, write_text
 
     loaded = load(source)
@@ -190,19 +191,19 @@ def solve(source: Path, folder: Path | None, target: str | None) -> int:
                 json_text(loaded.model, solution, notes_of(loaded)), encoding="utf-8"
             )
     if folder is None and target is None:
-        _print_summary(solution.scalars)
+        _print_summary(solution.scalars, smallness_of(loaded.model))
         tell_grid(loaded)
     return DONE
 
 
-def _print_summary(scalars: dict[str, float]) -> None:
+def _print_summary(scalars: dict[str, float], small: int) -> None:
     from kshm.nomenclature.quantity import quantity
     from reports.shared.russian import written
 
     for key, value in scalars.items():
         if key.startswith("throw"):
             continue
-        about = quantity(key)
+        about = quantity(key, small)
         text = written(value, about.digits)
         click.echo(f"{about.title}: {about.symbol} = {text} {about.unit_label}".rstrip())
 
@@ -220,8 +221,8 @@ def _print_summary(scalars: dict[str, float]) -> None:
     help="Папка для результатов (по умолчанию текущая).",
 )
 @click.option(
-    "--only", type=click.Choice(["xlsx", "pdf", "html", "docx", "sheet"]),
-    help="Только один вид документа.",
+    "--only", type=click.Choice(["xlsx", "pdf", "html", "docx", "sheet"]), multiple=True,
+    help="Только этот вид документа; можно повторить.",
 )  # fmt: skip
 @path_option("--style", metavar="FILE", help="Оформление отчёта: файл кафедры .toml.")
 @dask_option
@@ -229,7 +230,7 @@ def _print_summary(scalars: dict[str, float]) -> None:
 def build(
     sources: tuple[Path, ...],
     folder: Path,
-    only: str | None,
+    only: tuple[str, ...],
     style: Path | None,
     dask: str | None,
 ) -> int:

@@ -25,14 +25,15 @@ from reports.shared.errors import KshmError
 @path_option("-o", "--output", "folder", default=Path(),
               help="Папка для результатов (по умолчанию текущая).")  # fmt: skip
 @click.option(
-    "--only", type=click.Choice(["csv", "html", "pdf"]), help="Только один вид документа."
-)
+    "--only", type=click.Choice(["csv", "html", "pdf"]), multiple=True,
+    help="Только этот вид документа; можно повторить.",
+)  # fmt: skip
 @verbose_option
-def validate(folder: Path, only: str | None) -> int:
+def validate(folder: Path, only: tuple[str, ...]) -> int:
     """Пересчитать печатные таблицы пяти источников и показать, что с ними сходится."""
     from reports.validation.write import KINDS, write
 
-    book, files, missing = write(folder, (only,) if only else KINDS)  # type: ignore[arg-type]
+    book, files, missing = write(folder, only or KINDS)  # type: ignore[arg-type]
     for path in files:
         click.echo(f"{path}")
     counts = book.counts

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from kshm.nomenclature.quantity import Quantity, quantity
 from reports.inputs.fields import Field, iter_fields
 from reports.inputs.sections.input_file import InputFile
+from reports.inputs.to_si.engine import smallness_of
 from reports.shared.errors import InputError, Problem
 from reports.shared.russian import capital
 from reports.spec.charts import PHI
@@ -215,7 +216,7 @@ def _result(engines: Sequence[Compared], group: str, entry: str | tuple[str, str
         values.append(0.0 if largest is not None and abs(largest) < _ROUNDING else largest)
     if not known:
         return None
-    about = quantity(known)
+    about = quantity(known, max(smallness_of(engine.model) for engine in engines))
     symbol = "" if title else about.symbol
     key = entry if isinstance(entry, str) else pattern
     found = tuple(values)

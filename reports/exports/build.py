@@ -61,11 +61,9 @@ def load_input(path: Path) -> Loaded:
     return loaded
 
 
-def kinds_of(loaded: Loaded, only: Kind | None = None) -> tuple[Kind, ...]:
+def kinds_of(loaded: Loaded, only: tuple[Kind, ...] = ()) -> tuple[Kind, ...]:
     """What a person asks for, or the input, or the workbook and the PDF."""
-    if only is not None:
-        return (only,)
-    return loaded.model.report.formats or USUAL_FORMATS
+    return only or loaded.model.report.formats or USUAL_FORMATS
 
 
 def find_templates(path: Path, loaded: Loaded, style: Path | None = None) -> None:

@@ -47,14 +47,14 @@ class Delivery:
 def build_each(
     inputs: Sequence[Input],
     folder: Path,
-    only: Kind | None = None,
+    only: tuple[Kind, ...] = (),
     dask: str | None = None,
     chapters: Chapters = _no_chapters,
     style: Path | None = None,
 ) -> Iterator[Built]:
     """What was built for each input, in order; the files are the same wherever it is done.
 
-    ``only`` is one kind of document in place of those that an input asks for.
+    ``only`` are the kinds of documents in place of those that an input asks for.
     ``chapters`` gives the further chapters of an input's report.
 
     Raises:

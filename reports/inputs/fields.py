@@ -31,6 +31,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from kshm.nomenclature.quantity import smallness
 from reports.inputs.meta import Meta, find_meta, hints, submodel
 from reports.inputs.registry import SECTIONS
 from reports.inputs.sections.input_file import InputFile, RegimeSection, RegimeValues
@@ -123,7 +124,13 @@ def structure(model: InputFile) -> tuple[tuple[str, Value | None], ...]:
 
 def tables_shape(fields: Iterable[Field]) -> tuple[tuple[str, Value | None], ...]:
     """Return all that the tables of an input follow from: everything but its plain numbers."""
-    return tuple((field.name, field.value if _shapes(field) else None) for field in fields)
+    return tuple((field.name, _shape(field)) for field in fields)
+
+
+def _shape(field: Field) -> Value | None:
+    if field.path == ("geometry", "bore_mm") and isinstance(field.value, float):
+        return smallness(field.value / 1000)  # decides the decimals
+    return field.value if _shapes(field) else None
 
 
 def _shapes(field: Field) -> bool:

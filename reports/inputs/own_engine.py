@@ -17,6 +17,7 @@ from kshm.engine.masses import Estimate
 from kshm.mechanics.rod_masses import PISTON, ROD, THROW, area_masses
 from reports.inputs.own_phases import Phases, phases
 from reports.inputs.sections.input_file import LAYOUTS
+from reports.inputs.to_si.geometry import Sizes
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE
 from reports.inputs.units import number_text
 from reports.shared.errors import InputError, Problem
@@ -269,7 +270,8 @@ def table_masses(
     layout: str, kind: str, bore: float, stroke: float, share: float = ROD_SHARE
 ) -> tuple[dict[str, Any], ThrowMasses]:
     """Section [masses] and the masses of a throw by table 4 of the textbook."""
-    area = math.pi * (bore / 1000) ** 2 / 4
+    size = Sizes(bore, stroke / 2, stroke)
+    area = size.piston_area * size.heavier
     near = area_masses(Estimate(fuel="diesel" if kind == "diesel" else "petrol"),
                        bore / 1000, stroke / 1000)  # fmt: skip
     rods = 2 if layout == "v" else 1
@@ -277,8 +279,9 @@ def table_masses(
     web = near.throw * (1 - PIN_SHARE) / 2
     rotating = pin + 2 * web + rods * (1 - share) * near.rod
     taken = rotating * SHAFTS[layout, kind].counterweights
+    larger = f" × {number_text(round(size.heavier, 2))} для такого D" if size.heavier > 1 else ""
     piston, rod, throw = (
-        f"таблица 4: от {low:g} до {high:g} кг/м², принято {value:.0f}"
+        f"таблица 4: от {low:g} до {high:g} кг/м², принято {value:.0f}{larger}"
         for (low, high), value in (
             (PISTON["aluminium", kind], near.piston),
             (ROD[kind], near.rod),

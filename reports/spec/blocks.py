@@ -26,7 +26,7 @@ class Column:
     gives.
 
     ``of`` names the quantity where the key alone does not; a helper column
-    serves the formulas of the workbook and is no result.
+    serves the formulas of the workbook and is no result.  A ``small`` engine has more decimals.
     """
 
     key: str
@@ -34,11 +34,12 @@ class Column:
     source: str = ""
     helper: bool = False
     of: str = ""
+    small: int = 0
 
     @property
     def quantity(self) -> Quantity:
         """Symbol, unit and title."""
-        return quantity(self.of or self.key)
+        return quantity(self.of or self.key, self.small)
 
 
 @dataclass(frozen=True)
@@ -80,11 +81,12 @@ class Scalar:
     source: str = ""
     note: str = ""
     of: str = ""
+    small: int = 0
 
     @property
     def quantity(self) -> Quantity:
         """Symbol, unit and title."""
-        return quantity(self.of or self.key)
+        return quantity(self.of or self.key, self.small)
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,11 +111,12 @@ class GridRow:
 
     of: str
     cells: tuple[Scalar | None, ...]
+    small: int = 0
 
     @property
     def quantity(self) -> Quantity:
         """Symbol, unit and title."""
-        return quantity(self.of)
+        return quantity(self.of, self.small)
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TypeVar
 
-from reports.spec.blocks import Block, Column, Scalar, ScalarTable, TableSpec
+from reports.spec.blocks import Block, Column, Grid, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec
 
 Names = Callable[[str], str]
@@ -29,7 +29,7 @@ def substituted(blocks: tuple[Block, ...], names: Mapping[str, str]) -> tuple[Bl
     """Blocks in which each name of ``names`` is replaced by the one that stands in for it."""
     if not names:
         return blocks
-    change = _Expressions(lambda name: names.get(name, name))
+    change = _Expressions(lambda name: names.get(name, name), only=tuple(names))
     return tuple(_changed(block, change, change) for block in blocks)
 
 
@@ -47,6 +47,20 @@ def copied(block: Block, names: Names) -> Block:
     return replace(_changed(block, scalar, change), id=names(block.id))
 
 
+def sized(blocks: tuple[Block, ...], small: int) -> tuple[Block, ...]:
+    """Blocks of an engine of that smallness: its values have more decimals."""
+
+    def made(block: Block) -> Block:
+        if isinstance(block, Grid):
+            rows = tuple(replace(row, small=small) for row in block.rows)
+            block = replace(block, rows=rows)
+        return _changed(
+            block, lambda item: replace(item, small=small), lambda item: replace(item, small=small)
+        )
+
+    return tuple(map(made, blocks)) if small else blocks
+
+
 def copied_chart(chart: ChartSpec, names: Names) -> ChartSpec:
     """A chart of what ``copied`` made of its tables."""
     return replace(
@@ -62,11 +76,15 @@ def copied_chart(chart: ChartSpec, names: Names) -> ChartSpec:
 class _Expressions:
     """Changes the expression of a scalar or column."""
 
-    def __init__(self, names: Names) -> None:
+    def __init__(self, names: Names, only: tuple[str, ...] = ("",)) -> None:
         self._names = names
+        self._only = only  # no other name is changed
 
     def __call__(self, item: Node) -> Node:
-        return item if item.expr is None else replace(item, expr=renamed(item.expr, self._names))
+        if item.expr is None or not any(name in item.expr for name in self._only):
+            return item
+        expr = renamed(item.expr, self._names)
+        return item if expr == item.expr else replace(item, expr=expr)  # most name none of them
 
 
 def _changed(

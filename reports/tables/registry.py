@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from reports.inputs.fields import iter_fields
 from reports.inputs.sections.input_file import InputFile
+from reports.inputs.to_si.engine import smallness_of
 from reports.spec.blocks import Model
 from reports.spec.parts import Part, PartOf, Scope, joined
-from reports.spec.rename import substituted
+from reports.spec.rename import sized, substituted
 from reports.tables.balance.balance import balance
 from reports.tables.balance.inertia import inertia
 from reports.tables.balance.torque_orders import torque_orders
@@ -74,7 +75,7 @@ def build_model(model: InputFile, remarks: tuple[str, ...] = ()) -> Model:
     )
     blocks = tuple(block for part in parts for block in part.blocks)
     charts = tuple(chart for part in parts for chart in part.charts)
-    blocks = substituted(blocks, stand_ins(model))
+    blocks = sized(substituted(blocks, stand_ins(model)), smallness_of(model))
     note = left_out_note(model)
     remarks = (*remarks, *accepted_checks(model, blocks), *((note,) if note else ()))
     return Model(model, tuple(iter_fields(model)), blocks, charts, remarks)

@@ -262,8 +262,10 @@ def test_help_is_russian() -> None:
 
 
 def test_the_first_command_of_the_readme_ends_well(tmp_path: Path) -> None:
-    done = kshm("build", "samples/gots-diesel.toml", "-o", tmp_path, "--only", "xlsx")
+    done = kshm("build", "samples/gots-diesel.toml", "-o", tmp_path,
+                "--only", "xlsx", "--only", "html")  # fmt: skip
     assert done.returncode == 0
+    assert sorted(path.suffix for path in tmp_path.iterdir()) == [".html", ".xlsx"]
     assert "Принято: не выполнена проверка «Средняя тангенциальная сила" in done.stderr
 
 

@@ -6,6 +6,11 @@ from functools import lru_cache
 from pathlib import Path
 from tempfile import mkdtemp
 
+import pytest
+from openpyxl import Workbook
+
+from reports.grading.issuing import handout as handouts
+from reports.grading.issuing import issue as issuing
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.issue import Result, assignment_for, issue
 from reports.grading.issuing.register import Issued, Register
@@ -60,6 +65,21 @@ def issue_class(folder: Path, count: int, rubric: str | None = None) -> Result:
         rubric_file=rubric_file,
         secret_file=folder / "secret.key",
     )
+
+
+def registered(folder: Path, count: int, rubric: str) -> Register:
+    """A class whose books are made when their students open them."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(issuing, "_write", lambda *given: None)
+        return issue_class(folder, count, rubric).register
+
+
+def opened(assignment: Assignment, ticket: str) -> Workbook:
+    """A work-book as a program holds it: half the time goes into writing and reading it."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(handouts, "_charts", lambda assignment: ())  # most of the other half
+        patch.setattr(handouts, "saved", lambda book, caches: book)
+        return handouts.handout_bytes(assignment, ticket)
 
 
 @lru_cache(maxsize=1)

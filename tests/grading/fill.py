@@ -37,14 +37,14 @@ def solved_formulas(assignment: Assignment, layout: Layout) -> dict[str, list[Fo
 
 
 def filled_book(
-    handout: bytes,
+    handout: bytes | Workbook,
     assignment: Assignment,
     changes: Mapping[str, list[Formula]] | None = None,
     edit: Callable[[Workbook, Layout], None] | None = None,
 ) -> bytes:
     """A work-book with formulas in every cell to fill in; ``changes`` replace whole nodes."""
     layout = Layout.of(assignment.model)
-    book = load_workbook(io.BytesIO(handout))
+    book = load_workbook(io.BytesIO(handout)) if isinstance(handout, bytes) else handout
     formulas = {**solved_formulas(assignment, layout), **(changes or {})}
     for block in assignment.fill:
         sheet = book[block.sheet]

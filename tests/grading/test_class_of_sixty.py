@@ -8,17 +8,16 @@ from tempfile import mkdtemp
 
 import pytest
 
-from reports.grading.issuing import handout
 from reports.grading.issuing.assignment import Assignment
+from reports.grading.issuing.handout import handout_bytes
 from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.judging.marking import Marker
 from reports.grading.reading.submissions import Submission
 from reports.spec.blocks import TableSpec
-from reports.spec.charts import ChartSpec
 from reports.spec.evaluation import Values, evaluate_model
 from reports.workbook.layout import Cell, Layout
-from tests.grading.classroom import issue_class
+from tests.grading.classroom import opened, registered
 from tests.grading.defects import DEFECTS, Defect
 from tests.grading.fill import filled_book, solved_formulas
 from tests.grading.forms import as_excel, tampered
@@ -43,23 +42,13 @@ def plan() -> list[tuple[Defect, str]]:
 
 
 @lru_cache(maxsize=1)
-def classroom() -> tuple[Path, Register]:
-    folder = Path(mkdtemp(prefix="kshm-sixty-"))
-    charts = handout._charts
-    left = iter([True] * FORMS_OF_EACH)
-
-    def some_charts(assignment: Assignment) -> tuple[ChartSpec, ...]:
-        # Charts are not graded and take most of the time: only the first books have them.
-        return charts(assignment) if next(left, False) else ()
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(handout, "_charts", some_charts)
-        return folder, issue_class(folder, COUNT, RUBRIC).register
+def classroom() -> Register:
+    return registered(Path(mkdtemp(prefix="kshm-sixty-")), COUNT, RUBRIC)
 
 
 @lru_cache(maxsize=64)
 def assignment_of_book(number: int) -> Assignment:
-    register = classroom()[1]
+    register = classroom()
     like = assignment_of_book(1) if number > 1 else None
     return assignment_for(register.books[number - 1], register.rubric, like)
 
@@ -91,7 +80,7 @@ def substituted(
 
 
 def book_of(number: int, defect: Defect) -> bytes:
-    folder, register = classroom()
+    register = classroom()
     issued = register.books[number - 1]
     # A neighbour whose speed and rod are both other ones.
     other = next(
@@ -102,7 +91,8 @@ def book_of(number: int, defect: Defect) -> bytes:
     assignment = assignment_of_book(number)
     layout = Layout.of(assignment.model)
     values = evaluate_model(assignment.model)
-    empty = (folder / "issued" / issued.folder / issued.file).read_bytes()
+    # The first ones as the files that are handed out, with their charts.
+    empty = (handout_bytes if number <= FORMS_OF_EACH else opened)(assignment, issued.ticket)
     formulas = solved_formulas(assignment, layout)
     changes = defect.change(formulas, values, assignment)
 
@@ -120,7 +110,7 @@ def book_of(number: int, defect: Defect) -> bytes:
 
 def graded_class(libreoffice: LibreOffice):
     """Number of the student → defect, form and result."""
-    _, register = classroom()
+    register = classroom()
     pairs = plan()
     assert len(pairs) == COUNT == len(register.books) == 60
     books = {number: book_of(number, defect) for number, (defect, _) in enumerate(pairs, 1)}
@@ -193,7 +183,7 @@ def check_what_was_moved_or_changed_is_told(results):
 
 
 def check_a_saved_value_that_was_altered_is_reported(results):
-    _, register = classroom()
+    register = classroom()
     for defect, form, _, data in results.values():
         if defect.name == "right" and form != "own":
             changed = tampered(data, "П3.1", "E9")

@@ -108,6 +108,16 @@ def test_an_engine_has_the_power_that_was_asked_for(case, power, speed):
     assert given_kw == pytest.approx(power * cylinders, rel=0.02)
 
 
+@pytest.mark.parametrize(("kind", "strokes"), sorted(USUAL))
+@pytest.mark.parametrize("bore_mm", [22, 61, 160, 400, 950])
+def test_engines_of_every_size_pass_without_a_warning(bore_mm, kind, strokes):
+    usual = USUAL[kind, strokes]
+    speed = round(usual.piston_speed * 30000 / usual.stroke_bore / bore_mm)
+    found = made(4, "inline", strokes, kind, speed_rpm=speed)
+    assert found.warnings == ()
+    assert found.model.geometry.bore_mm == pytest.approx(bore_mm, rel=0.02)
+
+
 def test_firing_is_even_where_one_order_says_it():
     for case in ALL:
         shaft = own_engine(case[0], layout=case[1], strokes=case[2], kind=case[3]).data[

@@ -1,4 +1,4 @@
-"""The Word file as a file: fields, pictures, styles, bytes, Microsoft's schema."""
+"""The Word file as a file: fields, pictures, styles, bytes; its schema is in test_schema."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import io
 import re
 import zipfile
 
-import pytest
 from click.testing import CliRunner
 from docx_samples import W, docx_of, made_anew, part, styled, text_of
 from lxml import etree
@@ -14,7 +13,6 @@ from lxml import etree
 from reports.cli import main
 from reports.shared.resources import samples_dir
 from reports.word.markup import bookmark_name
-from tests.workbook.test_schema import thinned, validated
 
 NAME = "gots-diesel"
 
@@ -161,10 +159,3 @@ def test_names_of_bookmarks_differ():
     names = [bookmark_name(anchor) for anchor in anchors]
     assert len(set(names)) == len(names) and all(re.fullmatch(r"\w{1,40}", n) for n in names)
     assert bookmark_name("tab-P3_1") == "tab_P3_1"
-
-
-@pytest.mark.parametrize("style", [{}, {"frame": "eskd", "numbering": "chapter"}])
-def test_the_schema_validator_finds_nothing(tmp_path, style):
-    path = tmp_path / "note.docx"
-    path.write_bytes(thinned(styled("cycle-turbo-diesel", **style)))
-    assert "Found 0 errors" in validated(path)

@@ -16,6 +16,7 @@ from reports.document.chapters.chapter import Chapter
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.page.spec_tables import angle_table
 from reports.document.page.writer import TablePlan
+from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms
 from reports.inputs.to_si.engine import to_engine
 from reports.shared.russian import MINUS, NBSP, fixed, joined, written
@@ -235,13 +236,14 @@ def _firing(chapter: Chapter) -> TableBlock:
         Column(symbol_head(r"\Sigma_{0{,}5}", ""), 0.9),
         Column(symbol_head(r"R_{\mathrm{к.ш}\,\max}", "кН"), 1.4),
     ]
+    load = chapter.terms.quantity("Rmain1_max_kN")
     rows = [
         (
             "–".join(map(str, ranked.order)),
             ", ".join(fixed(gap, 0) for gap in np.degrees(intervals(np.array(ranked.offsets)))),
             fixed(ranked.unevenness, 3),
             fixed(ranked.half_order if np.abs(ranked.half_order) > 1e-9 else 0.0, 3),
-            fixed(ranked.journal_load / 1000, 2),
+            of_digits(ranked.journal_load / 1000, load.digits),
         )
         for ranked in rank_firing_orders(to_engine(chapter.input))[:_MOST_ORDERS]
     ]

@@ -12,6 +12,7 @@ from reports.document.chapters import facts
 from reports.document.chapters.chapter import Chapter
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.page.writer import TablePlan
+from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms
 from reports.shared.russian import fixed
 from reports.tables.overview.summary import YES
@@ -33,7 +34,9 @@ def torque(chapter: Chapter) -> Markup:
         accepted=reasons_of(chapter.input).get("power", "").rstrip("."),
         powers=_powers(chapter) if terms.has("cyc_N_gas") else None,
         coarse=any(error.key in ("M_mean", "N_i_calc") for error in chapter.terms.grid_errors),
-        swing=fixed(terms.value("M_max") - terms.value("M_min"), 0),
+        swing=of_digits(
+            terms.value("M_max") - terms.value("M_min"), terms.quantity("M_max").digits
+        ),
         ratio=fixed(terms.value("M_max") / mean, 2) if mean > 0 else "",
     )
 
@@ -110,6 +113,6 @@ def _ranges(terms: Terms, count: int) -> TableBlock:
     for title, column, key in names:
         values = terms.column(column)
         numbers = (float(values.max()), float(values.min()), terms.value(key))
-        digits = terms.quantity(key).digits.decimals  # as in the text below the table
-        rows.append([title, *(fixed(number, digits) for number in numbers)])
+        digits = terms.quantity(key).digits  # as in the text below the table
+        rows.append([title, *(of_digits(number, digits) for number in numbers)])
     return table_block(columns, rows)

@@ -117,10 +117,11 @@ def _forms(terms: Terms, modes: list[int]) -> TableBlock:
     heads += [Column(symbol_head(f"a_{m}", "")) for m in modes]
     grid = next(block for block in terms.model.blocks if block.id == "torsion_train")
     labels = getattr(grid, "labels", ())
+    inertia = "torsion_forms.tor_J_kgm2"
     rows = [
         [
             label,
-            fixed(float(terms.column("torsion_forms.tor_J_kgm2")[k]), 4),
+            numbers.of_digits(float(terms.column(inertia)[k]), terms.quantity(inertia).digits),
             *(fixed(float(terms.column(f"torsion_forms.tor_theta{m}")[k]), 5) for m in modes),
         ]
         for k, label in enumerate(labels)
@@ -140,7 +141,8 @@ def _holzer_row(terms: Terms) -> str:
     inertia, spring = terms.value("torJ1"), terms.value("torc1")
     omega = 2 * np.pi * terms.value("tor_f1_hz")
     moment = omega**2 * inertia - terms.value("torsion_ground_nm_rad")
-    shown = [numbers.to_tex(text) for text in (fixed(omega, 1), fixed(inertia, 4),
+    digits = terms.quantity("torJ1").digits
+    shown = [numbers.to_tex(text) for text in (fixed(omega, 1), fixed(inertia, digits.decimals),
                                                fixed(moment, 0), fixed(spring, 0))]  # fmt: skip
     second = numbers.to_tex(fixed(float(terms.column("torsion_forms.tor_theta1")[1]), 5))
     ground = terms.value("torsion_ground_nm_rad")

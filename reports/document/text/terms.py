@@ -19,6 +19,7 @@ from reports.formula import tex as formulas
 from reports.formula.numeric import evaluate
 from reports.inputs.checks.grid import GridError, grid_errors
 from reports.inputs.fields import Field
+from reports.inputs.to_si.engine import smallness_of
 from reports.shared.russian import NBSP, fixed
 from reports.spec.blocks import Column, Model, Scalar
 from reports.spec.evaluation import Values
@@ -115,7 +116,7 @@ class Terms:
         node = self._node(name)
         if isinstance(node, Scalar | Column):
             return node.quantity
-        return quantity(key if table else name)
+        return quantity(key if table else name, smallness_of(self.model.input))
 
     def tex(self, name: str) -> str:
         """TeX symbol of a node."""

@@ -6,7 +6,7 @@ What is known by heart and was not checked against a book says so in its source.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 MEMORY = "по памяти"
 TABLE_4 = "таблица 4 учебника с запасом"
@@ -21,7 +21,8 @@ class Band:
     """Usual values of a key over a base, ends included.
 
     ``key`` is a path of the file with the numbers of lists left out.  ``base`` divides the
-    value: D, r, L [mm], n [min⁻¹], F (piston area in m², larger for large engines) or "".
+    value: D, r, L [mm], n [min⁻¹], F (piston area in m²: the bounds of a large engine are
+    ``scaled``) or "".
     ``kind`` limits the band to an engine's kind (or number of strokes), ``zero`` lets a
     plain zero pass: there is no such part.
     """
@@ -35,6 +36,11 @@ class Band:
     unit: str = ""
     zero: bool = False
     kind: str = ""
+
+    def scaled(self, times: float) -> Band:
+        """The band with bounds so many times as large."""
+        source = f"{self.source}, для такого D" if times > 1 else self.source
+        return replace(self, low=self.low * times, high=self.high * times, source=source)
 
 
 def _arm(key: str, words: str, low: float, high: float) -> Band:

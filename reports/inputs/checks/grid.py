@@ -12,6 +12,7 @@ from kshm.arrays import Tables
 from kshm.nomenclature.quantity import Quantity, quantity
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.solved import solved
+from reports.inputs.to_si.engine import smallness_of
 from reports.shared.errors import InputError
 from reports.shared.russian import NBSP, fixed, written
 
@@ -37,11 +38,12 @@ class GridError:
     key: str
     coarse: float
     fine: float
+    small: int = 0
 
     @property
     def quantity(self) -> Quantity:
         """What it is."""
-        return quantity(self.key)
+        return quantity(self.key, self.small)
 
     @property
     def percent(self) -> float:
@@ -63,8 +65,9 @@ def grid_errors(model: InputFile) -> tuple[GridError, ...]:
         coarse, fine = _results(model), _results(refined(model))
     except (ValueError, InputError):
         return ()
+    small = smallness_of(model)
     found = [
-        GridError(key, value, fine[key])
+        GridError(key, value, fine[key], small)
         for key, value in coarse.items()
         if _is_off(value, fine[key], max(map(abs, _family(coarse, key))))
     ]

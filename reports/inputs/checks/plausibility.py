@@ -27,18 +27,18 @@ _MOST_OFF = 0.5  # share of the sizes that disagree with the bore when the bore 
 
 def check_plausibility(model: InputFile, sizes: Sizes) -> Iterator[Finding]:
     """Yield a warning for every value that hardly belongs to an engine."""
-    found = list(_by_band(model, sizes))
-    tested = sum(1 for _, band, _ in _tested(model, sizes) if band.base in ("D", "F"))
-    off = [finding for finding, band in found if band.base in ("D", "F")]
+    tested = list(_tested(model, sizes))
+    outside = [entry for entry in tested if not entry[1].low <= entry[2] <= entry[1].high]
+    off, all_sizes = _of_the_bore(outside), _of_the_bore(tested)
     ratio = list(_stroke(model, sizes))
     found_by_power = getattr(model.geometry, "bore_mm", None) is None
-    wrong_bore = bool(ratio or found_by_power) and len(off) > _MOST_OFF * tested
+    wrong_bore = bool(ratio or found_by_power) and len(off) > _MOST_OFF * len(all_sizes)
     if wrong_bore:
-        yield _wrong_bore(model, sizes, len(off), tested)
-        yield from (finding for finding, band in found if band.base not in ("D", "F"))
+        yield _wrong_bore(model, sizes, len(off), len(all_sizes))
+        yield from _told([entry for entry in outside if entry not in off])
     else:
         yield from ratio
-        yield from (finding for finding, _ in found)
+        yield from _told(outside)
     yield from _speed(model, sizes)
     yield from _shaft(model, sizes)
     yield from _efficiency(model)
@@ -55,16 +55,24 @@ def check_plausibility(model: InputFile, sizes: Sizes) -> Iterator[Finding]:
 Tested = tuple[Path, Band, float]
 
 
-def _by_band(model: InputFile, sizes: Sizes) -> Iterator[tuple[Finding, Band]]:
-    for path, band, value in _tested(model, sizes):
-        if not band.low <= value <= band.high:
-            yield _finding(path, band, value), band
+def _of_the_bore(entries: list[Tested]) -> list[Tested]:
+    return [entry for entry in entries if entry[1].base in ("D", "F")]
+
+
+def _told(outside: list[Tested]) -> Iterator[Finding]:
+    """A finding for each value; equal ones of a list, of copied webs say, are told once."""
+    alike: dict[tuple[Path, float], list[Tested]] = {}
+    for path, band, value in outside:
+        key = tuple(part for part in path if isinstance(part, str))
+        alike.setdefault((key, value), []).append((path, band, value))
+    for (path, band, value), *others in alike.values():
+        yield _finding(path, band, value, len(others))
 
 
 def _tested(model: InputFile, sizes: Sizes) -> Iterator[Tested]:
     kind = kind_of(model)
     bases = {
-        "": 1.0, "D": sizes.bore, "r": sizes.radius, "L": sizes.rod, "F": sizes.mass_area,
+        "": 1.0, "D": sizes.bore, "r": sizes.radius, "L": sizes.rod, "F": sizes.piston_area,
         "n": float(model.regime.speed_rpm),
     }  # fmt: skip
     own = {band.key for band in BANDS if band.kind and band.kind == kind}
@@ -74,7 +82,8 @@ def _tested(model: InputFile, sizes: Sizes) -> Iterator[Tested]:
         for path, value in values_at(model, band.key):
             if not (band.zero and value == 0):
                 over = abs(value) if band.base and band.zero else value
-                yield path, band, over / bases[band.base]
+                own_band = band.scaled(sizes.heavier) if band.base == "F" else band
+                yield path, own_band, over / bases[band.base]
 
 
 def kind_of(model: InputFile) -> str:
@@ -104,9 +113,10 @@ def _values(part: Any, keys: list[str], path: Path) -> Iterator[tuple[Path, floa
         yield path, float(part)
 
 
-def _finding(path: Path, band: Band, value: float) -> Finding:
+def _finding(path: Path, band: Band, value: float, others: int = 0) -> Finding:
     unit = f" {band.unit}" if band.unit and band.unit != "°" else band.unit
-    what = f"{band.words} = {_short(value)}{unit} необычно"
+    more = f", в списке ещё {others} таких" if others else ""
+    what = f"{band.words} = {_short(value)}{unit} необычно{more}"
     hint = f"обычно от {_short(band.low)} до {_short(band.high)}{unit} ({band.source})"
     return Finding(path, what, f"{hint}; проверьте единицу и запятую", warning=True)
 
@@ -185,8 +195,9 @@ def _shaft(model: InputFile, sizes: Sizes) -> Iterator[Finding]:
     for index, web in enumerate(model.crankshaft.webs):
         if web.actual_mass_kg is None or web.centre_mm is None or web.centre_mm <= 0:
             continue
-        reduced = web.actual_mass_kg * web.centre_mm / sizes.radius / sizes.mass_area
-        yield from _judged(("crankshaft", "webs", index, "centre_mm"), bands.REDUCED_WEB, reduced)
+        reduced = web.actual_mass_kg * web.centre_mm / sizes.radius / sizes.piston_area
+        band = bands.REDUCED_WEB.scaled(sizes.heavier)
+        yield from _judged(("crankshaft", "webs", index, "centre_mm"), band, reduced)
 
 
 def _entries(model: InputFile, keys: tuple[str, ...]) -> list[tuple[Path, float]]:

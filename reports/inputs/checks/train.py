@@ -26,15 +26,17 @@ def train_values(model: InputFile, sizes: Sizes) -> Iterator[tuple[Path, Band, f
     if section is None:
         return
     rods = model.engine.cylinders / len(model.crankshaft.throw_angles_deg)
-    area_r2 = sizes.mass_area * (sizes.radius / 1000) ** 2
+    area_r2 = sizes.piston_area * (sizes.radius / 1000) ** 2
+    usual = bands.THROW_INERTIA.scaled(sizes.heavier)
     for path, inertia in _inertias(section):
-        yield path, bands.THROW_INERTIA, inertia / (rods * area_r2)
+        yield path, usual, inertia / (rods * area_r2)
     twisted = _shaft_stiffness(model, section, sizes)
     for path, stiffness in _stiffnesses(section):
         yield path, bands.THROW_STIFFNESS, stiffness / twisted
     if section.damping_nms_rad:
         path = (*_PATH, "damping_nms_rad")
-        yield path, bands.DAMPING, section.damping_nms_rad / (1000 * area_r2)
+        usual = bands.DAMPING.scaled(sizes.heavier)
+        yield path, usual, section.damping_nms_rad / (1000 * area_r2)
 
 
 def _inertias(section: TorsionSection) -> Iterator[Entry]:

@@ -8,6 +8,7 @@ from kshm.engine.arrangement import Arrangement, ArticulatedRod, hung
 from kshm.engine.crankshaft import Crankshaft, EndMass, Throw, Web
 from kshm.engine.engine import Balancing, Engine, Geometry, OperatingPoint
 from kshm.engine.gas import Gas, PolytropicGas, TabulatedGas
+from kshm.nomenclature.quantity import smallness
 from reports.inputs.firing import arrangement
 from reports.inputs.sections.articulated import ArticulatedSection
 from reports.inputs.sections.balance import BalanceSection
@@ -40,6 +41,12 @@ def engine_and_cycle(model: InputFile) -> tuple[Engine, CycleRun | None]:
     """Return the engine in SI units and the cycle calculation that its gas comes from."""
     run = cycle_run(model)
     return _engine(model, run), run
+
+
+def smallness_of(model: InputFile) -> int:
+    """How much smaller the engine is than those of the books: its values have more decimals."""
+    bore_mm = getattr(model.geometry, "bore_mm", None)
+    return smallness(bore_mm / 1000 if bore_mm else to_engine(model).geometry.bore)
 
 
 def _engine(model: InputFile, run: CycleRun | None) -> Engine:

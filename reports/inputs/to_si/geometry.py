@@ -24,9 +24,9 @@ class Sizes:
         return math.pi * (self.bore / 1000) ** 2 / 4
 
     @property
-    def mass_area(self) -> float:
-        """Area that masses are in proportion to [m²]: F_п, larger for large engines."""
-        return self.piston_area * max(1.0, self.bore / _SIMILAR_MM)
+    def heavier(self) -> float:
+        """How many times the usual masses over F_п those of so large an engine are."""
+        return max(1.0, self.bore / _SIMILAR_MM)
 
 
 def sizes_of(model: InputFile, bore_and_stroke: tuple[float, float] | None = None) -> Sizes:

@@ -9,18 +9,16 @@ from functools import lru_cache
 from pathlib import Path
 from tempfile import mkdtemp
 
-import pytest
-from openpyxl import Workbook, load_workbook
+from openpyxl import Workbook
 from openpyxl.worksheet.formula import ArrayFormula
 
-from reports.grading.issuing import handout
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.handout import fill_cells
 from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
 from reports.spec.evaluation import Values, evaluate_model
 from reports.workbook.layout import Layout
-from tests.grading.classroom import issue_class
+from tests.grading.classroom import opened, registered
 from tests.grading.real.written import FIRST, ROWS, RUBRIC, WRITTEN
 
 COUNT = 140
@@ -70,9 +68,7 @@ class Work:
 def classroom() -> tuple[Path, Register]:
     """The class, issued once."""
     folder = Path(mkdtemp(prefix="kshm-real-"))
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(handout, "_charts", lambda assignment: ())  # they take most of the time
-        return folder, issue_class(folder, COUNT, RUBRIC).register
+    return folder, registered(folder, COUNT, RUBRIC)
 
 
 @lru_cache(maxsize=1)
@@ -94,15 +90,10 @@ def desk(number: int) -> Desk:
                 evaluate_model(assignment.model))  # fmt: skip
 
 
-def empty_book(issued: Issued) -> bytes:
-    """The work-book as it was issued."""
-    return (classroom()[0] / "issued" / issued.folder / issued.file).read_bytes()
-
-
 def made(number: int, work: Work) -> bytes:
     """The book that a student hands in, before another program saves it."""
     here = desk(number)
-    book = load_workbook(io.BytesIO(empty_book(here.issued)))
+    book = opened(here.assignment, here.issued.ticket)
     write(book, here, {**WRITTEN, **work.change(here)})
     if work.edit is not None:
         work.edit(book, here)

@@ -6,13 +6,14 @@ import io
 import zipfile
 from collections.abc import Callable
 
-from openpyxl import Workbook, load_workbook
+from openpyxl import Workbook
 from openpyxl.worksheet.formula import ArrayFormula
 
 from reports.grading.issuing.handout import TICKET_NAME
 from reports.tables.registry import build_model
 from reports.workbook.write import workbook_bytes
-from tests.grading.real.books import Desk, Work, desk, empty_book, literals, rows, write
+from tests.grading.classroom import opened
+from tests.grading.real.books import Desk, Work, desk, literals, rows, write
 from tests.grading.real.written import COLUMNS, WRITTEN
 
 M, T, S1, V1, J1, N = (
@@ -129,7 +130,7 @@ def _foreign(where: str) -> Callable[[bytes, Desk], bytes]:
 
     def after(data: bytes, here: Desk) -> bytes:
         friend = desk(here.other.number)
-        book = load_workbook(io.BytesIO(empty_book(friend.issued)))
+        book = opened(friend.assignment, friend.issued.ticket)
         write(book, friend, WRITTEN)
         mine = {"own": here.issued.ticket, "altered": here.issued.ticket[:-2] + "AA",
                 "none": "", "friend": friend.issued.ticket}[where]  # fmt: skip

@@ -17,9 +17,8 @@ from kshm.mechanics.kinematics import Position
 from kshm.mechanics.oil_balance import Balance, BearingArrays, balance
 from kshm.mechanics.oil_orbit import Complex, FilmError, Orbits, orbits
 from kshm.mechanics.pin_bearing import rod_bearing
-from kshm.mechanics.wear import ray_angles
 from kshm.results.case import Case
-from kshm.results.extremes import first_extreme
+from kshm.results.extremes import least_loaded
 from kshm.results.safety import safety_scalars
 
 Number = TypeVar("Number", np.float64, np.complex128)
@@ -197,13 +196,9 @@ class Study:
             return {}
         raw, index = self.case.raw, self.case.index
         ahead, up = (each[index, 0, :-1].mean() for each in (raw.pin_side, raw.pin_up))
-        sums = raw.pin_wear[index, 0]
-        rays = ray_angles(len(sums))
-        least = first_extreme(sums, rays, largest=False, floor=1e6)[1]
-        full = 2 * np.pi
         return {
-            "oil_load_deg": float(np.mod(np.arctan2(-ahead, up), full)),
-            "oil_wear_deg": float(np.mod(least + np.pi, full)),
+            "oil_load_deg": float(np.mod(np.arctan2(-ahead, up), 2 * np.pi)),
+            "oil_wear_deg": float(least_loaded(raw.pin_wear[index, 0])[1]),
         }
 
     def tables(self, scalars: Scalars) -> Tables:

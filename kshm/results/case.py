@@ -41,6 +41,13 @@ class Case:
         """First-order inertia force of one cylinder m_j r ω² [N]."""
         return balance.inertia_unit(self.engine)
 
+    def orders(self, last: float) -> Array:
+        """Orders of the cycle up to the last [-], as far as the grid of angles tells them."""
+        step = 2 / self.engine.strokes
+        last = min(last, 180 / self.engine.step_deg - step)
+        orders: Array = np.arange(1.0, round(last / step) + 1) * step
+        return orders
+
 
 def grid(first: float, last: float, step: float) -> Array:
     """Angles [rad] from ``first`` to ``last`` [°] inclusive."""

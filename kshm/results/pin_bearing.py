@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from kshm.arrays import Results, Scalars
+from kshm.arrays import Array, Results, Scalars
 from kshm.engine.arrangement import hung, throws
 from kshm.mechanics import pin_bearing
 from kshm.mechanics.kinematics import Position
-from kshm.mechanics.wear import ray_angles
 from kshm.results.case import Case
-from kshm.results.extremes import first_extreme
+from kshm.results.extremes import first_extreme, least_loaded
 
 _MPA = 1e6  # extremes are told apart as the tables show them
 
@@ -41,17 +40,13 @@ def pin_bending(case: Case) -> Results:
 
     Split pins have no common plane.
     """
-    raw, engine, index = case.raw, case.engine, case.index
-    if any(place.pin_angle for place in engine.arrangement):
+    raw = case.raw
+    if any(place.pin_angle for place in case.engine.arrangement):
         return {}, {}
-    unit = engine.geometry.crank_radius * engine.omega**2 / engine.geometry.piston_area
-    carried = raw.batch.pin_mass[index, list(throws(engine.arrangement)[0]), 0].sum()
-    inward = raw.throw_K[index, 0] - (carried + raw.batch.m_k[index, 0, 0]) * unit
-    ahead = raw.throw_T[index, 0]
+    inward, ahead, lever = bending_forces(case)
     angle, angles = oil_hole(case), pin_bearing.plane_angles()
     force = pin_bearing.on_plane(inward, ahead, angle)
     planes = [pin_bearing.on_plane(inward, ahead, plane) for plane in angles]
-    lever = engine.geometry.piston_area * engine.crankshaft.throws[0].length / 4
     moment = force * lever
     swings = np.array([np.ptp(plane) * lever / 2 for plane in planes])
     least, best = first_extreme(swings, angles, largest=False)
@@ -71,11 +66,18 @@ def pin_bending(case: Case) -> Results:
     return {"pin_bending": table}, scalars
 
 
+def bending_forces(case: Case) -> tuple[Array, Array, float]:
+    """R_к of throw 1 inwards and ahead [Pa], shape (angles,); its bending lever [m³]."""
+    raw, engine, index = case.raw, case.engine, case.index
+    unit = engine.geometry.crank_radius * engine.omega**2 / engine.geometry.piston_area
+    carried = raw.batch.pin_mass[index, list(throws(engine.arrangement)[0]), 0].sum()
+    inward: Array = raw.throw_K[index, 0] - (carried + raw.batch.m_k[index, 0, 0]) * unit
+    lever = engine.geometry.piston_area * engine.crankshaft.throws[0].length / 4
+    return inward, raw.throw_T[index, 0], lever
+
+
 def oil_hole(case: Case) -> float:
     """Angle of the oil hole from the crank against rotation [rad]: given, or by the wear."""
     if case.engine.oil_hole is not None:
         return case.engine.oil_hole
-    sums = case.raw.pin_wear[case.index, 0]
-    rays = ray_angles(len(sums))
-    ray = first_extreme(sums, rays, largest=False, floor=_MPA)[1]
-    return float(np.mod(ray + np.pi, 2 * np.pi))
+    return float(least_loaded(case.raw.pin_wear[case.index, 0])[1])

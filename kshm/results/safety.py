@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from kshm.arrays import Scalars
-from kshm.engine.arrangement import throws
 from kshm.engine.bearings import Bearings
 from kshm.mechanics import pin_bearing
 from kshm.mechanics.fatigue import (
@@ -18,7 +17,7 @@ from kshm.mechanics.fatigue import (
 )
 from kshm.results.case import Case
 from kshm.results.extremes import first_number
-from kshm.results.pin_bearing import oil_hole
+from kshm.results.pin_bearing import bending_forces, oil_hole
 
 _FILLET = 0.06  # of the crankpin's diameter, where the file gives no radius
 
@@ -75,16 +74,13 @@ def safety_scalars(case: Case, asked: Bearings) -> Scalars:
 
 def _bending(case: Case, asked: Bearings, factors: Scalars, turned: Scalars) -> Scalars:
     """The first crankpin bent in the planes of its oil hole and of the crank."""
-    s, engine, raw, index = asked.strength, case.engine, case.raw, case.index
-    unit = engine.geometry.crank_radius * engine.omega**2 / engine.geometry.piston_area
-    carried = raw.batch.pin_mass[index, list(throws(engine.arrangement)[0]), 0].sum()
-    inward = raw.throw_K[index, 0] - (carried + raw.batch.m_k[index, 0, 0]) * unit
-    lever = engine.geometry.piston_area * engine.crankshaft.throws[0].length / 4
+    s, engine = asked.strength, case.engine
+    inward, ahead, lever = bending_forces(case)
     diameter = np.array(engine.crankshaft.pin_diameters[0])
     modulus = polar_modulus(diameter, np.array(asked.pin_bore)) / 2
 
     def swing(angle: float) -> Swing:
-        moment = pin_bearing.on_plane(inward, raw.throw_T[index, 0], angle) * lever
+        moment = pin_bearing.on_plane(inward, ahead, angle) * lever
         return Swing.of(moment.max(), moment.min(), modulus)
 
     hole, crank = swing(oil_hole(case)), swing(0.0)

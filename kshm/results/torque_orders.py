@@ -81,9 +81,7 @@ def _motored(case: Case) -> Array:
 def _orders(case: Case, curves: Columns) -> Columns:
     """Orders 1/2, 1, … 8 of a four-stroke engine, 1 … 8 of a two-stroke one, up to the grid's."""
     engine = case.engine
-    step = 2 / engine.strokes
-    last = min(LAST_ORDER, 180 / engine.step_deg - step)
-    orders: Array = np.arange(1.0, round(last / step) + 1) * step
+    orders = case.orders(LAST_ORDER)
     gas, inertia = (
         torque_harmonics.analyse(curves[key], engine.period, orders)
         for key in ("t_gas_MPa", "t_inertia_MPa")

@@ -126,11 +126,7 @@ class Study:
     @cached_property
     def orders(self) -> Array:
         """ν up to 12, as far as the grid of the calculation tells them."""
-        engine = self.case.engine
-        step = 2 / engine.strokes
-        last = min(LAST_ORDER, 180 / engine.step_deg - step)
-        orders: Array = np.arange(1.0, round(last / step) + 1) * step
-        return orders
+        return self.case.orders(LAST_ORDER)
 
     @cached_property
     def gas(self) -> Array:

@@ -22,7 +22,10 @@ def file_argument(text: str = "INPUT") -> Callable[[Command], Command]:
     return click.argument("source", metavar=text, type=click.Path(path_type=Path))
 
 
-verbose_option = click.option("-v", "--verbose", is_flag=True, help="Показать подробности ошибки.")
+# `reports.cli` reads it before the commands do.
+verbose_option = click.option(
+    "-v", "--verbose", is_flag=True, expose_value=False, help="Показать подробности ошибки."
+)
 
 
 dask_option = click.option(

@@ -45,7 +45,7 @@ if TYPE_CHECKING:
 @click.option("--power", "power_kw", type=float, metavar="кВт", help="Эффективная мощность, кВт.")
 @click.option("--speed", "speed_rpm", type=float, metavar="МИН⁻¹", help="Частота вращения, мин⁻¹.")
 @verbose_option
-def new(output: Path | None, base: Path | None, verbose: bool, **wanted: Any) -> int:  # noqa: ANN401
+def new(output: Path | None, base: Path | None, **wanted: Any) -> int:  # noqa: ANN401
     """Дать файл исходных данных с пояснениями.
 
     С ключом --cylinders — свой двигатель из обычных значений, вместе с --from — вариант
@@ -93,7 +93,7 @@ def _chapters(source: Path, loaded: Loaded) -> Sequence[Any]:
 @file_argument()
 @click.option("--json", "as_json", is_flag=True, help="Результат проверки в JSON.")
 @verbose_option
-def check(source: Path, as_json: bool, verbose: bool) -> int:
+def check(source: Path, as_json: bool) -> int:
     """Проверить исходные данные, ничего не считая; рабочую книгу — перед сдачей."""
     import json
 
@@ -151,7 +151,7 @@ def _as_dict(problem: Any) -> dict[str, str]:  # noqa: ANN401
 @click.option("--csv", "folder", type=click.Path(path_type=Path), help="Папка для таблиц CSV.")
 @click.option("--json", "target", metavar="FILE", help="Файл JSON; «-» — на экран.")
 @verbose_option
-def solve(source: Path, folder: Path | None, target: str | None, verbose: bool) -> int:
+def solve(source: Path, folder: Path | None, target: str | None) -> int:
     """Посчитать числа без документов."""
     from reports.exports.numbers import csv_text, export_tables, json_text
     from reports.inputs.solved import solved
@@ -219,7 +219,6 @@ def build(
     only: tuple[str, ...],
     style: Path | None,
     dask: str | None,
-    verbose: bool,
 ) -> int:
     """Сделать книгу Excel, отчёт PDF и другое по файлу .toml или по изменённой книге."""
     from reports.exports.build import find_templates
@@ -246,7 +245,7 @@ def build(
 
 @click.command(cls=RussianCommand, context_settings=HELP)
 @verbose_option
-def doctor(verbose: bool) -> int:
+def doctor() -> int:
     """Проверить, чего не хватает на этом компьютере."""
     from reports.shared.doctor import check_system
 

@@ -37,7 +37,6 @@ def issue(
     rubric: Path | None,
     ranges: Path | None,
     secret: Path | None,
-    verbose: bool,
 ) -> int:
     """Выдать каждому студенту свой вариант и рабочую книгу."""
     from reports.grading.issuing.issue import issue as issue_books
@@ -99,7 +98,6 @@ def grade(
     decisions: tuple[tuple[str, str, str, str], ...],
     author: str,
     explain: tuple[str, str] | None,
-    verbose: bool,
 ) -> int:
     """Проверить сданные работы: файл, папку или zip заданий Moodle.
 

@@ -29,7 +29,7 @@ from reports.shared.errors import KshmError
     help="Только этот вид документа; можно повторить.",
 )  # fmt: skip
 @verbose_option
-def validate(folder: Path, only: tuple[str, ...], verbose: bool) -> int:
+def validate(folder: Path, only: tuple[str, ...]) -> int:
     """Пересчитать печатные таблицы пяти источников и показать, что с ними сходится."""
     from reports.validation.write import KINDS, write
 
@@ -85,7 +85,7 @@ def validate(folder: Path, only: tuple[str, ...], verbose: bool) -> int:
 @verbose_option
 def sweep(
     source: Path, vary: tuple[str, ...], quantities: tuple[str, ...], pairwise: bool,
-    target: Path, jobs: int, dask: str | None, verbose: bool,
+    target: Path, jobs: int, dask: str | None,
 ) -> int:  # fmt: skip
     """Исследовать параметры: наибольшие и средние значения при всех сочетаниях.
 
@@ -116,7 +116,7 @@ def sweep(
     "-o", "--output", "target", required=True, metavar="FILE", help="Файл .xlsx, .pdf или .html."
 )
 @verbose_option
-def compare(sources: tuple[Path, ...], target: Path, verbose: bool) -> int:
+def compare(sources: tuple[Path, ...], target: Path) -> int:
     """Сравнить двигатели: данные, результаты, диаграммы и выводы рядом.
 
     От двух до шести файлов .toml или книг; проценты — отличие от первого.

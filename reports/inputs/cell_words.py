@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import re
 
-from reports.inputs.meta import find_meta, hints
+from reports.inputs.meta import hints
 from reports.inputs.registry import SECTIONS, records
 
 _PHRASES = (
@@ -70,14 +70,12 @@ def _titles() -> dict[str, str]:
     for section in SECTIONS.values():
         found |= {key: about.title for key, about in section.lists.items()}
         for model in section.models:
-            for key, annotation in hints(model).items():
-                metas = find_meta(annotation)
-                if metas:
-                    found.setdefault(key, metas[0].title.replace(" {n}", ""))
+            for key, about in hints(model).items():
+                for meta in about.metas[:1]:
+                    found.setdefault(key, meta.title.replace(" {n}", ""))
             for _, inner in records(model):
-                for key, annotation in hints(inner).items():
-                    title = find_meta(annotation)[0].title.partition(": ")[2]
-                    found.setdefault(key, title)
+                for key, about in hints(inner).items():
+                    found.setdefault(key, about.metas[0].title.partition(": ")[2])
     return found
 
 
@@ -87,8 +85,8 @@ def _labels() -> dict[str, dict[str, str]]:
     found: dict[str, dict[str, str]] = {}
     for section in SECTIONS.values():
         for model in section.models:
-            for key, annotation in hints(model).items():
-                for meta in find_meta(annotation)[:1]:
+            for key, about in hints(model).items():
+                for meta in about.metas[:1]:
                     if meta.choices is not None:
                         found[key] = {**meta.choices, **found.get(key, {})}
     return found

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from reports.inputs.fields import Path
-from reports.inputs.meta import Strictly, find_meta, hints, leaf_types, submodel
+from reports.inputs.meta import Key, Strictly, hints
 
 
 def from_cells(
@@ -39,23 +39,17 @@ def _table(part: dict[str, Any], model: type[Strictly], path: Path, empty: list[
     return result
 
 
-def _value(value: object, annotation: object, path: Path, empty: list[Path]) -> Any:  # noqa: ANN401
-    inner = submodel(annotation)
+def _value(value: object, about: Key, path: Path, empty: list[Path]) -> Any:  # noqa: ANN401
     if isinstance(value, list | tuple):
-        return [
-            _table(item, inner, (*path, index), empty)
-            if inner is not None and issubclass(inner, Strictly) and isinstance(item, dict)
-            else _value(item, annotation, (*path, index), empty)
-            for index, item in enumerate(value)
-        ]
-    metas = find_meta(annotation)
-    types = leaf_types(annotation)
+        return [_value(item, about, (*path, index), empty) for index, item in enumerate(value)]
+    if isinstance(value, dict) and about.inner is not None:
+        return _table(value, about.inner, path, empty)
+    text = about.types == {str} and about.metas[0].choices is None
     if value is None:
-        if types == {str} and metas and metas[0].choices is None:
+        if text:
             return ""
         empty.append(path)
         return None
-    text = types == {str} and not (metas and metas[0].choices is not None)
     if text and isinstance(value, int | float) and not isinstance(value, bool):
         return str(int(value)) if float(value).is_integer() else str(value)
     return value

@@ -5,7 +5,7 @@ from __future__ import annotations
 from kshm.cycle.errors import Remark
 from reports.inputs import units
 from reports.inputs.findings import Path
-from reports.inputs.meta import Meta, Strictly, find_meta, hints
+from reports.inputs.meta import Meta, Strictly, hints
 from reports.inputs.sections.cycle import CycleSection
 from reports.inputs.sections.gas import CycleGasSection
 from reports.inputs.sections.input_file import EngineSection, GeometrySection, RegimeSection
@@ -151,4 +151,4 @@ def _out_of_range(remark: Remark) -> str:
 
 def _meta(path: Path) -> Meta:
     """What a person is told about a key of any of the section's models."""
-    return find_meta(hints(_SECTIONS[str(path[0])])[str(path[1])])[0]
+    return hints(_SECTIONS[str(path[0])])[str(path[1])].metas[0]

@@ -9,7 +9,7 @@ from pydantic import BaseModel
 
 from reports.inputs.fields import Path, key_text
 from reports.inputs.load_regimes import MOST_REGIMES
-from reports.inputs.meta import Meta, find_meta, hints, leaf_types, submodel
+from reports.inputs.meta import Key, Meta, hints
 from reports.inputs.registry import GAS_MODELS, SECTIONS
 from reports.inputs.sections.input_file import RegimeValues
 
@@ -67,19 +67,19 @@ def _section(
     plain = list(_record(part, model, path, left_out=lists))
     if plain:
         yield {"title": title, "key": key_text(path), "entries": [plain], "whole": whole}
-    for key, annotation in hints(model).items():
+    for key, about in hints(model).items():
         if key not in lists:
             continue
         own = lists[key].title if name == path[0] else f"{title}: {lists[key].title.lower()}"
         two_banks = key == "arms" and "bank_angle_deg" in part
-        given, inner, metas = part.get(key), submodel(annotation), find_meta(annotation)
+        given, pair = part.get(key), len(about.metas) > 1
         shown = given[:_MOST_ENTRIES] if isinstance(given, list | tuple) else ()
         yield {
             "title": own, "key": key_text((*path, key)), "path": (*path, key), "whole": whole,
             "drawing": "arms-v" if two_banks else _DRAWINGS.get(key, ""),
-            "entries": [list(_entry(item, annotation, (*path, key, index)))
+            "entries": [list(_entry(item, about, (*path, key, index)))
                         for index, item in enumerate(shown)],
-            "blank": {} if inner else [""] * len(metas) if len(metas) > 1 else "",
+            "blank": {} if about.inner else [""] * len(about.metas) if pair else "",
         }  # fmt: skip
 
 
@@ -87,34 +87,29 @@ def _record(
     part: Mapping[str, Any], model: type[BaseModel], path: Path, number: int = 0,
     left_out: Mapping[str, object] | None = None,
 ) -> Iterator[Data]:  # fmt: skip
-    required = {info.alias or name for name, info in model.model_fields.items()
-                if info.is_required()}  # fmt: skip
-    for key, annotation in hints(model).items():
-        metas = find_meta(annotation)
-        if metas and key not in (left_out or ()):
-            meta = metas[0].numbered(number) if number else metas[0]
-            yield _field((*path, key), meta, part.get(key), annotation, key not in required)
+    for key, about in hints(model).items():
+        if about.metas and key not in (left_out or ()):
+            meta = about.metas[0].numbered(number) if number else about.metas[0]
+            yield _field((*path, key), meta, part.get(key), about, about.optional)
 
 
-def _entry(item: object, annotation: object, path: Path) -> Iterator[Data]:
+def _entry(item: object, about: Key, path: Path) -> Iterator[Data]:
     """Fields of an entry of a list: a record, a pair, or one value."""
-    inner, metas, number = submodel(annotation), find_meta(annotation), int(path[-1]) + 1
-    if inner is not None:
-        yield from _record(_mapping(item), inner, path, number)
+    metas, number = about.metas, int(path[-1]) + 1
+    if about.inner is not None:
+        yield from _record(_mapping(item), about.inner, path, number)
         return
     pair = len(metas) > 1
     values = (item if isinstance(item, list | tuple) else ()) if pair else (item,)
     for column, meta in enumerate(metas):
         value = values[column] if column < len(values) else None
-        yield _field((*path, column) if pair else path, meta.numbered(number), value, annotation)
+        yield _field((*path, column) if pair else path, meta.numbered(number), value, about)
 
 
-def _field(
-    path: Path, meta: Meta, value: object, annotation: object, optional: bool = False
-) -> Data:
+def _field(path: Path, meta: Meta, value: object, about: Key, optional: bool = False) -> Data:
     return {
         "path": path, "key": key_text(path), "title": meta.title, "symbol": meta.symbol,
         "unit": meta.unit.label, "value": value, "min": meta.minimum, "max": meta.maximum,
         "choices": meta.choices and dict(meta.choices), "optional": optional,
-        "number": meta.choices is None and bool(leaf_types(annotation) & {int, float}),
+        "number": meta.choices is None and bool(about.types & {int, float}),
     }  # fmt: skip

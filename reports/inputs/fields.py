@@ -32,7 +32,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from kshm.nomenclature.quantity import smallness
-from reports.inputs.meta import Meta, find_meta, hints, submodel
+from reports.inputs.meta import Key, Meta, hints
 from reports.inputs.registry import SECTIONS
 from reports.inputs.sections.input_file import InputFile, RegimeSection, RegimeValues
 
@@ -153,21 +153,19 @@ def set_value(raw: dict[str, Any], path: Path, value: object) -> None:
 
 
 def _fields_of(part: BaseModel, path: Path, section: str, number: int | None) -> Iterator[Field]:
-    names = {info.alias or name: name for name, info in type(part).model_fields.items()}
-    for key, annotation in hints(type(part)).items():
-        value = getattr(part, names[key])
+    for key, about in hints(type(part)).items():
+        value = getattr(part, about.name)
         if value is None:
             continue
         here = (*path, key)
-        optional = not type(part).model_fields[names[key]].is_required()
         if isinstance(value, tuple):
             list_section = SECTIONS[str(path[0])].lists[key].title
-            yield from _entries(value, annotation, here, list_section, optional)
+            yield from _entries(value, about, here, list_section)
             continue
-        meta = find_meta(annotation)[0]
+        meta = about.metas[0]
         if number is not None:
             meta = meta.numbered(number)
-        yield _field(here, section, meta, value, optional)
+        yield _field(here, section, meta, value, about.optional)
 
 
 def _regime_fields(regime: RegimeSection, index: int) -> Iterator[Field]:
@@ -193,14 +191,11 @@ def regime_suffix(number: int) -> str:
     return f"_R{number}"
 
 
-def _entries(
-    values: tuple[Any, ...], annotation: object, path: Path, section: str, optional: bool
-) -> Iterator[Field]:
-    is_models = submodel(annotation) is not None
-    metas = find_meta(annotation)
+def _entries(values: tuple[Any, ...], about: Key, path: Path, section: str) -> Iterator[Field]:
+    metas, optional = about.metas, about.optional
     for index, value in enumerate(values):
         here = (*path, index)
-        if is_models:
+        if about.inner is not None:
             yield from _fields_of(value, here, section, index + 1)
         elif isinstance(value, tuple):
             for column, (meta, item) in enumerate(zip(metas, value, strict=True)):

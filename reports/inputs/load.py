@@ -23,7 +23,7 @@ from reports.inputs.diagram_file import files_of, with_points
 from reports.inputs.fields import Path, key_text
 from reports.inputs.findings import Finding, Values
 from reports.inputs.firing import FOLLOWING, expand
-from reports.inputs.meta import Strictly, hints, submodel
+from reports.inputs.meta import Strictly, hints
 from reports.inputs.ranges import read_ranges, split_ranges
 from reports.inputs.registry import GAS_MODELS, SECTIONS
 from reports.inputs.sections.gas import SOURCES, PolytropicGasSection
@@ -321,8 +321,8 @@ class _Reader:
             self._report(name, model, error)
             self.values.sections[name] = _valid_part(model, raw, error)
             return None
-        names = {info.alias or field: field for field, info in model.model_fields.items()}
-        self.values.sections[name] = {key: getattr(section, names[key]) for key in names}
+        keys = hints(model).items()
+        self.values.sections[name] = {key: getattr(section, about.name) for key, about in keys}
         return section
 
     def _report(self, name: str, model: type[Strictly], error: ValidationError) -> None:
@@ -363,9 +363,7 @@ def _sizes_are_wanted(data: dict[str, Any]) -> bool:
 def _owner(model: type[Strictly], parents: Path) -> type[Strictly]:
     for part in parents:
         if isinstance(part, str):
-            found = submodel(hints(model)[part])
-            if found is not None and issubclass(found, Strictly):
-                model = found
+            model = hints(model)[part].inner or model
     return model
 
 
@@ -374,18 +372,16 @@ def _valid_part(
 ) -> dict[str, Any]:
     """Return the fields that are valid by themselves, defaults filled in."""
     wrong = {item["loc"][0] for item in error.errors(include_url=False) if item["loc"]}
-    names = {info.alias or field: field for field, info in model.model_fields.items()}
     validator = model.__pydantic_validator__
     blank = model.model_construct()
     values = {}
-    for key, name in names.items():
+    for key, about in hints(model).items():
         if key in wrong:
             continue
+        part: Any = blank
         if key in raw:
-            part = validator.validate_assignment(blank.model_copy(), name, raw[key])
-            values[key] = getattr(part, name, None)
-        else:
-            values[key] = getattr(blank, name, None)
+            part = validator.validate_assignment(blank.model_copy(), about.name, raw[key])
+        values[key] = getattr(part, about.name, None)
     return values
 
 

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from pydantic_core import ErrorDetails
 
 from reports.inputs import units
-from reports.inputs.meta import MAX_TEXT, Meta, Strictly, find_meta, hints, submodel
+from reports.inputs.meta import MAX_TEXT, Key, Meta, Strictly, hints
 from reports.inputs.registry import homes
 from reports.inputs.understood import is_ambiguous
 from reports.shared.errors import one_line
@@ -131,27 +131,21 @@ def unknown_key(key: str, model: type[Strictly]) -> tuple[str, str]:
 
 def meta_at(model: type[Strictly], path: tuple[str | int, ...]) -> Meta | None:
     """Return the metadata of the field at `path` inside `model`, if it is a single value."""
-    annotation: object = model
+    about: Key | None = None
     current: type[Strictly] | None = model
     for part in path:
         if isinstance(part, str):
-            if current is None:
+            about = hints(current).get(part) if current is not None else None
+            if about is None:
                 return None
-            annotation = hints(current).get(part)
-            if annotation is None:
-                return None
-            found = submodel(annotation)
-            current = found if found is not None and issubclass(found, Strictly) else None
-    metas = find_meta(annotation) if current is None else []
+            current = about.inner
+    metas = about.metas if about is not None and current is None else ()
     numbers = [part for part in path if isinstance(part, int)]
+    if len(metas) == 2:
+        metas = metas[numbers[1] :] if len(numbers) > 1 else ()
     if not metas:
         return None
-    if len(metas) == 2:
-        if len(numbers) < 2:
-            return None
-        metas = [metas[numbers[1]]] if numbers[1] < 2 else []
-    meta = metas[0] if metas else None
-    return meta.numbered(numbers[0] + 1) if meta is not None and numbers else meta
+    return metas[0].numbered(numbers[0] + 1) if numbers else metas[0]
 
 
 _TOML = (

@@ -5,9 +5,9 @@ from __future__ import annotations
 import functools
 import typing
 import unicodedata
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Annotated, Any
+from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler
 from pydantic.fields import FieldInfo
@@ -156,45 +156,49 @@ def _field(meta: Meta, default: object, alias: str | None = None) -> Any:  # noq
     return info
 
 
+@dataclass(frozen=True, slots=True)
+class Key:
+    """What a model says of one TOML key.
+
+    Attributes:
+        name: The model's own name of it.
+        metas: What a person is told, two for a point's pair.
+        inner: The model of the records of a list.
+        types: The types of single values, None left out.
+        optional: The key may be left out of the file.
+    """
+
+    name: str
+    metas: tuple[Meta, ...]
+    inner: type[Strictly] | None
+    types: frozenset[type]
+    optional: bool
+
+
 @functools.cache
-def hints(model: type[BaseModel]) -> dict[str, Any]:
-    """Return the annotations of a model by TOML key, in the order of the file (do not change)."""
-    return {info.alias or name: _annotation(info) for name, info in model.model_fields.items()}
+def hints(model: type[BaseModel]) -> dict[str, Key]:
+    """Return what a model says of its TOML keys, in the order of the file (do not change)."""
+    return {info.alias or name: _key(name, info) for name, info in model.model_fields.items()}
 
 
-def _annotation(info: FieldInfo) -> object:
-    return Annotated[(info.annotation, *info.metadata)] if info.metadata else info.annotation
+def _key(name: str, info: FieldInfo) -> Key:
+    parts = [*info.metadata, *_parts(info.annotation)]
+    types = {part for part in parts if isinstance(part, type)} - {type(None)}
+    return Key(
+        name,
+        tuple(part for part in parts if isinstance(part, Meta)),
+        next((part for part in types if issubclass(part, Strictly)), None),
+        frozenset(types),
+        not info.is_required(),
+    )
 
 
-def find_meta(annotation: object) -> list[Meta]:
-    """Return the metadata within an annotation, outermost first (two for a point's pair)."""
-    found = [item for item in getattr(annotation, "__metadata__", ()) if isinstance(item, Meta)]
-    if not found:
-        for part in typing.get_args(annotation):
-            found += find_meta(part)
-    return found
-
-
-def submodel(annotation: object) -> type[BaseModel] | None:
-    """Return the model inside a list annotation, if there is one."""
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        return annotation
-    for part in typing.get_args(annotation):
-        found = submodel(part)
-        if found is not None:
-            return found
-    return None
-
-
-def leaf_types(annotation: object) -> set[type]:
-    """Return the types of the single values inside an annotation, None left out."""
-    if isinstance(annotation, type):
-        return set() if annotation is type(None) else {annotation}
+def _parts(annotation: object) -> Iterator[object]:
+    """Types of single values inside an annotation, and what is told about them."""
+    parts = typing.get_args(annotation)
     if typing.get_origin(annotation) is typing.Literal:
-        return {type(item) for item in typing.get_args(annotation)}
-    if hasattr(annotation, "__metadata__"):
-        return leaf_types(typing.get_args(annotation)[0])
-    found: set[type] = set()
-    for part in typing.get_args(annotation):
-        found |= leaf_types(part)
-    return found
+        parts = tuple(map(type, parts))
+    for part in parts:
+        yield from _parts(part)
+    if not parts:
+        yield annotation

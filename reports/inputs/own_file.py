@@ -8,7 +8,7 @@ from typing import Any
 
 import tomlkit
 
-from reports.inputs.meta import Strictly, find_meta, hints
+from reports.inputs.meta import Strictly, hints
 from reports.inputs.own_engine import Made, Notes
 from reports.inputs.registry import SECTIONS, records
 
@@ -59,12 +59,11 @@ def _section(name: str, values: Mapping[str, Any], notes: Notes) -> Iterator[str
 
 def _titles(model: type[Strictly]) -> dict[str, str]:
     titles = {}
-    for key, annotation in hints(model).items():
-        metas = find_meta(annotation)
-        if metas:
-            title = metas[0].title.replace("{n}", "N").removeprefix("Щека N: ")
+    for key, about in hints(model).items():
+        for meta in about.metas[:1]:
+            title = meta.title.replace("{n}", "N").removeprefix("Щека N: ")
             titles[key] = title.removeprefix("Колено N: ").replace(" N:", ":")
-            options = metas[0].choices or {}
+            options = meta.choices or {}
             if any(word != label for word, label in options.items()) and len(options) < 5:
                 words = ", ".join(f"{word} — {label}" for word, label in options.items())
                 titles[key] += f": {words}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from reports.inputs.meta import Strictly, hints, submodel
+from reports.inputs.meta import Strictly, hints
 from reports.inputs.sections.articulated import ArticulatedSection
 from reports.inputs.sections.balance import BalanceSection
 from reports.inputs.sections.bearings import BearingsSection
@@ -218,10 +218,9 @@ GAS_MODELS = SECTIONS["gas"].sources
 
 def records(model: type[Strictly]) -> Iterator[tuple[str, type[Strictly]]]:
     """Keys of a model that hold lists of records, with the records' models."""
-    for key, annotation in hints(model).items():
-        inner = submodel(annotation)
-        if inner is not None and issubclass(inner, Strictly):
-            yield key, inner
+    for key, about in hints(model).items():
+        if about.inner is not None:
+            yield key, about.inner
 
 
 def homes() -> Iterator[tuple[str, tuple[type[Strictly], ...]]]:

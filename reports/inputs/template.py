@@ -11,7 +11,7 @@ import tomlkit
 from tomlkit.items import Table
 
 from reports.inputs.messages import likely_word, shown
-from reports.inputs.meta import Meta, Strictly, find_meta, hints
+from reports.inputs.meta import Meta, Strictly, hints
 from reports.inputs.registry import SECTIONS, Section, records
 from reports.shared.errors import InputError, Problem
 from reports.shared.resources import samples_dir
@@ -92,24 +92,22 @@ def _commented(section: Section) -> Iterator[str]:
     heads |= {f"[[{section.name}.{key}]]": hints(inner) for key, inner in lists.items()}
     for head, keys in heads.items():
         yield head
-        for key, annotation in keys.items():
-            yield f"{key} = … {_note(find_meta(annotation))}"
+        for key, about in keys.items():
+            yield f"{key} = … {_note(about.metas)}"
 
 
 def _table(model: type[Strictly], values: dict[str, Any]) -> Table:
     table = tomlkit.table()
     defaults = model.model_construct()
-    names = {info.alias or field: field for field, info in model.model_fields.items()}
-    inner = dict(records(model))
-    for key, annotation in hints(model).items():
-        if key in inner:
+    for key, about in hints(model).items():
+        if about.inner is not None:
             entries = tomlkit.aot()
             for entry in values[key]:
-                entries.append(_table(inner[key], entry))
+                entries.append(_table(about.inner, entry))
             table.add(key, entries)
             continue
-        note = _note(find_meta(annotation))
-        value = values.get(key, getattr(defaults, names[key], None))
+        note = _note(about.metas)
+        value = values.get(key, getattr(defaults, about.name, None))
         if value is None:  # an alternative or optional key: shown, not given
             table.add(tomlkit.comment(f"{key} = … {note}"))
         else:
@@ -118,7 +116,7 @@ def _table(model: type[Strictly], values: dict[str, Any]) -> Table:
     return table
 
 
-def _note(metas: list[Meta]) -> str:
+def _note(metas: tuple[Meta, ...]) -> str:
     meta = metas[0]
     title = meta.title.replace("{n}", "N")
     symbol = f" {meta.symbol.replace('_{n}', '').replace('{n}', '')}" if meta.symbol else ""

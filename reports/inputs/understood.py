@@ -10,7 +10,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from reports.inputs.meta import Meta, Strictly, find_meta, hints, leaf_types, submodel
+from reports.inputs.meta import Key, Meta, Strictly, hints
 from reports.inputs.registry import SECTIONS
 from reports.inputs.sections.gas import SOURCES
 from reports.inputs.sections.input_file import RegimeValues
@@ -77,18 +77,14 @@ def _table(part: dict[str, Any], model: type[Strictly]) -> dict[str, Any]:
     }
 
 
-def _entry(value: object, annotation: object) -> Any:  # noqa: ANN401
-    inner = submodel(annotation)
+def _entry(value: object, about: Key) -> Any:  # noqa: ANN401
     if isinstance(value, list | tuple):
-        return [_entry(item, annotation) for item in value]
+        return [_entry(item, about) for item in value]
     if isinstance(value, dict):
-        strict = inner is not None and issubclass(inner, Strictly)
-        return _table(value, inner) if strict else value  # type: ignore[arg-type]
-    metas = find_meta(annotation)
-    types = leaf_types(annotation)
-    if len(types) != 1 or not metas:
+        return _table(value, about.inner) if about.inner is not None else value
+    if len(about.types) != 1 or not about.metas:
         return value
-    return _value(value, next(iter(types)), metas[0])
+    return _value(value, next(iter(about.types)), about.metas[0])
 
 
 def _value(value: object, kind: type, meta: Meta) -> object:

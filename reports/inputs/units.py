@@ -29,6 +29,10 @@ class Unit:
             return math.radians(value)
         return value * self.times / self.over
 
+    def given(self, value: float | None) -> float | None:
+        """Convert to SI what a file may leave out."""
+        return None if value is None else self.to_si(value)
+
     def from_si(self, value: float) -> float:
         """Convert an SI value to this unit."""
         if self is DEG:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import zipfile
+from collections.abc import Iterable, Iterator
 from posixpath import join, normpath
 
 from lxml import etree
@@ -39,8 +40,7 @@ def _read(package: Package, forms: Forms | None) -> Grid:
     root = parse_xml(package.read("xl/workbook.xml"))
     if str(root.tag).startswith(_STRICT):
         raise BadBook("книга сохранена в строгом формате Open XML; сохраните её как обычную .xlsx")
-    relations = parse_xml(package.read("xl/_rels/workbook.xml.rels"))
-    targets = {rel.get("Id"): rel for rel in relations.iter("{*}Relationship")}
+    targets = _targets(package)
     sheets = list(root.iter(f"{MAIN}sheet"))
     if len(sheets) > MAX_SHEETS:
         raise BadBook(f"в книге больше {MAX_SHEETS} листов")
@@ -50,16 +50,32 @@ def _read(package: Package, forms: Forms | None) -> Grid:
     strings: list[str] = []
     if sheets and texts:
         strings = [rich_text(item) for item in parse_xml(package.read(texts[0])).iter("{*}si")]
-    for sheet in sheets:
-        relation = targets.get(sheet.get(f"{_REL}id"))
-        part = _part(relation, "worksheet") if relation is not None else ""
-        if part:
-            title = str(sheet.get("name"))
-            grid.sheets[title] = {}
-            read_sheet(grid, title, package.read(part), strings, forms)
+    for title, part in _worksheets(sheets, targets):
+        grid.sheets[title] = {}
+        read_sheet(grid, title, package.read(part), strings, forms)
     if known := meanings(grid, root):
         put_in(grid, known)
     return grid
+
+
+def worksheets(package: Package) -> Iterator[tuple[str, str]]:
+    """Titles of the sheets with the names of their parts."""
+    root = parse_xml(package.read("xl/workbook.xml"))
+    return _worksheets(root.iter(f"{MAIN}sheet"), _targets(package))
+
+
+def _targets(package: Package) -> dict[str | None, etree._Element]:
+    relations = parse_xml(package.read("xl/_rels/workbook.xml.rels"))
+    return {rel.get("Id"): rel for rel in relations.iter("{*}Relationship")}
+
+
+def _worksheets(
+    sheets: Iterable[etree._Element], targets: dict[str | None, etree._Element]
+) -> Iterator[tuple[str, str]]:
+    for sheet in sheets:
+        relation = targets.get(sheet.get(f"{_REL}id"))
+        if relation is not None and (part := _part(relation, "worksheet")):
+            yield str(sheet.get("name")), part
 
 
 def _part(relation: etree._Element, kind: str) -> str:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
 from reports.formula.parse import names
 from reports.spec.blocks import Block, Model, nodes_in
 
@@ -76,8 +74,3 @@ class Graph:
                         stack.append(name)
             found = self._ancestors[node] = frozenset(seen)
         return found
-
-    @cached_property
-    def columns(self) -> frozenset[str]:
-        """All columns as ``table.column``, columns of angles too."""
-        return frozenset(node for node in self._formulas if "." in node)

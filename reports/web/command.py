@@ -28,7 +28,7 @@ from reports.shared.files import make_dir, reason
               help="Адрес за прокси, например https://kafedra.example/kshm.")  # fmt: skip
 @dask_option
 @verbose_option
-def serve(port: int, host: str, folder: Path, public: str, dask: str | None, verbose: bool) -> int:
+def serve(port: int, host: str, folder: Path, public: str, dask: str | None) -> int:
     """Открыть страницу в браузере: числа, диаграммы, файлы, группа преподавателя."""
     packages = ("starlette", "uvicorn", "pebble", "itsdangerous")
     need_packages("для kshm serve", **{name: name for name in packages})

@@ -248,23 +248,15 @@ class RowReferences:
 
     def following(self, key: str) -> str:
         """Next row's cell."""
-        found = self._column(key)
-        if found is None:
-            raise KeyError(key)
-        return self._cell(found, _NEXT)
+        return self._cell(self._layout.columns[self._qualified(key)], _NEXT)
 
     def previous(self, key: str) -> str:
         """Cell of the row above; in the first row that of the header."""
-        found = self._column(key)
-        if found is None:
-            raise KeyError(key)
-        return self._cell(found, _ABOVE)
+        return self._cell(self._layout.columns[self._qualified(key)], _ABOVE)
 
     def down_to_here(self, key: str) -> str:
         """Column from its first row down to this row."""
-        found = self._column(key)
-        if found is None:
-            raise KeyError(key)
+        found = self._layout.columns[self._qualified(key)]
         here = self._cell(found, _ROW)
         letter = get_column_letter(found[1])
         prefix, separator, last = here.rpartition("!")

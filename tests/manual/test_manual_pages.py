@@ -7,7 +7,7 @@ import re
 import pytest
 
 from reports.inputs.load import load_toml
-from reports.inputs.meta import Strictly, hints, submodel
+from reports.inputs.meta import Strictly, hints
 from reports.inputs.registry import SECTIONS
 from reports.inputs.template import list_samples
 from reports.shared.resources import samples_dir
@@ -55,8 +55,8 @@ def test_every_key_is_explained():
         model for section in SECTIONS.values() for model in section.models
     ]
     for model in models:
-        for key, annotation in hints(model).items():
-            inner = submodel(annotation)
+        for key, about in hints(model).items():
+            inner = about.inner
             if inner is None:
                 assert f"| `{key}`" in text, key
             else:

@@ -7,7 +7,7 @@ from typing import Any
 
 from pydantic_core import PydanticUndefined
 
-from reports.inputs.meta import Meta, Strictly, find_meta, hints
+from reports.inputs.meta import Meta, Strictly, hints
 from reports.inputs.registry import GAS_MODELS, SECTIONS, records
 from reports.inputs.units import number_text
 from tools.manual.markdown import escaped, table
@@ -53,13 +53,11 @@ def _section(path: str, model: type[Strictly]) -> Iterator[str]:
 
 
 def _rows(model: type[Strictly], skipped: Iterable[str] = ()) -> Iterator[tuple[str, ...]]:
-    names = {info.alias or name: name for name, info in model.model_fields.items()}
-    for key, annotation in hints(model).items():
+    for key, about in hints(model).items():
         if key in skipped:
             continue
-        metas = find_meta(annotation)
-        default = _default(model.model_fields[names[key]])
-        for meta in metas:
+        default = _default(model.model_fields[about.name])
+        for meta in about.metas:
             listed = "{n}" in meta.title or "{n}" in meta.symbol
             mark = f"`{key}`" + (" (список)" if listed and not _of_record(model) else "")
             yield (
@@ -73,7 +71,7 @@ def _rows(model: type[Strictly], skipped: Iterable[str] = ()) -> Iterator[tuple[
 
 
 def _of_record(model: type[Strictly]) -> bool:
-    return all("{n}" in meta.title for hint in hints(model).values() for meta in find_meta(hint))
+    return all("{n}" in meta.title for hint in hints(model).values() for meta in hint.metas)
 
 
 def _allowed(meta: Meta) -> str:

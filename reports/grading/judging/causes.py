@@ -21,10 +21,10 @@ from reports.grading.judging.rewriting import (
     WithoutFactor,
     WithoutNumber,
     WithoutPower,
-    WithoutSummand,
     numbers,
     summands,
     without_radians,
+    without_summand,
 )
 from reports.grading.judging.tolerances import close, tolerance
 from reports.grading.judging.verdicts import Judgement
@@ -175,7 +175,7 @@ class Causes:
         """Something left out of the formula: a summand, a factor, a power, a number."""
         for number, dropped in enumerate(summands(self._tree(item.nodes[0]))):
             words = f"пропущено слагаемое {self._symbols(item, dropped)}"
-            yield words, self._rewritten(item, run, WithoutSummand(number).visit)
+            yield words, self._rewritten(item, run, without_summand(number))
         for name in sorted(self._names(item.nodes[0])):
             if name == "pi":
                 continue

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict
+from itertools import groupby
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -20,7 +22,8 @@ from reports.grading.judging.verdicts import (
     WRONG,
     Judgement,
 )
-from reports.grading.reading.student import Student, address
+from reports.grading.reading.placement import Place
+from reports.grading.reading.student import Student, address, range_text, stretches
 
 SHOWN_ROWS = 12  # wrong cells shown in the feedback of an item
 
@@ -87,11 +90,7 @@ def _short_heading(item: Item, assignment: Assignment) -> str:
 def _cells(student: Student, judgement: Judgement) -> list[dict[str, Any]]:
     item = judgement.item
     rows = judgement.rows or judgement.typed
-    places = [
-        (student.placement.places.get(node), i)
-        for node in item.nodes
-        for i in range(student.assignment.length(node))
-    ]
+    places = _cells_of(student, item)
     cells = []
     for row in rows[:SHOWN_ROWS]:
         place, index = places[row]
@@ -111,22 +110,24 @@ def _where(student: Student, judgement: Judgement) -> list[str]:
     """The cells that a verdict is about, those below each other as ranges."""
     item = judgement.item
     rows = set(judgement.rows or judgement.typed)
-    found: list[tuple[str, int, int, int]] = []  # sheet, column, first and last row
-    number = 0
-    for node in item.nodes:
-        place = student.placement.places.get(node)
-        for index in range(student.assignment.length(node)):
-            row = place.rows[index] if place is not None else None
-            if number in rows and place is not None and row is not None:
-                last = found[-1] if found else None
-                if last and last[:2] == (place.sheet, place.column) and last[3] == row - 1:
-                    found[-1] = (*last[:3], row)
-                else:
-                    found.append((place.sheet, place.column, row, row))
-            number += 1
+    found: list[tuple[tuple[str, int], int]] = []  # sheet and column, row
+    for number, (place, index) in enumerate(_cells_of(student, item)):
+        row = place.rows[index] if place is not None else None
+        if number in rows and place is not None and row is not None:
+            found.append(((place.sheet, place.column), row))
     return [
-        f"{sheet}!{address(first, column)}" + (f":{address(last, column)}" if last > first else "")
-        for sheet, column, first, last in found
+        f"{sheet}!{range_text(first, last, column)}"
+        for (sheet, column), cells in groupby(found, key=itemgetter(0))
+        for first, last in stretches(row for _, row in cells)
+    ]
+
+
+def _cells_of(student: Student, item: Item) -> list[tuple[Place | None, int]]:
+    """The place of each value of an item and the value's index there."""
+    return [
+        (student.placement.places.get(node), i)
+        for node in item.nodes
+        for i in range(student.assignment.length(node))
     ]
 
 

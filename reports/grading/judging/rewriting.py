@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from typing import Any
+from collections.abc import Callable
 
 
 def summands(tree: ast.expr) -> list[ast.expr]:
@@ -32,17 +32,9 @@ def numbers(tree: ast.expr) -> list[float]:
     return sorted(set(found) - {1.0})
 
 
-class WithoutSummand(ast.NodeTransformer):
-    """Leaves one summand of the whole sum out."""
-
-    def __init__(self, number: int) -> None:
-        self.number = number
-
-    def visit(self, node: ast.AST) -> Any:  # noqa: ANN401
-        """Nought in the place of the summand."""
-        assert isinstance(node, ast.expr)
-        wanted = summands(node)[self.number]
-        return _replaced(node, wanted, ast.Constant(0))
+def without_summand(number: int) -> Callable[[ast.expr], ast.expr]:
+    """Leaves one summand of the whole sum out: nought stands in its place."""
+    return lambda tree: _replaced(tree, summands(tree)[number], ast.Constant(0))
 
 
 def _replaced(tree: ast.expr, wanted: ast.expr, by: ast.expr) -> ast.expr:
@@ -155,7 +147,3 @@ class Flipped(ast.NodeTransformer):
             if self.seen == self.number:
                 node.op = ast.Sub() if isinstance(node.op, ast.Add) else ast.Add()
         return node
-
-    def visit(self, node: ast.AST) -> Any:  # noqa: ANN401
-        """Count from the left in each formula anew."""
-        return super().visit(node)

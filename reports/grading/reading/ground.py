@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from reports.grading.reading.placement import Place
-from reports.grading.reading.student import LOST, Student
+from reports.grading.reading.student import Student, shown_in
 from reports.recalculation.bench import Cells, pinned
 from reports.recalculation.evaluate import BLANK, ERROR, TEXT, Engine
 from reports.recalculation.formulas import is_doubtful
 from reports.recalculation.language import UnknownFormula
-
-Array = NDArray[np.float64]
 
 
 def circles(student: Student) -> frozenset[str]:
@@ -88,23 +84,10 @@ def resting_on(student: Student, nodes: frozenset[str]) -> frozenset[str]:
         if place is None or place.span is None or answer.problem:
             continue
         try:
-            span = place.span
-            numbers, kinds = other.values(place.sheet, place.column, span.first, span.last)
+            values, now = shown_in(other, place)
         except UnknownFormula:
             continue
-        was, now = answer.kinds, _at(place, kinds)
-        values = _picked(place, numbers)
+        was = answer.kinds
         if was != now or not np.allclose(values, answer.values, 1e-9, 1e-12, equal_nan=True):
             found.add(node)
     return frozenset(found)
-
-
-def _picked(place: Place, numbers: Array) -> Array:
-    assert place.span is not None
-    first = place.span.first
-    return np.array([np.nan if row is None else numbers[row - first] for row in place.rows])
-
-
-def _at(place: Place, kinds: str) -> str:
-    assert place.span is not None
-    return "".join(LOST if row is None else kinds[row - place.span.first] for row in place.rows)

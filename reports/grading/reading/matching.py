@@ -79,7 +79,7 @@ def _tickets(grid: Grid, package: Package) -> dict[str, str]:
     at = grid.names.get(TICKET_NAME.casefold())
     if at is not None:
         _take(found, grid.constant(*at), f"ячейка с именем {TICKET_NAME}")
-    _take(found, _property(package), "свойство файла")
+    _take(found, own_properties(package).get(TICKET_NAME), "свойство файла")
     if not found:
         for columns in grid.sheets.values():
             for number, column in columns.items():
@@ -96,15 +96,16 @@ def _take(found: dict[str, str], text: object, where: str) -> None:
         found.setdefault(text.strip(), where)
 
 
-def _property(package: Package) -> str | None:
+def own_properties(package: Package) -> dict[str, str]:
+    """What ``kshm issue`` has written into the properties of a workbook, by name."""
     try:
         root = parse_xml(package.read("docProps/custom.xml"))
     except (KeyError, BadBook):
-        return None
+        return {}
+    found: dict[str, str] = {}
     for item in root.iter("{*}property"):
-        if item.get("name") == TICKET_NAME:
-            return "".join(item.itertext())
-    return None
+        found.setdefault(str(item.get("name")), "".join(item.itertext()))
+    return found
 
 
 def file_properties(package: Package) -> dict[str, str]:

@@ -6,9 +6,8 @@ what must not be changed follows from its input data and from marks put there at
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
-from fnmatch import fnmatchcase
 from pathlib import Path
 
 from reports.exports.build import load_input
@@ -16,12 +15,13 @@ from reports.grading.issuing.assignment import Assignment, assignment_of
 from reports.grading.issuing.handout import INPUT_MARKS, TICKET_NAME, fill_cells, input_mark
 from reports.grading.issuing.rubric import Rubric, Work
 from reports.grading.reading.ground import through
+from reports.grading.reading.matching import own_properties
 from reports.grading.reading.restoring import restore
-from reports.grading.reading.student import LOST, Student, address
+from reports.grading.reading.student import LOST, Student, address, range_text, stretches
 from reports.recalculation.evaluate import BLANK, ERROR, TEXT
 from reports.recalculation.grid import BadBook
 from reports.recalculation.language import UnknownFormula
-from reports.recalculation.read import read_grid
+from reports.recalculation.read import read_grid, worksheets
 from reports.recalculation.sheets import MAIN, parse_xml
 from reports.shared.errors import InputError, Problem
 from reports.spec.blocks import Model
@@ -128,21 +128,11 @@ def _open_cells(package: Package) -> set[tuple[str, str]]:
         )
     }
     found = set()
-    for title, part in _parts(package):
+    for title, part in worksheets(package):
         for cell in parse_xml(package.read(part)).iter(f"{MAIN}c"):
             if cell.get("s") in unlocked:
                 found.add((title, str(cell.get("r"))))
     return found
-
-
-def _parts(package: Package) -> Iterable[tuple[str, str]]:
-    rels = parse_xml(package.read("xl/_rels/workbook.xml.rels"))
-    targets = {rel.get("Id"): str(rel.get("Target")) for rel in rels.iter("{*}Relationship")}
-    book = parse_xml(package.read("xl/workbook.xml"))
-    for sheet in book.iter(f"{MAIN}sheet"):
-        key = next((v for k, v in sheet.attrib.items() if str(k).endswith("}id")), "")
-        target = targets.get(str(key), "")
-        yield str(sheet.get("name")), target[1:] if target.startswith("/") else f"xl/{target}"
 
 
 def _changed_inputs(student: Student, package: Package) -> Iterator[Finding]:
@@ -157,17 +147,9 @@ def _changed_inputs(student: Student, package: Package) -> Iterator[Finding]:
 
 
 def _marks(package: Package) -> dict[str, str]:
-    try:
-        root = parse_xml(package.read("docProps/custom.xml"))
-    except (KeyError, BadBook):
-        return {}
-    texts = {
-        str(item.get("name")): "".join(item.itertext())
-        for item in root.iter("{*}property")
-        if fnmatchcase(str(item.get("name")), f"{INPUT_MARKS}*")
-    }
+    texts = own_properties(package)
     found: dict[str, str] = {}
-    for _, text in sorted(texts.items()):
+    for text in (texts[name] for name in sorted(texts) if name.startswith(INPUT_MARKS)):
         for entry in text.split(" "):
             name, _, mark = entry.partition("=")
             if mark:
@@ -220,14 +202,6 @@ def _of(assignment: Assignment, node: str) -> str:
 
 
 def _ranges(sheet: str, column: int, rows: list[int | None]) -> str:
-    found: list[list[int]] = []
-    for row in sorted(row for row in rows if row is not None):
-        if found and found[-1][1] == row - 1:
-            found[-1][1] = row
-        else:
-            found.append([row, row])
-    texts = [
-        address(first, column) + (f":{address(last, column)}" if last > first else "")
-        for first, last in found
-    ]
+    found = stretches(sorted(row for row in rows if row is not None))
+    texts = [range_text(first, last, column) for first, last in found]
     return f"{sheet}!" + ", ".join(texts[:8]) + ("…" if len(texts) > 8 else "")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import chain
@@ -110,43 +110,27 @@ class Student:
     def _answer(self, node: str) -> Answer:
         place = self.placement.places.get(node)
         count = self.assignment.length(node)
-        if place is None:
-            return Answer(None, np.full(count, np.nan), LOST * count, np.zeros(count, dtype=bool))
-        column = self.grid.column(place.sheet, place.column)
-        span = place.span
-        if span is None:
-            return Answer(place, np.full(count, np.nan), LOST * count, np.zeros(count, dtype=bool))
+        nothing, none = np.full(count, np.nan), np.zeros(count, dtype=bool)
+        if place is None or place.span is None:
+            return Answer(place, nothing, LOST * count, none)
         if node in self._settled:
             numbers = np.ravel(np.asarray(self.expected.value(node), dtype=float))
-            return Answer(place, numbers, NUMBER * count, np.zeros(count, dtype=bool))
-        first, last = span.first, span.last
+            return Answer(place, numbers, NUMBER * count, none)
         try:
-            numbers, kinds = self.engine.values(place.sheet, place.column, first, last)
+            numbers, kinds = shown_in(self.engine, place)
         except UnknownFormula as problem:
-            blank = np.zeros(count, dtype=bool)
-            return Answer(place, np.full(count, np.nan), ERROR * count, blank, str(problem) or "?")
-        typed = column.constants
-        if span.whole:
-            marks = np.zeros(count, dtype=bool)
-            if typed:
-                marks[:] = [row in typed for row in place.rows]
-            return Answer(place, numbers, kinds, marks)
-        at = [None if row is None else row - first for row in place.rows]
-        values = np.array([np.nan if i is None else numbers[i] for i in at])
-        letters = "".join(LOST if i is None else kinds[i] for i in at)
-        marks = np.array([row is not None and row in typed for row in place.rows])
-        return Answer(place, values, letters, marks)
+            return Answer(place, nothing, ERROR * count, none, str(problem) or "?")
+        typed = self.grid.column(place.sheet, place.column).constants
+        marks = np.array([row in typed for row in place.rows]) if typed else none
+        return Answer(place, numbers, kinds, marks)
 
     def runs(self, node: str) -> list[Run]:
         """Runs of formulas in a node's cells."""
         place = self.placement.places.get(node)
-        if place is None:
+        if place is None or place.span is None:
             return []
         span = place.span
-        column = self.grid.column(place.sheet, place.column)
-        if span is None:
-            return []
-        near = column.runs_in(span.first, span.last)
+        near = self.grid.column(place.sheet, place.column).runs_in(span.first, span.last)
         if span.whole:
             return near
         rows = {row for row in place.rows if row is not None}
@@ -370,6 +354,38 @@ def _covered(low: int, high: int, taken: list[tuple[int, int, Place]]) -> bool:
             return True
     rows = {row for _, _, place in taken for row in place.rows}
     return all(row in rows for row in range(low, high + 1))
+
+
+def shown_in(engine: Engine, place: Place) -> tuple[Array, str]:
+    """Numbers and kinds of a place's rows; lost ones have a letter of their own.
+
+    Raises:
+        UnknownFormula: one of its formulas cannot be calculated for certain.
+    """
+    assert place.span is not None
+    first = place.span.first
+    numbers, kinds = engine.values(place.sheet, place.column, first, place.span.last)
+    if place.span.whole:
+        return numbers, kinds
+    at = [None if row is None else row - first for row in place.rows]
+    values = np.array([np.nan if i is None else numbers[i] for i in at])
+    return values, "".join(LOST if i is None else kinds[i] for i in at)
+
+
+def stretches(rows: Iterable[int]) -> list[tuple[int, int]]:
+    """First and last of the rows that follow each other without a gap."""
+    found: list[tuple[int, int]] = []
+    for row in rows:
+        if found and found[-1][1] == row - 1:
+            found[-1] = (found[-1][0], row)
+        else:
+            found.append((row, row))
+    return found
+
+
+def range_text(first: int, last: int, column: int) -> str:
+    """Cells of a column below each other, for messages."""
+    return address(first, column) + (f":{address(last, column)}" if last > first else "")
 
 
 def address(row: int, column: int) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from kshm.engine.bearings import Bearings, Oil, Strength
 from reports.inputs.sections.bearings import MATERIALS, OILS, BearingsSection
-from reports.inputs.units import MM, MPA, MPA_S, UM, Unit
+from reports.inputs.units import MM, MPA, MPA_S, UM
 
 
 def to_bearings(section: BearingsSection | None) -> Bearings | None:
@@ -13,10 +13,10 @@ def to_bearings(section: BearingsSection | None) -> Bearings | None:
         return None
     s = section
     return Bearings(
-        pin_clearances=(_si(MM, s.pin_clearance_min_mm), _si(MM, s.pin_clearance_max_mm)),
-        main_clearances=(_si(MM, s.main_clearance_min_mm), _si(MM, s.main_clearance_max_mm)),
-        pin_width=_si(MM, s.pin_width_mm),
-        main_width=_si(MM, s.main_width_mm),
+        pin_clearances=(MM.given(s.pin_clearance_min_mm), MM.given(s.pin_clearance_max_mm)),
+        main_clearances=(MM.given(s.main_clearance_min_mm), MM.given(s.main_clearance_max_mm)),
+        pin_width=MM.given(s.pin_width_mm),
+        main_width=MM.given(s.main_width_mm),
         pin_groove=MM.to_si(s.pin_groove_mm),
         main_groove=MM.to_si(s.main_groove_mm),
         hole=MM.to_si(s.hole_mm),
@@ -57,11 +57,7 @@ def _strength(section: BearingsSection) -> Strength:
         section.sensitivity,
         section.size_factor,
         section.surface_factor,
-        _si(MM, section.fillet_mm),
+        MM.given(section.fillet_mm),
         material.making,
         section.safety_allowed,
     )
-
-
-def _si(unit: Unit, value: float | None) -> float | None:
-    return None if value is None else unit.to_si(value)

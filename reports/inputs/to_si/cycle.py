@@ -35,13 +35,12 @@ def cycle_run(model: InputFile) -> CycleRun | None:
             step=MM.to_si(size_step_mm(section)),
             rounding=section.rounding or "nearest",
         )
-    torque, idle = section.torque_speed_rpm, section.idle_speed_rpm
     return run_cycle(
         cycle_inputs(model, section, model.gas),
         wanted,
         speed_law(model, section),
-        omega_torque=None if torque is None else RPM.to_si(torque),
-        omega_idle=None if idle is None else RPM.to_si(idle),
+        omega_torque=RPM.given(section.torque_speed_rpm),
+        omega_idle=RPM.given(section.idle_speed_rpm),
     )
 
 
@@ -77,7 +76,7 @@ def cycle_inputs(model: InputFile, section: CycleSection, gas: CycleGasSection) 
         xi_b=float(section.xi_b),
         fullness=float(section.fullness),
         mechanical=float(model.regime.mechanical_efficiency) if a is None else friction,
-        p_max=None if section.max_pressure_mpa is None else MPA.to_si(section.max_pressure_mpa),
+        p_max=MPA.given(section.max_pressure_mpa),
         boost=_boost(section),
         bore=bore,
         stroke=stroke,

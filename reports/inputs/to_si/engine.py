@@ -23,15 +23,13 @@ from reports.inputs.sections.gas import (
 from reports.inputs.sections.input_file import GeometrySection, InputFile, RegimeSection
 from reports.inputs.to_si.bearings import to_bearings
 from reports.inputs.to_si.cycle import cycle_run
-from reports.inputs.to_si.gas import rounded_gas
+from reports.inputs.to_si.gas import BDC_DEG, FIRING_TDC_DEG, rounded_gas
 from reports.inputs.to_si.geometry import crank_radius_mm, rod_length_mm
 from reports.inputs.to_si.masses import to_masses, with_masses
 from reports.inputs.to_si.torsion import to_torsion
 from reports.inputs.units import DEG, KG, KW, MM, MPA, RPM
 
-BDC_DEG = 540.0
 TWO_STROKE_BDC_DEG = 180.0
-FIRING_TDC_DEG = 360.0
 
 
 def to_engine(model: InputFile) -> Engine:
@@ -79,7 +77,7 @@ def _engine(model: InputFile, run: CycleRun | None) -> Engine:
         force_offsets=None if forces is None else tuple(DEG.to_si(value) for value in forces),
         balancing=_balancing(model.balance),
         name=model.engine.name,
-        oil_hole=None if shaft.oil_hole_deg is None else DEG.to_si(shaft.oil_hole_deg),
+        oil_hole=DEG.given(shaft.oil_hole_deg),
         regimes=tuple(_regime(regime, model.engine.strokes) for regime in model.regimes),
         reference_lambdas=() if reference is None else reference.lambdas,
         reference_angle=0.0 if reference is None else DEG.to_si(reference.angle_deg),
@@ -87,13 +85,12 @@ def _engine(model: InputFile, run: CycleRun | None) -> Engine:
 
 
 def _regime(section: RegimeSection, strokes: int) -> OperatingPoint:
-    power = section.indicated_power_kw
     return OperatingPoint(
         name=section.name,
         omega=RPM.to_si(section.speed_rpm),
         gas=_gas(section.gas, None, strokes=strokes),
         mechanical_efficiency=float(section.mechanical_efficiency),
-        indicated_power=None if power is None else KW.to_si(power),
+        indicated_power=KW.given(section.indicated_power_kw),
         fullness=float(section.fullness),
     )
 
@@ -150,9 +147,8 @@ def _power(model: InputFile, run: CycleRun | None) -> tuple[float | None, float,
     if run is not None:
         return run.gas_power, run.cycle.effective.eta_m, 1.0
     regime = model.regime
-    power = regime.indicated_power_kw
     efficiency, fullness = float(regime.mechanical_efficiency), float(regime.fullness)
-    return None if power is None else KW.to_si(power), efficiency, fullness
+    return KW.given(regime.indicated_power_kw), efficiency, fullness
 
 
 def _gas(gas: GasSection, run: CycleRun | None, *, strokes: int) -> Gas:
@@ -226,21 +222,17 @@ def _crankshaft(shaft: CrankshaftSection) -> Crankshaft:
                 zip(shaft.throw_angles_deg, shaft.arms, strict=True)
             )
         ),
-        nose=EndMass(
-            mass=KG.to_si(shaft.nose_mass_kg),
-            angle=DEG.to_si(shaft.nose_angle_deg),
-            arm=MM.to_si(shaft.nose_arm_mm),
-        ),
-        rear=EndMass(
-            mass=KG.to_si(shaft.rear_mass_kg),
-            angle=DEG.to_si(shaft.rear_angle_deg),
-            arm=MM.to_si(shaft.rear_arm_mm),
-        ),
+        nose=_end_mass(shaft.nose_mass_kg, shaft.nose_angle_deg, shaft.nose_arm_mm),
+        rear=_end_mass(shaft.rear_mass_kg, shaft.rear_angle_deg, shaft.rear_arm_mm),
         pin_diameters=_sizes(shaft.pin_diameter_mm, shaft.pin_diameters_mm, throws),
         pin_lengths=_sizes(shaft.pin_length_mm, shaft.pin_lengths_mm, throws),
         main_diameters=_sizes(shaft.main_diameter_mm, shaft.main_diameters_mm, journals),
         main_lengths=tuple(MM.to_si(length) for length in shaft.main_lengths_mm),
     )
+
+
+def _end_mass(mass_kg: float, angle_deg: float, arm_mm: float) -> EndMass:
+    return EndMass(KG.to_si(mass_kg), DEG.to_si(angle_deg), MM.to_si(arm_mm))
 
 
 def _sizes(one: float | None, each: tuple[float, ...] | None, count: int) -> tuple[float, ...]:

@@ -35,8 +35,7 @@ def to_masses(model: InputFile, geometry: Geometry) -> Masses:
     if piston is None or rod is None:
         raise ValueError("masses are incomplete")
     mass, length = KG.to_si(rod), geometry.rod_length
-    inertia = given.rod_inertia_kg_m2
-    known = None if inertia is None else KG_M2.to_si(inertia)
+    known = KG_M2.given(given.rod_inertia_kg_m2)
     basis: Weighing | Swinging | Estimate | None = estimate
     if given.rod_weighed_small_end_kg is not None:
         basis = Weighing(mass, KG.to_si(given.rod_weighed_small_end_kg))
@@ -71,16 +70,13 @@ def to_estimate(given: MassesSection) -> Estimate | None:
     if given.estimate_fuel is None:
         return None
 
-    def area(value: float | None) -> float | None:
-        return None if value is None else KG_PER_M2.to_si(value)
-
     return Estimate(
         fuel=given.estimate_fuel,
         piston_material=given.estimate_piston or "aluminium",
         shaft=given.estimate_shaft or "steel",
-        piston_area_mass=area(given.estimate_piston_kg_per_m2),
-        rod_area_mass=area(given.estimate_rod_kg_per_m2),
-        throw_area_mass=area(given.estimate_throw_kg_per_m2),
+        piston_area_mass=KG_PER_M2.given(given.estimate_piston_kg_per_m2),
+        rod_area_mass=KG_PER_M2.given(given.estimate_rod_kg_per_m2),
+        throw_area_mass=KG_PER_M2.given(given.estimate_throw_kg_per_m2),
         pin_share=PIN_SHARE if given.estimate_pin_share is None else given.estimate_pin_share,
     )
 

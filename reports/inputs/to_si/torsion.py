@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from kshm.engine.torsion import Torsion, TrainMass
 from reports.inputs.sections.torsion import MassSection, TorsionSection
-from reports.inputs.units import MM, MPA, RPM, Unit
+from reports.inputs.units import MM, MPA, RPM
 
 
 def to_torsion(section: TorsionSection | None) -> Torsion | None:
@@ -26,12 +26,12 @@ def to_torsion(section: TorsionSection | None) -> Torsion | None:
         shear_modulus=MPA.to_si(section.shear_modulus_mpa),
         main_bore=MM.to_si(section.main_bore_mm),
         pin_bore=MM.to_si(section.pin_bore_mm),
-        web_width=_si(MM, section.web_width_mm),
-        web_thickness=_si(MM, section.web_thickness_mm),
+        web_width=MM.given(section.web_width_mm),
+        web_thickness=MM.given(section.web_thickness_mm),
         damping=section.damping_nms_rad,
         loss_factor=section.loss_factor,
-        speed_min=_si(RPM, section.speed_min_rpm),
-        speed_max=_si(RPM, section.speed_max_rpm),
+        speed_min=RPM.given(section.speed_min_rpm),
+        speed_max=RPM.given(section.speed_max_rpm),
         stress_allowed=MPA.to_si(section.stress_allowed_mpa),
         other_flywheel=section.other_flywheel_kg_m2,
         damper=section.damper,
@@ -49,10 +49,6 @@ def _mass(mass: MassSection) -> TrainMass:
         mass.name,
         mass.inertia_kg_m2,
         mass.stiffness_nm_rad,
-        _si(MM, mass.diameter_mm),
+        MM.given(mass.diameter_mm),
         int(mass.throw) - 1 if mass.throw else None,
     )
-
-
-def _si(unit: Unit, value: float | None) -> float | None:
-    return None if value is None else unit.to_si(value)

@@ -11,7 +11,7 @@ import pytest
 from openpyxl import load_workbook
 
 from reports.exports.build import load_input
-from reports.grading.issuing.handout import _live_cells
+from reports.grading.issuing.handout import _live_cells, fill_cells
 from reports.grading.issuing.issue import issue
 from reports.grading.issuing.register import load_register
 from reports.grading.issuing.roster import read_roster
@@ -190,8 +190,10 @@ def test_a_handout_gives_nothing_away():
         if isinstance(f.value, (int, float))
     }
     assert not (secret - allowed - inputs) & given
-    live = _live_cells(assignment, Layout.of(assignment.model))
+    layout = Layout.of(assignment.model)
+    live = _live_cells(assignment, layout)
     assert live
+    unlocked = set()
     for sheet in book.worksheets:
         assert sheet.protection.sheet, sheet.title
         for line in sheet.iter_rows():
@@ -200,6 +202,14 @@ def test_a_handout_gives_nothing_away():
                     assert Cell(sheet.title, cell.row, cell.column) in live, cell
                 if not cell.protection.locked:
                     assert cell.value is None, (sheet.title, cell.coordinate)
+                    unlocked.add(Cell(sheet.title, cell.row, cell.column))
+    assert unlocked == {  # and nothing that is asked stays closed
+        place
+        for block in assignment.fill
+        for node, places in fill_cells(block, layout).items()
+        if node in assignment.fill_nodes
+        for place in places
+    }
     with zipfile.ZipFile(io.BytesIO(classroom.handout())) as archive:
         for name in archive.namelist():
             if name.startswith("xl/charts/"):

@@ -57,6 +57,17 @@ def test_equal_wrong_values_where_the_right_ones_differ():
     assert signals([first, second | {"number": 1}]) == []
 
 
+def test_numbers_of_a_friend_stop_the_points():
+    """Wrong for one's own variant, right for another's: from three columns on it is no chance."""
+    friend = result(2, items=[line(item, f"r2{item}", f"r2{item}") for item in "abc"])
+    copied = result(1, items=[line(item, f"r2{item}", f"r1{item}") for item in "abc"])
+    words = "значения верны для чужого варианта: Студент 2 (2.xlsx)"
+    assert any(words in text for text in signals([copied, friend]))
+    ((key, (text,)),) = similarity.suspicions(works([copied, friend])).items()
+    assert key == "1" and words in text
+    assert similarity.suspicions(works([copied | {"items": copied["items"][:2]}, friend])) == {}
+
+
 def test_files_that_one_person_saved_last():
     people = [result(n, properties={"lastModifiedBy": "Вася"}) for n in (1, 2)]
     (text,) = signals(people)

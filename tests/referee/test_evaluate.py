@@ -140,7 +140,7 @@ def test_errors_of_formualizers_own_are_never_the_students():
     for kind in ("Error", "NImpl", "Name", "Cancelled", "Spill", "#REF!"):
         with pytest.raises(UnknownFormula):
             _numbers([1.0, {"type": "Error", "kind": kind}])
-    assert _numbers([1.0, {"type": "Error", "kind": "Div"}, "a", True], None)[1] == "netn"
+    assert _numbers([1.0, {"type": "Error", "kind": "Div"}, "a", True])[1] == "netn"
 
 
 def test_one_formula_that_formualizer_stops_at_leaves_the_others():

@@ -23,6 +23,7 @@ from reports.spec.evaluation import Evaluation
 
 _TRIES = 12
 _LEAST, _MOST = 0.02, 0.08  # how much the third set changes a number
+_EDGE, _APART = 0.02, 0.25  # of the range: from its ends, between the first two sets
 _NARROW = 0.05  # where all variants have the same value
 
 
@@ -40,7 +41,8 @@ def trials_of(assignment: Assignment, books: Sequence[Issued], seed: str) -> tup
     rng = random.Random(seed)
     values = _varied(assignment, books)
     found = [_first(assignment, _others(values, rng), decides=True)]
-    found.append(_first(assignment, _between(values, rng), decides=True))
+    first = found[0].inputs if found[0] is not None else {}
+    found.append(_first(assignment, _between(values, first, rng), decides=True))
     start = found[-1].inputs if found[-1] is not None else {}
     found.append(_first(assignment, _everything(assignment, start, rng), decides=False))
     return tuple(trial for trial in found if trial is not None)
@@ -94,15 +96,24 @@ def _others(values: Mapping[str, list[float]], rng: random.Random) -> Iterator[d
         yield {name: rng.choice(known) for name, known in values.items()}
 
 
-def _between(values: Mapping[str, list[float]], rng: random.Random) -> Iterator[dict[str, float]]:
-    """Values that no variant has, in the range of all."""
+def _between(
+    values: Mapping[str, list[float]], first: Mapping[str, float], rng: random.Random
+) -> Iterator[dict[str, float]]:
+    """Values in the range of all variants, far from those of the first set.
+
+    What a student has typed in may be near one of the two, but not near both.
+    """
     while True:
         made = {}
         for name, known in values.items():
             low, high = min(known), max(known)
             if high - low < 1e-9 * max(1.0, abs(high)):
                 low, high = low * (1 - _NARROW), high * (1 + _NARROW)
-            made[name] = low + (high - low) * rng.uniform(0.02, 0.98)
+            near = (first.get(name, low) - low) / (high - low)
+            below, above = max(0.0, near - _APART - _EDGE), max(0.0, 1 - _EDGE - near - _APART)
+            share = rng.uniform(0, below + above)
+            share += _EDGE if share < below else near + _APART - below
+            made[name] = low + (high - low) * share
         yield made
 
 

@@ -19,6 +19,16 @@ from reports.shared.resources import samples_dir
 from tests.kept import FOLDER
 from tools.referees.by_libreoffice import LibreOffice, find_soffice
 
+# As many processes as there are processors leave none to the threads of numpy.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+_WAITING = 2  # processes more: some wait for LibreOffice, a browser, a command
+
+
+def pytest_xdist_auto_num_workers() -> int:
+    """Processes of ``-n auto``; quick tests wait for nothing."""
+    return (os.cpu_count() or 1) + (0 if os.environ.get("KSHM_QUICK") else _WAITING)
+
+
 # Random engines are slow to solve on a loaded machine: no deadline, the same examples in CI.
 settings.register_profile("kshm", deadline=None, derandomize=True, print_blob=True)
 settings.load_profile("kshm")

@@ -120,6 +120,8 @@ def test_the_exit_code_of_kshm_is_kept(house):
         ("build x", True),
         ("build x --only pdf", True),
         ("build x --only xlsx", False),
+        ("build x --only pdf --only xlsx", True),
+        ("build x --only docx --only xlsx", False),
         ("build x --only=html", False),
         ("build --help", False),
         ("validate", True),

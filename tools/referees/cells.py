@@ -14,6 +14,12 @@ CellValue = float | str | bool | None
 Book = dict[str, dict[str, CellValue]]  # sheet → coordinate → value
 
 _MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
+_PICTURES = ("xl/charts/", "xl/drawings/", "xl/comments")
+# Where sheets, their relationships and the list of contents name them.
+_NAMED = re.compile(
+    rb"<(?:legacyDrawing|drawing) [^>]*/>"
+    rb'|<(?:Relationship|Override) [^>]*"/?(?:xl|\.\.)/(?:charts|drawings|comments)[^>]*/>'
+)
 _FORMULA, _VALUE = f"{_MAIN}f", f"{_MAIN}v"
 
 
@@ -70,6 +76,16 @@ def _without_values(data: bytes) -> tuple[bytes, list[str]]:
             cell.remove(value)
         cell.attrib.pop("t", None)
     return etree.tostring(root, xml_declaration=True, encoding="UTF-8"), cells
+
+
+def without_pictures(book: bytes) -> bytes:
+    """The workbook without charts and notes: nothing is calculated from them."""
+    result = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(book)) as source, zipfile.ZipFile(result, "w") as target:
+        for name in source.namelist():
+            if not name.startswith(_PICTURES):
+                target.writestr(name, _NAMED.sub(b"", source.read(name)))
+    return result.getvalue()
 
 
 def row_and_column(coordinate: str) -> tuple[int, int]:

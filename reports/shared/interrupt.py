@@ -39,7 +39,12 @@ def stoppable() -> Iterator[None]:
             signal.signal(number, handler if handler is not None else signal.SIG_DFL)
 
 
-def _stop(_: int, __: FrameType | None) -> None:
+def _stop(_: int, frame: FrameType | None) -> None:
+    # An extension that is being loaded may die of an exception: the next file stops, or the next
+    # signal.
+    if frame is not None and frame.f_code.co_filename.startswith("<frozen importlib"):
+        _state["stopped"] = True
+        return
     for number in _SIGNALS:
         signal.signal(number, signal.SIG_IGN)
     _state["stopped"] = True

@@ -127,6 +127,16 @@ def test_a_signal_lost_in_a_callback_stops_the_next_file(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_signal_while_an_extension_is_loaded_stops_the_next_file(tmp_path):
+    code = compile("signal.raise_signal(signal.SIGTERM)", "<frozen importlib._bootstrap>", "exec")
+    loaded = False
+    with pytest.raises(KeyboardInterrupt), interrupt.stoppable():
+        exec(code, {"signal": signal})
+        loaded = True
+        files.write_bytes(tmp_path / "a", NEW)
+    assert loaded and list(tmp_path.iterdir()) == []
+
+
 INT, TERM, KILL = signal.SIGINT, signal.SIGTERM, signal.SIGKILL
 SOLVE, BUILD = ("solve", "--csv"), ("build", "--only", "xlsx", "-o")
 

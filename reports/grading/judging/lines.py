@@ -22,8 +22,9 @@ from reports.grading.judging.verdicts import (
     WRONG,
     Judgement,
 )
+from reports.grading.reading.addresses import address, range_text, stretches
 from reports.grading.reading.placement import Place
-from reports.grading.reading.student import Student, address, range_text, stretches
+from reports.grading.reading.student import Student
 
 SHOWN_ROWS = 12  # wrong cells shown in the feedback of an item
 

@@ -24,9 +24,10 @@ from reports.grading.judging.verdicts import (
     UNKNOWN,
     judge_all,
 )
+from reports.grading.reading.addresses import address
 from reports.grading.reading.matching import Match, file_properties, find_by_name, find_owner
 from reports.grading.reading.restoring import leave_out_unused, restore
-from reports.grading.reading.student import Student, address
+from reports.grading.reading.student import Student
 from reports.grading.reading.submissions import Submission
 from reports.inputs.fields import cell_name
 from reports.inputs.ranges import Range

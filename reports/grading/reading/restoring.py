@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from reports.formula.excel import compile_formula
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.handout import fill_cells
+from reports.grading.reading.addresses import address
 from reports.grading.reading.placement import Place
-from reports.grading.reading.student import Changed, Student, address
+from reports.grading.reading.student import Changed, Student
 from reports.recalculation.formulas import Formula, formula_at
 from reports.recalculation.grid import Column, Run
 from reports.recalculation.language import unquoted

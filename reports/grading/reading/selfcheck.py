@@ -14,10 +14,11 @@ from reports.exports.build import load_input
 from reports.grading.issuing.assignment import Assignment, assignment_of
 from reports.grading.issuing.handout import INPUT_MARKS, TICKET_NAME, fill_cells, input_mark
 from reports.grading.issuing.rubric import Rubric, Work
+from reports.grading.reading.addresses import address, range_text, stretches
 from reports.grading.reading.ground import through
 from reports.grading.reading.matching import own_properties
 from reports.grading.reading.restoring import restore
-from reports.grading.reading.student import LOST, Student, address, range_text, stretches
+from reports.grading.reading.student import LOST, Student
 from reports.recalculation.evaluate import BLANK, ERROR, TEXT
 from reports.recalculation.grid import BadBook
 from reports.recalculation.language import UnknownFormula

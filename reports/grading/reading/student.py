@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import chain
@@ -370,29 +370,6 @@ def shown_in(engine: Engine, place: Place) -> tuple[Array, str]:
     at = [None if row is None else row - first for row in place.rows]
     values = np.array([np.nan if i is None else numbers[i] for i in at])
     return values, "".join(LOST if i is None else kinds[i] for i in at)
-
-
-def stretches(rows: Iterable[int]) -> list[tuple[int, int]]:
-    """First and last of the rows that follow each other without a gap."""
-    found: list[tuple[int, int]] = []
-    for row in rows:
-        if found and found[-1][1] == row - 1:
-            found[-1] = (found[-1][0], row)
-        else:
-            found.append((row, row))
-    return found
-
-
-def range_text(first: int, last: int, column: int) -> str:
-    """Cells of a column below each other, for messages."""
-    return address(first, column) + (f":{address(last, column)}" if last > first else "")
-
-
-def address(row: int, column: int) -> str:
-    """Cell address for messages."""
-    from reports.workbook.layout import Cell
-
-    return Cell("", row, column).coordinate
 
 
 def known_values(answers: Mapping[str, Answer], nodes: frozenset[str]) -> dict[str, object]:

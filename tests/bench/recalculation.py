@@ -1,16 +1,18 @@
 """Recalculating a workbook: formualizer beside LibreOffice.
 
 The book is the textbook's diesel at 10°.  LibreOffice is timed with one book and with
-three, so that its start can be taken out.
+three, so that its start can be taken out, and with a book that keeps its charts.
 """
 
 from __future__ import annotations
 
 import time
 from collections.abc import Iterator
+from unittest import mock
 
 from tests.bench._figure import Figure, interleaved, median, memory
 from tests.bench.workbook import ours
+from tools.referees import by_libreoffice
 from tools.referees.by_formualizer import Formualizer
 from tools.referees.by_libreoffice import LibreOffice, find_soffice
 
@@ -20,6 +22,12 @@ MORE = 2
 def by_formualizer() -> None:
     """One book."""
     Formualizer().recalculate([ours()])
+
+
+def with_charts(office: LibreOffice, book: bytes) -> None:
+    """One book as it is."""
+    with mock.patch.object(by_libreoffice, "without_pictures", lambda book: book):
+        office.recalculate([book])
 
 
 def figures() -> Iterator[Figure]:
@@ -33,12 +41,14 @@ def figures() -> Iterator[Figure]:
             "formualizer": lambda: fast.recalculate([book]),
             "one": lambda: office.recalculate([book]),
             "more": lambda: office.recalculate([book] * (1 + MORE)),
+            "charts": lambda: with_charts(office, book),
         }
     times = interleaved(actions, rounds=3, clock=time.perf_counter)
     yield Figure("formualizer", median(times["formualizer"]), "с")
     if "one" in times:
         own = median((b - a) / MORE for a, b in zip(times["one"], times["more"], strict=True))
         yield Figure("LibreOffice с запуском", median(times["one"]), "с")
+        yield Figure("LibreOffice с диаграммами", median(times["charts"]), "с")
         yield Figure("LibreOffice, каждая следующая книга", own, "с")
         yield Figure("LibreOffice без запуска / formualizer", own / median(times["formualizer"]),
                      "раз")  # fmt: skip

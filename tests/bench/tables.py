@@ -1,0 +1,35 @@
+"""The tables of all samples, and what it buys to leave alone what no renaming changes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from unittest import mock
+
+from reports.inputs.load import load_toml
+from reports.shared.resources import samples_dir
+from reports.spec import rename
+from reports.tables.registry import build_model
+from tests.bench._figure import Figure, interleaved, median, ratio
+
+INPUTS = [load_toml(path).model for path in sorted(samples_dir().glob("*.toml"))]
+
+
+def every() -> None:
+    """The tables of each sample."""
+    for model in INPUTS:
+        build_model(model)
+
+
+def all_renamed() -> None:
+    """The same, every expression read for names to replace."""
+    made = rename._Expressions
+    with mock.patch.object(rename, "_Expressions", lambda names, only=(): made(names)):
+        every()
+
+
+def figures() -> Iterator[Figure]:
+    """Figures."""
+    times = interleaved({"now": every, "all": all_renamed}, rounds=5)
+    yield Figure("таблицы всех образцов: процессор", median(times["now"]), "с",
+                 f"{len(INPUTS)} образцов")  # fmt: skip
+    yield Figure("каждое выражение переписано / как есть", ratio(times, "all", "now"), "раз")

@@ -205,6 +205,8 @@ def group_of(item: pytest.Item) -> str:
     """What a process makes once: a sample's files, the finished reports, a file's fixtures."""
     if item.path.stem in {f"test_report_{name}" for name in REPORTS}:
         return "reports"
+    if {"browser", "served"} & set(getattr(item, "fixturenames", ())):
+        return "browser"  # one Chromium, one server
     return min(samples_of(item), default=item.nodeid.partition("::")[0])
 
 

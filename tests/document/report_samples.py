@@ -7,12 +7,13 @@ from functools import lru_cache
 from pathlib import Path
 
 from reports.document import report
-from reports.document.page.render import Rendered, render
+from reports.document.page.render import render
 from reports.document.text.terms import Terms
 from reports.inputs.load import load_text
 from reports.shared.resources import samples_dir
 from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
+from tests.kept import kept
 
 ONE = """
 [report]
@@ -92,10 +93,18 @@ def terms(name: str) -> Terms:
 
 
 @lru_cache(maxsize=16)
-def rendered(name: str) -> Rendered:
-    """The finished PDF of a sample, without attachments."""
+def print_page(name: str) -> str:
+    """The page for the printer."""
     source = terms(name)
-    return render(report.report_page(source.model, source.values, media="print"))
+    return report.report_page(source.model, source.values, media="print")
+
+
+@kept
+def pdf(name: str) -> bytes:
+    """The finished PDF of a sample, without attachments and without a warning."""
+    made = render(print_page(name))
+    assert made.warnings == ()
+    return made.pdf
 
 
 @lru_cache(maxsize=16)

@@ -4,7 +4,7 @@ import re
 
 import pytest
 from pdftools import fonts_of, pages_of, poppler
-from report_samples import html_page, pdf_with_files, rendered, terms
+from report_samples import html_page, pdf, pdf_with_files, terms
 
 NAMES = ["one", "gots-diesel"]
 ALLOWED_POINTS = [
@@ -23,7 +23,7 @@ def texts(tmp_path_factory):
     def text(name):
         if name not in found:
             folder = tmp_path_factory.mktemp(name)
-            found[name] = pages_of(rendered(name).pdf, folder)
+            found[name] = pages_of(pdf(name), folder)
         return found[name]
 
     return text
@@ -31,9 +31,8 @@ def texts(tmp_path_factory):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_sets_without_a_warning_and_in_stix(name, tmp_path):
-    result = rendered(name)
-    assert result.warnings == ()
-    assert all(font.startswith("STIX") for font in fonts_of(result.pdf, tmp_path))
+    fonts = fonts_of(pdf(name), tmp_path)  # warnings are errors where it is made
+    assert fonts and all(font.startswith("STIX") for font in fonts)
 
 
 def expected_tables(name: str) -> set[str]:

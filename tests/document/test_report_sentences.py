@@ -8,6 +8,7 @@ import copy
 import html
 import re
 from collections import defaultdict
+from functools import cache
 
 import numpy as np
 import pytest
@@ -43,6 +44,15 @@ def engine(layout="basic", source="gots-diesel", **changes):
             raw.setdefault(section, {})[key] = value
     raw["report"]["detail"] = changes.get("report__detail", "full")
     return load_mapping(raw, source="t.toml").model
+
+
+@cache
+def page_of(source="gots-diesel", detail="full"):
+    return bare_page(engine(source=source, report__detail=detail))
+
+
+def words_of(source="gots-diesel", detail="full"):
+    return plain(page_of(source, detail))
 
 
 def printed_rows(page, caption):
@@ -203,25 +213,25 @@ def test_no_sentence_of_a_random_engine_is_denied(layout, step, speed, method, d
 
 
 def test_the_masses_outside_the_limits_are_named():
-    text = text_of(engine(source="yamz-236"))
+    text = words_of("yamz-236")
     assert "удельная масса колена 647,9 кг/м2 (100…400 кг/м2)" in text
     assert "Вне пределов" not in text_of(engine(crankshaft__pin_mass_kg=0.8))
 
 
 def test_the_pressure_between_the_rows_is_told_beside_that_of_the_table():
-    assert "между строками таблицы оно достигает 7,27" in text_of(engine(source="cycle-petrol"))
-    assert "между строками таблицы" not in text_of(engine(source="yamz-236"))
+    assert "между строками таблицы оно достигает 7,27" in words_of("cycle-petrol")
+    assert "между строками таблицы" not in words_of("yamz-236")
 
 
 def test_data_that_the_cycle_does_not_take_stand_in_no_table():
-    text = bare_page(engine(source="cycle-petrol"))
+    text = page_of("cycle-petrol")
     rows = printed_rows(text, "Исходные данные для расчёта")
     assert not [row for row in rows if row[0] == "Механический КПД"]
 
 
 def test_a_rod_is_modelled_only_if_its_mass_is_not_given():
-    assert "оценены по диаметру цилиндра" not in text_of(engine(source="yamz-236"))
-    page = bare_page(engine())
+    assert "оценены по диаметру цилиндра" not in words_of("yamz-236")
+    page = page_of()
     assert "оценены по диаметру цилиндра" in plain(page)
     named = {row[0]: row for row in printed_rows(page, "Момент инерции и неравномерность хода")}
     modelled = {row[0]: row for row in printed_rows(page, "Шатун по основным размерам")}
@@ -230,7 +240,7 @@ def test_a_rod_is_modelled_only_if_its_mass_is_not_given():
 
 
 def test_shafts_are_told_only_if_asked_for():
-    assert "Балансирные валы" not in text_of(engine())
+    assert "Балансирные валы" not in words_of()
     asked = text_of(engine(source="vw-1600", balance__first_shafts_share=0.5))
     assert "Балансирные валы снимают доли" in asked
 
@@ -242,30 +252,30 @@ def test_a_department_is_called_so_once():
 
 
 def test_failed_checks_stand_in_a_sentence():
-    text = text_of(engine(source="gots-diesel"))
+    text = words_of("gots-diesel")
     assert re.search(r"Проверок расчёта выполнено \d+ из \d+\.", text)
-    assert "Все проверки расчёта выполнены (7 из 7)." in text_of(engine(source="yamz-236"))
+    assert "Все проверки расчёта выполнены (7 из 7)." in words_of("yamz-236")
 
 
 def test_directions_are_from_the_axis_of_the_first_cylinder():
-    assert "вертикал" not in text_of(engine(source="yamz-236")).lower()
+    assert "вертикал" not in words_of("yamz-236").lower()
 
 
 def test_initials_do_not_leave_their_surname():
-    page = bare_page(engine())
+    page = page_of()
     assert "А.\xa0Н.\xa0Гоц" in page and not re.search(r"\b[А-Я]\. [А-Я]\.", page)
 
 
 def test_only_cited_sources_are_listed():
     offset = text_of(engine("offset"))
-    assert "Сегаль" not in offset and "Сегаль, В. Ф." in text_of(engine())
+    assert "Сегаль" not in offset and "Сегаль, В. Ф." in words_of()
 
 
 @pytest.mark.usefixtures("nothing_is_drawn")
 @pytest.mark.parametrize("name", ["two-stroke", "ecoboost-10", "cycle-petrol", "yamz-236"])
 def test_what_a_strict_reader_asks_for(name):
     """No names of the program, no raw indices, no blank cells, no unit before a blank."""
-    page = bare_page(engine(source=name, report__detail="course"))
+    page = page_of(name, "course")
     text = plain(re.sub("<title>.*?</title>", "", page))  # what pictures are called aloud
     assert not re.search(r"[A-Za-zА-яλρ]_[A-Za-zА-я]", text)
     assert "<td></td>" not in page
@@ -279,10 +289,10 @@ def test_what_a_strict_reader_asks_for(name):
 
 @pytest.mark.usefixtures("nothing_is_drawn")
 def test_a_short_report_promises_no_appendix():
-    page = bare_page(engine(source="gots-diesel", report__detail="short"))
+    page = page_of("gots-diesel", "short")
     text = plain(page)
     assert "напечатаны через" not in text and "0 прил." not in text
-    page = bare_page(engine(source="gots-diesel", report__detail="course"))
+    page = page_of("gots-diesel", "course")
     assert "напечатаны через 30°" in plain(page) and "2 прил." in plain(page)
 
 
@@ -292,6 +302,6 @@ def test_a_short_report_promises_no_appendix():
     [("mwm-6", "превышает допускаемую", "КРУТИЛЬНЫЕ"), ("d-240-bearings", "плёнка", "ПЛЁНКА")],
 )
 def test_the_conclusion_tells_of_every_chapter(name, said, word):
-    page = bare_page(engine(source=name, report__detail="course"))
+    page = page_of(name, "course")
     end = plain(page[page.index("Заключение</h1>") :])
     assert said in end and word in plain(page)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from pdftools import pages_of, poppler
-from report_samples import ONE, rendered, terms, terms_of
+from report_samples import ONE, pdf, terms, terms_of
 
 from reports.document.page.render import render
 from reports.document.report import report_html, report_page, report_pdf
@@ -45,13 +45,13 @@ def flat(text: str) -> str:
 
 
 def test_abstract_counts_what_is_there(tmp_path):
-    result = rendered("one")
-    text = "\n".join(pages_of(result.pdf, tmp_path))
+    sheets = pages_of(pdf("one"), tmp_path)
+    text = "\n".join(sheets)
     said = re.search(
         r"Пояснительная\sзаписка\s(\d+)\sс\.,\s(\d+)\sрис\.,\s(\d+)\sтабл\.,\s(\d+)\sисточн\.", text
     )
     pages, figures, tables, sources = map(int, said.groups())
-    assert pages == result.pages
+    assert pages == len(sheets)
     assert figures == len(re.findall(r"Рисунок\s\d+\s—", text))
     assert tables == len(re.findall(r"Таблица\s\S+\s—", text))
     listed = text[
@@ -70,7 +70,7 @@ def test_assignment_is_filled_from_the_input(framed):
 
 
 def test_what_is_not_known_is_left_to_the_pen(tmp_path):
-    sheet = pages_of(rendered("one").pdf, tmp_path)[1]
+    sheet = pages_of(pdf("one"), tmp_path)[1]
     assert re.search(r"Студент:\s*$", sheet, flags=re.MULTILINE)
 
 
@@ -88,7 +88,7 @@ def test_title_block_on_the_first_text_sheet_only(framed):
 
 
 def test_without_frame_there_is_no_title_block(tmp_path):
-    text = "".join(pages_of(rendered("one").pdf, tmp_path))
+    text = "".join(pages_of(pdf("one"), tmp_path))
     assert "докум" not in text
 
 

@@ -1,22 +1,11 @@
 """What a strict reader of whole reports found: references, symbols, sentences of profiles."""
 
 import re
-from functools import cache
 
 import pytest
 import report_samples
-from bare_pages import bare_page, plain
-from test_report_sentences import engine, printed_rows, text_of
-
-
-@cache
-def page_of(source="gots-diesel", detail="full"):
-    return bare_page(engine(source=source, report__detail=detail))
-
-
-def words_of(source="gots-diesel", detail="full"):
-    return plain(page_of(source, detail))
-
+from bare_pages import plain
+from test_report_sentences import engine, page_of, printed_rows, text_of, words_of
 
 pytestmark = pytest.mark.usefixtures("nothing_is_drawn")
 

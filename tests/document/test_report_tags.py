@@ -5,7 +5,7 @@ import re
 import zlib
 
 from pdftools import poppler
-from report_samples import rendered
+from report_samples import pdf
 
 STREAM = re.compile(rb"stream\r?\n(.*?)\r?\nendstream", re.DOTALL)
 MAY_HOLD = {
@@ -49,7 +49,7 @@ def objects(pdf: bytes) -> bytes:
 
 def test_tags_follow_the_rules_of_pdf_ua(tmp_path):
     path = tmp_path / "r.pdf"
-    path.write_bytes(rendered("one").pdf)
+    path.write_bytes(pdf("one"))
     tags = tree(poppler("pdfinfo", "-struct", str(path)))
     names = [name for _, name in tags]
     assert misplaced(tags) == [] and skipped(tags) == []

@@ -15,16 +15,14 @@ from reports.grading.issuing.issue import assignment_for, issue
 from reports.grading.judging.marking import Marker
 from reports.grading.pages.pages import student_page
 from reports.grading.reading.submissions import Submission
-from reports.inputs.fields import to_mapping
-from reports.inputs.load import Loaded, load_mapping, load_toml
+from reports.inputs.load import Loaded, load_toml
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.errors import KshmError
 from reports.shared.resources import samples_dir
-from reports.tables.registry import build_model
 from reports.workbook.read import load_workbook_input
-from reports.workbook.write import workbook_bytes
 from tests.fuzz.recipes import changed_book, parts_of
 from tests.grading.fill import filled_book
+from tests.workbook.made import coarse_book
 
 _RUSSIAN = re.compile("[а-яё]", re.IGNORECASE)
 _RANGES = '\n[variants]\n"geometry.bore_mm" = { min = 84, max = 92, step = 0.5 }\n'
@@ -88,17 +86,10 @@ def _answer(load: Callable[[], Loaded]) -> str:
     return "accepted"
 
 
-def _coarse() -> dict[str, object]:
-    raw = to_mapping(load_toml(samples_dir() / "gots-diesel.toml").model)
-    raw["calculation"]["step_deg"] = 30
-    return raw
-
-
 @lru_cache(maxsize=1)
 def _own_parts() -> dict[str, bytes]:
     """A workbook of ours without the parts that are never read: a tenth of the time."""
-    book = workbook_bytes(build_model(load_mapping(_coarse(), source="fuzz").model))
-    parts = parts_of(book)
+    parts = parts_of(coarse_book("gots-diesel"))
     workbook = parts["xl/workbook.xml"]
     sheets = re.findall(rb"<sheet [^>]*/>", workbook)
     kept = [sheet for sheet in sheets if "Исходные данные".encode() in sheet]

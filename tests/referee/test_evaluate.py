@@ -9,33 +9,23 @@ import zipfile
 import numpy as np
 import pytest
 
-from reports.inputs.fields import to_mapping
-from reports.inputs.load import load_mapping
 from reports.recalculation.bench import Bench, Cells, pinned
 from reports.recalculation.evaluate import Engine
 from reports.recalculation.language import UnknownFormula
 from reports.recalculation.read import read_grid
-from reports.tables.registry import build_model
 from reports.workbook.caches import sheet_parts
-from reports.workbook.write import workbook_bytes
-from tests.conftest import sample
 from tests.referee.books import engine_of
+from tests.workbook.made import coarse_book
 from tools.referees.by_formualizer import Formualizer
 from tools.referees.cells import row_and_column
 
 COLUMN = 26
 
 
-def coarse(name: str) -> bytes:
-    raw = to_mapping(sample(name))
-    raw["calculation"]["step_deg"] = 30
-    return workbook_bytes(build_model(load_mapping(raw, source=name).model))
-
-
 @pytest.mark.parametrize("name", ["gots-diesel", "cycle-turbo-diesel"])
 def test_a_grid_gives_what_the_whole_workbook_gives(name):
     """Only this test holds the grid of runs against formualizer's own reading of a file."""
-    book = coarse(name)
+    book = coarse_book(name)
     engine = Engine(read_grid(book))
     (wanted,) = Formualizer().recalculate([book])
     compared = 0
@@ -52,7 +42,7 @@ def test_a_grid_gives_what_the_whole_workbook_gives(name):
 
 
 def test_cached_values_are_not_read():
-    book = coarse("gots-diesel")
+    book = coarse_book("gots-diesel")
     stream = io.BytesIO()
     with (
         zipfile.ZipFile(io.BytesIO(book)) as source,

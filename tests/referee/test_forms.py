@@ -12,8 +12,8 @@ from reports.recalculation.grid import BadBook, Grid
 from reports.recalculation.read import read_grid
 from reports.recalculation.sheets import read_sheet
 from tests.referee.books import SHEET
-from tests.referee.test_evaluate import coarse
 from tests.referee.test_sheets import CELLS
+from tests.workbook.made import coarse_book
 
 HEAD = '<?xml version="1.0" encoding="UTF-8"?>\n'
 STRINGS = ["zero", "one", ""]
@@ -54,7 +54,7 @@ def test_a_sheet_of_a_known_form_is_filled_in_without_being_parsed(monkeypatch):
 
 def test_whole_books_read_by_their_forms_are_the_same(monkeypatch):
     forms = Forms()
-    books = [coarse("gots-diesel"), coarse("cycle-petrol")]
+    books = [coarse_book("gots-diesel"), coarse_book("cycle-petrol")]
     for book in (*books, *books):
         assert plainly(read_grid(book, forms)) == plainly(read_grid(book))
     parse, parsed = sheets._parsed, []

@@ -10,11 +10,11 @@ from reports.recalculation.grid import BadBook
 from reports.recalculation.read import read_grid
 from tests.grading.forms import as_excel
 from tests.referee.books import book_of, grid_of
-from tests.referee.test_evaluate import coarse
+from tests.workbook.made import coarse_book
 
 
 def test_a_book_as_excel_writes_it_is_the_same_book():
-    own = coarse("gots-diesel")
+    own = coarse_book("gots-diesel")
     grids = read_grid(own), read_grid(as_excel(own))
     runs = 0
     for title, columns in grids[0].sheets.items():

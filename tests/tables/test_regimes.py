@@ -172,9 +172,10 @@ def test_a_hostile_name_of_a_regime_stays_text() -> None:
     raw = coarse()
     raw["regimes"][0]["name"] = "=1+1"
     model = build_model(read(raw))
-    (result,) = Formualizer().recalculate([workbook_bytes(model)])
+    book = workbook_bytes(model)
+    (result,) = Formualizer().recalculate([book])
     assert errors_in(result) == []
-    opened = load_workbook(io.BytesIO(workbook_bytes(model)))
+    opened = load_workbook(io.BytesIO(book))
     cells = [c for row in opened["Режимы"].iter_rows() for c in row if c.value == "=1+1"]
     assert cells
     assert all(cell.data_type == "s" for cell in cells)

@@ -17,8 +17,8 @@ from reports.document.report import report_pdf
 from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms
 from reports.sheet.write import sheet_files
-from reports.workbook.write import workbook_bytes
 from tests.cover import ALL, chapters, samples_with
+from tests.workbook.made import book as own_book
 
 # Setting pages takes longest and says the same of the text: an engine in line, a V, two strokes.
 PRINTED = ("gots-diesel", "gots-p3", "two-stroke", "yamz-236")
@@ -54,7 +54,7 @@ def test_the_same_number_everywhere(name, tmp_path):
     terms = Terms(model, values)
     source = tmp_path / f"{name}.toml"
     source.write_text("")
-    book = workbook_bytes(model, values)
+    book = own_book(name)
     files = sheet_files(model, values)
     pdfs = {"sheet PDF": files["-sheet.pdf"]}
     if name in PRINTED or ALL:

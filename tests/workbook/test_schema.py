@@ -17,7 +17,7 @@ from lxml import etree
 
 from tests.conftest import missing
 from tests.grading.forms import rewritten
-from tests.word.docx_samples import styled
+from tests.word.docx_samples import docx_of, styled
 from tests.workbook.made import coarse_book
 
 VALIDATOR = "@ooxml-tools/validate@0.4.6"
@@ -108,7 +108,7 @@ def test_the_schema_validator_finds_nothing(tmp_path: Path) -> None:
     engine = "cycle-turbo-diesel"
     files = {
         "book.xlsx": coarse_book("d-240"),
-        "note.docx": styled(engine),
+        "note.docx": docx_of(engine),
         "framed.docx": styled(engine, frame="eskd", numbering="chapter"),
     }
     thin = {name: thinned(data) for name, data in files.items()}

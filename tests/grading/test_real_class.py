@@ -43,6 +43,15 @@ def test_an_honest_book_is_right_throughout(name):
     assert found.result["manual"] == found.result["notes"] == found.result["doubts"] == []
 
 
+def test_formulas_by_hand_are_not_the_programs():
+    shares = [
+        sum(own for _, _, own in made.values()) / len(made)
+        for work in HONEST
+        if (made := marked()[work.name].result["formulas"])
+    ]
+    assert len(shares) >= 15 and max(shares) < 0.5
+
+
 @pytest.mark.parametrize("name", [work.name for work in MISTAKES])
 def test_a_mistake_costs_its_own_column_and_no_other(name):
     found = marked()[name]

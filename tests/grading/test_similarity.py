@@ -68,6 +68,19 @@ def test_numbers_of_a_friend_stop_the_points():
     assert similarity.suspicions(works([copied | {"items": copied["items"][:2]}, friend])) == {}
 
 
+def test_the_programs_own_formulas_are_told_and_a_students_are_not():
+    """By hand, with other algebra and from the textbook, hardly one is the same to a sign."""
+    copied = classroom.marks(filled_book(classroom.handout(), classroom.assignment()))
+    (text,) = signals([copied])
+    assert "формулы слово в слово как в книге, решённой программой — 94 из 94" in text
+    assert similarity.suspicions(works([copied])) == {}  # a signal takes no points
+    few = copied | {"formulas": dict(list(copied["formulas"].items())[:9])}
+    assert signals([few]) == []
+    half = {key: [mark, odd, n % 2 == 0]
+            for n, (key, (mark, odd, _)) in enumerate(copied["formulas"].items())}  # fmt: skip
+    assert signals([copied | {"formulas": half}]) == []
+
+
 def test_files_that_one_person_saved_last():
     people = [result(n, properties={"lastModifiedBy": "Вася"}) for n in (1, 2)]
     (text,) = signals(people)
@@ -96,6 +109,8 @@ def test_a_class_of_a_thousand_fits_into_memory():
     wrong = {"omega": ["=regime_speed_rpm*PI()/60"]}
     result = classroom.marks(filled_book(classroom.handout(), classroom.assignment(), wrong))
     assert len(json.dumps(result)) > 60_000
+    for formula in result["formulas"].values():
+        formula[2] = False  # the book is filled as the program fills it
     shared: dict = {}
     kept = [work_of(distinct(result, number), shared) for number in (1, 2)]
     tracemalloc.start()

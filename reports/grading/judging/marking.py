@@ -16,7 +16,7 @@ from reports.grading.issuing.register import Issued, Register
 from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.causes import Causes, OtherVariant
 from reports.grading.judging.lines import feedback_line
-from reports.grading.judging.marks import formula_marks
+from reports.grading.judging.marks import formula_marks, own_marks
 from reports.grading.judging.response import Proofs, Response
 from reports.grading.judging.trials import trials_of
 from reports.grading.judging.verdicts import (
@@ -42,7 +42,7 @@ from reports.workbook.intake import check_data
 from reports.workbook.layout import Layout
 from reports.workbook.package import Package
 
-FORMAT = 4
+FORMAT = 5
 Result = dict[str, Any]
 
 
@@ -79,6 +79,7 @@ class Marker:
         self._variants: dict[int, dict[int, Evaluation]] = {}
         self._forms = Forms()
         self._proofs: dict[int, Proofs] = {}  # by the tables that they are of
+        self._own: dict[int, dict[str, str]] = {}  # the same
 
     def mark(self, submission: Submission, data: bytes) -> Result:
         """The result of one file; whatever is wrong with it is part of the result."""
@@ -178,7 +179,7 @@ class Marker:
             text = f"исходные данные заменены данными другого варианта: {theirs}"
             result["doubts"].append(text)
             result["manual"].append(text)
-        result["formulas"] = formula_marks(student)
+        result["formulas"] = formula_marks(student, self._own_marks(book))
         if student.changed:
             notes.append(f"изменены исходные или защищённые данные: ячеек {len(student.changed)}")
         if result["altered"]:
@@ -186,6 +187,13 @@ class Marker:
         unknown = [line["label"] for line in items if line["verdict"] == UNKNOWN]
         if unknown:
             result["manual"].append("не удалось проверить: " + ", ".join(unknown[:8]))
+
+    def _own_marks(self, book: Issued) -> dict[str, str]:
+        assignment, layout = self.assignment(book)
+        key = id(assignment.fill)
+        if key not in self._own:
+            self._own[key] = own_marks(assignment, layout)
+        return self._own[key]
 
     def _variant_of(self, student: Student, book: Issued) -> str:
         """Whose variant the input data are that were typed over those issued."""

@@ -3,19 +3,27 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from itertools import groupby
 from typing import Any
 
 import numpy as np
 
-from reports.grading.issuing.assignment import Item
+from reports.grading.issuing.assignment import Assignment, Item
+from reports.grading.reading.restoring import own_formulas
 from reports.grading.reading.student import Student
+from reports.workbook.layout import Layout
 
 _TELLING = 6  # tokens of a formula that may tell who wrote it
 
 
-def formula_marks(student: Student) -> dict[str, list[Any]]:
-    """Item → a mark of its formula and whether it has a step that does nothing."""
+def formula_marks(student: Student, own: Mapping[str, str]) -> dict[str, list[Any]]:
+    """Item → a mark of its formula, whether it has a step that does nothing, whether it is ``own``.
+
+    Args:
+        student: the work.
+        own: item → the mark of the formula that the program writes there.
+    """
     found: dict[str, list[Any]] = {}
     for item in student.assignment.items:
         runs = [run for node in item.nodes for run in student.runs(node)]
@@ -23,10 +31,27 @@ def formula_marks(student: Student) -> dict[str, list[Any]]:
             continue
         patterns = [run.formula.pattern for run in runs if run.formula is not None]
         if max(map(len, patterns)) >= _TELLING:
-            text = "\n".join("".join(value for _, value in tokens) for tokens in patterns)
-            mark = hashlib.sha256(text.encode()).hexdigest()[:12]
-            found[item.id] = [mark, any(map(is_odd, patterns))]
+            mark = _mark(patterns)
+            found[item.id] = [mark, any(map(is_odd, patterns)), own.get(item.id) == mark]
     return found
+
+
+def own_marks(assignment: Assignment, layout: Layout) -> dict[str, str]:
+    """Item → the mark of the formulas that the program writes there."""
+    formulas = own_formulas(assignment, layout, assignment.fill_nodes)
+    return {
+        item.id: _mark(
+            [tokens for node in item.nodes
+             for tokens, _ in groupby(formula.pattern for formula in formulas[node])]
+        )
+        for item in assignment.items
+        if all(node in formulas for node in item.nodes)
+    }  # fmt: skip
+
+
+def _mark(patterns: Sequence[Sequence[tuple[str, str]]]) -> str:
+    text = "\n".join("".join(value for _, value in tokens) for tokens in patterns)
+    return hashlib.sha256(text.encode()).hexdigest()[:12]
 
 
 def fingerprint(item: Item, values: np.ndarray[Any, np.dtype[np.float64]]) -> str:

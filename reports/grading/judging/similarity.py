@@ -15,6 +15,7 @@ Works = Sequence[Work]
 _COMMON = {"", "kshm", "openpyxl"}
 _FEW = 3  # students who share what the others do not have
 _SHARED = 3  # formulas, or columns, from which it is no chance
+_MANY, _NEARLY_ALL = 10, 0.9  # formulas, and the share of them, that nobody writes by chance
 
 
 def signals(results: Works) -> list[str]:
@@ -25,6 +26,7 @@ def signals(results: Works) -> list[str]:
         *_same_values(graded),
         *(text for _, text in _foreign_values(graded)),
         *_same_formulas(graded, odd=False),
+        *_of_the_program(graded),
         *_same_people(graded),
         *_foreign(results),
     ]
@@ -165,6 +167,17 @@ def _same_formulas(graded: Works, *, odd: bool) -> list[str]:
         + f" — {_named(items, group[0])}"
         for group, items in _sharing(graded, odd=odd)
     ]
+
+
+def _of_the_program(graded: Works) -> list[str]:
+    """Who has written nearly all formulas as the book does that the program has solved."""
+    found = []
+    for result in graded:
+        own = [line.formula[2] for line in result.items if line.formula]
+        if len(own) >= _MANY and sum(own) >= _NEARLY_ALL * len(own):
+            text = "формулы слово в слово как в книге, решённой программой"
+            found.append(f"{_who(result)}: {text} — {sum(own)} из {len(own)}")
+    return found
 
 
 def _same_people(graded: Works) -> list[str]:

@@ -29,7 +29,7 @@ class Entry:
     of: float
     cause: str
     mark: str
-    formula: tuple[str, bool] | None
+    formula: tuple[str, bool, bool] | None  # its mark, a step that does nothing, the program's
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,5 +109,5 @@ def _entry(line: dict[str, Any], formula: list[Any] | None) -> Entry:
         of=line["of"],
         cause=line["cause"],
         mark=line.get("mark", "") if verdict in (WRONG, TYPED, STILL) else "",
-        formula=(formula[0], bool(formula[1])) if formula else None,
+        formula=(formula[0], bool(formula[1]), bool(formula[2])) if formula else None,
     )

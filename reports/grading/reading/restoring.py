@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -161,18 +161,21 @@ def issued_formulas(assignment: Assignment, layout: Layout) -> dict[str, tuple[F
     """Node → the formulas of its cells, of the nodes that were given as formulas."""
     known = assignment.__dict__.get("issued_formulas")
     if known is None:
-        known = assignment.__dict__["issued_formulas"] = _issued(assignment, layout)
+        live = assignment.live_nodes
+        known = assignment.__dict__["issued_formulas"] = own_formulas(assignment, layout, live)
     return known
 
 
-def _issued(assignment: Assignment, layout: Layout) -> dict[str, tuple[Formula, ...]]:
+def own_formulas(
+    assignment: Assignment, layout: Layout, nodes: Collection[str]
+) -> dict[str, tuple[Formula, ...]]:
+    """Node → the formulas that the program writes into its cells."""
     made: dict[str, tuple[Formula, ...]] = {}
-    live = assignment.live_nodes
     for block in assignment.blocks:
         table = block if isinstance(block, TableSpec) else None
         for node, cells in fill_cells(block, layout).items():
             expr = assignment.graph.expression(node)
-            if node not in live or expr is None:
+            if node not in nodes or expr is None:
                 continue
             text = compile_formula(expr, RowReferences(layout, table, block.sheet))
             made[node] = tuple(

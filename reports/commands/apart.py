@@ -22,7 +22,7 @@ if sys.platform == "linux":
     ctypes.CDLL(None).prctl(1, 9)
 if os.getppid() != int(sys.argv.pop(1)):
     sys.exit("server is gone")
-from reports.grading.batch.worker import limit_memory
+from reports.shared.workers import limit_memory
 from reports.__main__ import start
 limit_memory(3 * 2**30)
 getattr(os, "nice", abs)(5)

@@ -1,6 +1,17 @@
-"""Which files the page offers, ordered and taken."""
+"""The files that the page offers: ordered, made by the commands, kept for a while, taken."""
 
 from __future__ import annotations
+
+import asyncio
+import hmac
+import json
+import os
+import shutil
+import time
+from collections.abc import Mapping, Sequence
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
 
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
@@ -10,10 +21,15 @@ from starlette.routing import Route
 from reports.inputs.described import Data
 from reports.inputs.sections.report import FORMATS
 from reports.shared.errors import InputError, Problem
+from reports.shared.files import write_text
 from reports.web import engine
-from reports.web.doors import body, handed, route
-from reports.web.jobs import Jobs
+from reports.web.doors import ask, body, caller, handed, route
+from reports.web.jobs import Queue
 
+TIMEOUT_S = 300.0
+MOST_WAITING, MOST_OWN = 500, 6
+MOST_BYTES = 2 * 10**9  # of all files kept
+KEEP_S = 14 * 86400.0
 KINDS = {
     **{kind: title[0].upper() + title[1:] for kind, title in FORMATS.items()},
     "csv": "Таблицы CSV", "json": "Числа JSON",
@@ -32,6 +48,67 @@ def command(kind: str, dask: str | None) -> list[str]:
     return ["build", "engine.toml", "-o", "out", "--only", kind, *far]
 
 
+class Jobs(Queue):
+    """Files made by commands, each named by its content and the server's secret.
+
+    The same order is made once, nobody guesses another's, and the oldest are forgotten.
+    """
+
+    def __init__(self, folder: Path, secret: bytes, at_once: int) -> None:
+        super().__init__(folder, at_once, TIMEOUT_S)
+        self.secret = secret
+
+    def add(self, files: Mapping[str, str], command: Sequence[str], visitor: str) -> str:
+        """An order: files by name, the command to run beside them; the name of the job.
+
+        Raises:
+            InputError: the queue is full, or the visitor has enough in it.
+        """
+        text = json.dumps([files, command, version("kshm")], ensure_ascii=False, sort_keys=True)
+        name = hmac.digest(self.secret, text.encode(), "sha256").hex()[:40]
+        folder, state = self.folder / name, self.about(name).get("state")
+        if state == "done":
+            os.utime(folder / "done.json")
+        if state in ("waiting", "running", "done"):
+            return name
+        own = [*self.waiting.values(), *(who for who, _ in self.running.values())].count(visitor)
+        if len(self.waiting) >= MOST_WAITING or own >= MOST_OWN:
+            what = "очередь полна" if own < MOST_OWN else f"у вас уже {own} файлов в очереди"
+            raise InputError(Problem("", what, "дождитесь их"))
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(mode=0o700)
+        for file, content in files.items():
+            write_text(folder / file, content)
+        self.put(name, command, visitor)
+        return name
+
+    def file(self, name: str, file: str) -> Path | None:
+        """A file that a job has made; only those that it names itself."""
+        files = [each["name"] for each in self.about(name).get("files", ())]
+        return self.folder / name / "out" / file if file in files else None
+
+    async def make(self, folder: Path) -> dict[str, Any]:
+        """Make the files of a job, many tables as one file."""
+        done = await super().make(folder)
+        out = folder / "out"
+        if (folder / "csv").exists():
+            pack = shutil.make_archive
+            await asyncio.to_thread(pack, str(out / "tables"), "zip", folder / "csv")
+        files = [{"name": path.name, "size": path.stat().st_size}
+                 for path in sorted(out.glob("[!.]*"))]  # fmt: skip
+        self.clean()
+        return {**done, "files": files} if files else {**done, "state": "failed"}
+
+    def clean(self) -> None:
+        """Forget the oldest files where they are too old or too many."""
+        done = sorted(self.folder.glob("*/done.json"), key=lambda path: -path.stat().st_mtime)
+        size = 0
+        for path in done:
+            size += sum(each.stat().st_size for each in path.parent.rglob("*") if each.is_file())
+            if size > MOST_BYTES or time.time() - path.stat().st_mtime > KEEP_S:
+                shutil.rmtree(path.parent, ignore_errors=True)
+
+
 def routes(jobs: Jobs, dask: str | None) -> list[Route]:
     """Doors at which files are ordered, asked after and taken."""
 
@@ -45,10 +122,10 @@ def routes(jobs: Jobs, dask: str | None) -> list[Route]:
             wanted["other.toml"] = data.get("other")
             if not wanted["other.toml"]:
                 raise InputError(Problem("", "нет второго двигателя", "нажмите «Сравнить с этим»"))
-        ask = request.app.state.pool.ask
-        files = {name: (await ask(engine.as_toml, raw))["text"] for name, raw in wanted.items()}
-        who = request.session.get("visitor") or (request.client.host if request.client else "")
-        return {"id": jobs.add(files, command(kind, dask), who)}
+        texts = {name: (await ask(request, engine.as_toml, raw))["text"]
+                 for name, raw in wanted.items()}  # fmt: skip
+        who = request.session.get("visitor") or caller(request)
+        return {"id": jobs.add(texts, command(kind, dask), who)}
 
     async def about(request: Request) -> Data:
         if found := jobs.about(**request.path_params):

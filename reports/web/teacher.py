@@ -17,8 +17,18 @@ from reports.shared.errors import InputError, Problem
 from reports.shared.files import write_json
 from reports.web import engine
 from reports.web.classes import Class, Classes
-from reports.web.doors import MOST_ARCHIVE, MOST_BOOK, Door, body, handed, route, uploaded
-from reports.web.guard import Rate
+from reports.web.doors import (
+    MOST_ARCHIVE,
+    MOST_BOOK,
+    Door,
+    Rate,
+    ask,
+    body,
+    caller,
+    handed,
+    route,
+    uploaded,
+)
 from reports.workbook.intake import check_data
 
 _TEXTS = ("base.toml", "roster.csv", "rubric.toml")
@@ -39,7 +49,7 @@ def routes(classes: Classes, secret: bytes) -> list[Route]:
 
     async def login(request: Request) -> None:
         given = str((await body(request)).get("token", "")).strip()
-        if not tries.allows(request.client.host if request.client else ""):
+        if not tries.allows(caller(request)):
             raise HTTPException(429, "слишком много попыток; подождите минуту")
         if not hmac.compare_digest(token_of(secret).encode(), given.encode("utf-8", "replace")):
             raise HTTPException(403, "неверный ключ; его печатает команда kshm serve")
@@ -49,12 +59,14 @@ def routes(classes: Classes, secret: bytes) -> list[Route]:
         return {"classes": [{"name": each.folder.name, **each.about} for each in classes.all()]}
 
     async def issue(request: Request) -> Data:
-        data, ask = await body(request), request.app.state.pool.ask
+        data = await body(request)
         files = {name: text for name in _TEXTS if (text := str(data.get(name) or "")).strip()}
         if not (seed := str(data.get("seed", ""))).lstrip("-").isdecimal() or len(seed) > 9:
             raise InputError(Problem("seed", "нужно целое число", "например 1"))
-        base = await ask(engine.read_toml, files.get("base.toml", ""))
-        await ask(engine.as_toml, base["raw"])  # without its ranges it is an input of its own
+        base = await ask(request, engine.read_toml, files.get("base.toml", ""))
+        await ask(
+            request, engine.as_toml, base["raw"]
+        )  # without its ranges it is an input of its own
         return {"name": classes.issue(int(seed), str(data.get("title")), files).folder.name}
 
     async def about(request: Request) -> Data:

@@ -10,8 +10,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from reports.web.app import STATIC, Settings, create_app, server_secret
-from reports.web.doors import MOST_JSON
-from reports.web.guard import Rate
+from reports.web.doors import MOST_JSON, Rate
 from reports.web.teacher import token_of
 from tests.grading import classroom, hostile
 from tests.grading.fill import filled_book

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import json
 import os
 import signal
@@ -18,10 +17,9 @@ from starlette.testclient import TestClient
 
 from reports.commands.apart import run
 from reports.shared.errors import InputError
-from reports.web import jobs as room
+from reports.web import files as room
 from reports.web.app import Settings, create_app
-from reports.web.jobs import MOST_OWN, Jobs
-from reports.web.pool import Busy
+from reports.web.files import MOST_OWN, Jobs
 from tests.web.conftest import MARK, Page, finished, serving
 from tests.web.test_files import made
 
@@ -82,9 +80,8 @@ def test_a_killed_solver_and_a_killed_job_cost_one_answer(tmp_path: Path) -> Non
         time.sleep(0.2)
         assert page.post("/api/solve", {"raw": raw, "sheet": "П4.1"})["charts"]
 
-        hung = functools.partial(state.pool.ask, time.sleep, 60, seconds=0.5)
-        with pytest.raises(Busy):
-            client.portal.call(hung)  # type: ignore[union-attr]
+        with pytest.raises(TimeoutError):
+            state.workers.ask(time.sleep, 60, seconds=0.5).result()
         assert page.post("/api/solve", {"raw": raw, "sheet": "П4.1"})["charts"]
 
         job = page.post("/api/files", {"raw": raw, "kind": "xlsx"})["id"]

@@ -66,6 +66,6 @@ async def run(arguments: Sequence[str], folder: Path, timeout_s: float) -> dict[
         return failed("процесс прерван: повторите")
     lines = said.decode("utf-8", "replace").replace(f"{folder}/", "").splitlines()
     return {
-        "state": "done" if code in (0, 1, 3) else "failed",
+        "state": "done" if code in (0, 1) else "failed",
         "lines": [one_line(line, 400) for line in lines if line.strip()][:_LINES],
     }

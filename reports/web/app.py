@@ -31,8 +31,7 @@ from reports.shared.errors import KshmError
 from reports.shared.files import make_dir
 from reports.shared.resources import resource_dir
 from reports.shared.workers import Workers
-from reports.web import engine, files, teacher
-from reports.web.classes import Classes
+from reports.web import classes, engine, files
 from reports.web.doors import (
     MOST_BOOK,
     Door,
@@ -113,11 +112,11 @@ def create_app(settings: Settings) -> Guard:
     make_dir(settings.data)
     secret, count = server_secret(settings.data), settings.workers or processors()
     jobs = files.Jobs(settings.data / "jobs", secret, count)
-    classes = Classes(settings.data / "classes", secret, settings.dask)
+    groups = classes.Classes(settings.data / "classes", secret, settings.dask)
 
     @contextlib.asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:
-        async with jobs.working(), classes.working():
+        async with jobs.working(), groups.working():
             with Workers(count, engine.ready, most=_ANSWERS) as app.state.workers:
                 yield
 
@@ -136,8 +135,7 @@ def create_app(settings: Settings) -> Guard:
         route("/api/toml", asked(engine.as_toml, "raw"), "POST"),
         route("/api/book", book, "POST"),
         *files.routes(jobs, settings.dask),
-        *teacher.routes(classes, secret),
-        *teacher.student_routes(classes),
+        *classes.routes(groups, secret),
     ]
     public = urlsplit(settings.public)
     prefixed = [Mount(public.path.rstrip("/"), routes=routes)] if public.path.strip("/") else []

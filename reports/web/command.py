@@ -30,7 +30,7 @@ from reports.shared.files import make_dir, reason
 @verbose_option
 def serve(port: int, host: str, folder: Path, public: str, dask: str | None) -> int:
     """Открыть страницу в браузере: числа, диаграммы, файлы, группа преподавателя."""
-    packages = ("starlette", "uvicorn", "pebble", "itsdangerous")
+    packages = ("starlette", "uvicorn", "itsdangerous")
     need_packages("для kshm serve", **{name: name for name in packages})
     address = urlsplit(public)
     if public and (address.scheme not in ("http", "https") or not address.hostname):
@@ -40,7 +40,7 @@ def serve(port: int, host: str, folder: Path, public: str, dask: str | None) -> 
     import uvicorn
 
     from reports.web.app import Settings, create_app, server_secret
-    from reports.web.teacher import token_of
+    from reports.web.classes import token_of
 
     if not folder.exists():
         make_dir(folder)

@@ -9,11 +9,13 @@ import json
 import tempfile
 import time
 from collections import Counter
-from collections.abc import AsyncIterator, Awaitable, Callable
+from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
+from dataclasses import dataclass, field
 from ipaddress import ip_address
 from pathlib import Path
 from typing import Any, BinaryIO
 from urllib.parse import urlsplit
+from zipfile import is_zipfile
 
 from starlette.exceptions import HTTPException
 from starlette.middleware.base import BaseHTTPMiddleware, RequestResponseEndpoint
@@ -26,6 +28,7 @@ from reports.inputs.described import Data
 from reports.shared.errors import InputError, KshmError, Problem
 from reports.shared.workers import Died, NeverStarted
 from reports.web import engine
+from reports.workbook.intake import check_data
 
 Door = Callable[[Request], Awaitable[Response | Data | None]]
 MOST_JSON, MOST_BOOK, MOST_ARCHIVE = 2_000_000, 30 * 2**20, 100_000_000
@@ -195,12 +198,45 @@ async def uploaded(request: Request, most: int) -> AsyncIterator[Path]:
         yield path
 
 
-def handed(path: Path | None) -> FileResponse:
-    """A file to be kept, or a page that can do nothing; HTTPException if there is none."""
-    if path is None or not path.is_file():
-        raise HTTPException(404, "нет такого файла; закажите заново")
-    how = "inline" if path.suffix == ".html" else "attachment"
-    return FileResponse(
-        path, headers={"content-security-policy": _SANDBOX}, filename=path.name,
-        content_disposition_type=how,
-    )  # fmt: skip
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """What a thing at a path tells; which files it gives and takes, by words of its own."""
+
+    told: Data
+    gives: Mapping[str, Path]
+    takes: Mapping[str, Path] = field(default_factory=dict)
+
+
+def shown(path: str, find: Callable[[Request], Shown], files: str = "/{file}") -> list[Route]:
+    """Doors of things that ``find`` finds; HTTPException where there is no such file."""
+
+    async def told(request: Request) -> Data:
+        return find(request).told
+
+    async def given(request: Request) -> Response:
+        file = find(request).gives.get(request.path_params["file"])
+        if file is None or not file.is_file():
+            raise HTTPException(404, "нет такого файла; закажите заново")
+        how = "inline" if file.suffix == ".html" else "attachment"  # a page can do nothing
+        return FileResponse(
+            file, headers={"content-security-policy": _SANDBOX}, filename=file.name,
+            content_disposition_type=how,
+        )  # fmt: skip
+
+    async def taken(request: Request) -> None:
+        place = find(request).takes.get(request.path_params["file"])
+        if place is None:
+            raise HTTPException(404, "такого файла здесь не ждут")
+        is_book = place.suffix == ".xlsx"
+        async with uploaded(request, MOST_BOOK if is_book else MOST_ARCHIVE) as file:
+            if is_book:
+                check_data(file.read_bytes(), "работа")
+            elif not file.stat().st_size or is_zipfile(file) != (place.suffix == ".zip"):
+                raise InputError(Problem("", "это не тот файл", "загрузите архив .zip"))
+            file.replace(place)
+
+    return [
+        route(path, told),
+        route(f"{path}{files}", given),
+        route(f"{path}{files}", taken, "POST"),
+    ]

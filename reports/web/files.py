@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import hmac
 import json
 import os
@@ -11,11 +10,9 @@ import time
 from collections.abc import Mapping, Sequence
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
 
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
-from starlette.responses import Response
 from starlette.routing import Route
 
 from reports.inputs.described import Data
@@ -23,7 +20,7 @@ from reports.inputs.sections.report import FORMATS
 from reports.shared.errors import InputError, Problem
 from reports.shared.files import write_text
 from reports.web import engine
-from reports.web.doors import ask, body, caller, handed, route
+from reports.web.doors import Shown, ask, body, caller, route, shown
 from reports.web.jobs import Queue
 
 TIMEOUT_S = 300.0
@@ -55,7 +52,7 @@ class Jobs(Queue):
     """
 
     def __init__(self, folder: Path, secret: bytes, at_once: int) -> None:
-        super().__init__(folder, at_once, TIMEOUT_S)
+        super().__init__(folder, at_once, TIMEOUT_S, ("out/tables.zip", "csv", "*.csv"))
         self.secret = secret
 
     def add(self, files: Mapping[str, str], command: Sequence[str], visitor: str) -> str:
@@ -79,25 +76,9 @@ class Jobs(Queue):
         folder.mkdir(mode=0o700)
         for file, content in files.items():
             write_text(folder / file, content)
+        self.clean()
         self.put(name, command, visitor)
         return name
-
-    def file(self, name: str, file: str) -> Path | None:
-        """A file that a job has made; only those that it names itself."""
-        files = [each["name"] for each in self.about(name).get("files", ())]
-        return self.folder / name / "out" / file if file in files else None
-
-    async def make(self, folder: Path) -> dict[str, Any]:
-        """Make the files of a job, many tables as one file."""
-        done = await super().make(folder)
-        out = folder / "out"
-        if (folder / "csv").exists():
-            pack = shutil.make_archive
-            await asyncio.to_thread(pack, str(out / "tables"), "zip", folder / "csv")
-        files = [{"name": path.name, "size": path.stat().st_size}
-                 for path in sorted(out.glob("[!.]*"))]  # fmt: skip
-        self.clean()
-        return {**done, "files": files} if files else {**done, "state": "failed"}
 
     def clean(self) -> None:
         """Forget the oldest files where they are too old or too many."""
@@ -127,16 +108,12 @@ def routes(jobs: Jobs, dask: str | None) -> list[Route]:
         who = request.session.get("visitor") or caller(request)
         return {"id": jobs.add(texts, command(kind, dask), who)}
 
-    async def about(request: Request) -> Data:
-        if found := jobs.about(**request.path_params):
-            return found
-        raise HTTPException(404, "нет такого файла; закажите заново")
+    def found(request: Request) -> Shown:
+        name = request.path_params["name"]
+        if not (about := jobs.about(name)):
+            raise HTTPException(404, "нет такого файла; закажите заново")
+        made = sorted((jobs.folder / name / "out").glob("[!.]*"))
+        sizes = [{"name": path.name, "size": path.stat().st_size} for path in made]
+        return Shown({**about, "files": sizes}, {path.name: path for path in made})
 
-    async def taken(request: Request) -> Response:
-        return handed(jobs.file(**request.path_params))
-
-    return [
-        route("/api/files", ordered, "POST"),
-        route("/api/files/{name}", about),
-        route("/api/files/{name}/{file}", taken),
-    ]
+    return [route("/api/files", ordered, "POST"), *shown("/api/files/{name}", found)]

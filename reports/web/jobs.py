@@ -16,14 +16,23 @@ from typing import Any
 
 from reports.commands.apart import failed, run
 from reports.shared.errors import KshmError
-from reports.shared.files import make_dir, read_json, write_json
+from reports.shared.files import make_dir, read_json, write_json, write_zip
 
 
 class Queue:
-    """Commands in folders of one folder, ``at_once`` together, each for ``timeout_s`` at most."""
+    """Commands in folders of one folder.
 
-    def __init__(self, folder: Path, at_once: int, timeout_s: float) -> None:
-        self.folder, self.at_once, self.timeout_s = folder, at_once, timeout_s
+    Args:
+        folder: where they all lie.
+        at_once: how many run together.
+        timeout_s: seconds that one may take.
+        pack: archive made of the many files of a command, their folder and pattern.
+    """
+
+    def __init__(
+        self, folder: Path, at_once: int, timeout_s: float, pack: tuple[str, str, str]
+    ) -> None:
+        self.folder, self.at_once, self.timeout_s, self.pack = folder, at_once, timeout_s, pack
         self.waiting: dict[str, str] = {}  # job → visitor, in the order of coming
         self.running: dict[str, tuple[str, float]] = {}  # job → visitor, beginning
         self._wake = asyncio.Event()
@@ -79,14 +88,19 @@ class Queue:
             name = line[0]
             self.running[name] = self.waiting.pop(name), time.monotonic()
             try:
-                done = await self.make(self.folder / name)
+                done = await self._make(self.folder / name)
             except OSError:
                 done = failed("на сервере не удаётся записать файл; сообщите кафедре")
             with contextlib.suppress(OSError, KshmError):  # a full disk must not end the queue
                 write_json(self.folder / name / "done.json", done)
             del self.running[name]
 
-    async def make(self, folder: Path) -> dict[str, Any]:
-        """Run the command of a job; how it ended."""
+    async def _make(self, folder: Path) -> dict[str, Any]:
         command = read_json(folder / "order.json").get("command", ())
-        return await run(command, folder, self.timeout_s)
+        done = await run(command, folder, self.timeout_s)
+        target, place, pattern = self.pack
+        files = {path.relative_to(folder / place).as_posix(): path
+                 for path in sorted((folder / place).glob(pattern))}  # fmt: skip
+        if files:
+            await asyncio.to_thread(write_zip, folder / target, files)
+        return done

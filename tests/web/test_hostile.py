@@ -10,8 +10,8 @@ import pytest
 from starlette.testclient import TestClient
 
 from reports.web.app import STATIC, Settings, create_app, server_secret
+from reports.web.classes import token_of
 from reports.web.doors import MOST_JSON, Rate
-from reports.web.teacher import token_of
 from tests.grading import classroom, hostile
 from tests.grading.fill import filled_book
 from tests.web.conftest import MARK, Page, finished

@@ -31,7 +31,8 @@ from reports.shared.errors import KshmError
 from reports.shared.files import make_dir
 from reports.shared.resources import resource_dir
 from reports.shared.workers import Workers
-from reports.web import classes, engine, files
+from reports.web import engine, files
+from reports.web.classes import Classes
 from reports.web.doors import (
     MOST_BOOK,
     Door,
@@ -111,12 +112,12 @@ def create_app(settings: Settings) -> Guard:
     """The whole application, the guard before it."""
     make_dir(settings.data)
     secret, count = server_secret(settings.data), settings.workers or processors()
-    jobs = files.Jobs(settings.data / "jobs", secret, count)
-    groups = classes.Classes(settings.data / "classes", secret, settings.dask)
+    jobs = files.Jobs(settings.data / "jobs", secret, count, settings.dask)
+    classes = Classes(settings.data / "classes", secret, settings.dask)
 
     @contextlib.asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:
-        async with jobs.working(), groups.working():
+        async with jobs.working(), classes.working():
             with Workers(count, engine.ready, most=_ANSWERS) as app.state.workers:
                 yield
 
@@ -134,8 +135,8 @@ def create_app(settings: Settings) -> Guard:
         route("/api/checks", asked(engine.checks, "raw"), "POST"),
         route("/api/toml", asked(engine.as_toml, "raw"), "POST"),
         route("/api/book", book, "POST"),
-        *files.routes(jobs, settings.dask),
-        *classes.routes(groups, secret),
+        *jobs.routes(),
+        *classes.routes(),
     ]
     public = urlsplit(settings.public)
     prefixed = [Mount(public.path.rstrip("/"), routes=routes)] if public.path.strip("/") else []

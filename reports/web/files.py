@@ -51,9 +51,9 @@ class Jobs(Queue):
     The same order is made once, nobody guesses another's, and the oldest are forgotten.
     """
 
-    def __init__(self, folder: Path, secret: bytes, at_once: int) -> None:
+    def __init__(self, folder: Path, secret: bytes, at_once: int, dask: str | None = None) -> None:
         super().__init__(folder, at_once, TIMEOUT_S, ("out/tables.zip", "csv", "*.csv"))
-        self.secret = secret
+        self.secret, self.dask = secret, dask
 
     def add(self, files: Mapping[str, str], command: Sequence[str], visitor: str) -> str:
         """An order: files by name, the command to run beside them; the name of the job.
@@ -89,11 +89,12 @@ class Jobs(Queue):
             if size > MOST_BYTES or time.time() - path.stat().st_mtime > KEEP_S:
                 shutil.rmtree(path.parent, ignore_errors=True)
 
+    def routes(self) -> list[Route]:
+        """Doors at which files are ordered, asked after and taken."""
+        order = route("/api/files", self._ordered, "POST")
+        return [order, *shown("/api/files/{name}", self._made)]
 
-def routes(jobs: Jobs, dask: str | None) -> list[Route]:
-    """Doors at which files are ordered, asked after and taken."""
-
-    async def ordered(request: Request) -> Data:
+    async def _ordered(self, request: Request) -> Data:
         data = await body(request)
         kind = str(data.get("kind"))
         if kind not in KINDS:
@@ -106,14 +107,12 @@ def routes(jobs: Jobs, dask: str | None) -> list[Route]:
         texts = {name: (await ask(request, engine.as_toml, raw))["text"]
                  for name, raw in wanted.items()}  # fmt: skip
         who = request.session.get("visitor") or caller(request)
-        return {"id": jobs.add(texts, command(kind, dask), who)}
+        return {"id": self.add(texts, command(kind, self.dask), who)}
 
-    def found(request: Request) -> Shown:
+    def _made(self, request: Request) -> Shown:
         name = request.path_params["name"]
-        if not (about := jobs.about(name)):
+        if not (about := self.about(name)):
             raise HTTPException(404, "нет такого файла; закажите заново")
-        made = sorted((jobs.folder / name / "out").glob("[!.]*"))
+        made = sorted((self.folder / name / "out").glob("[!.]*"))
         sizes = [{"name": path.name, "size": path.stat().st_size} for path in made]
         return Shown({**about, "files": sizes}, {path.name: path for path in made})
-
-    return [route("/api/files", ordered, "POST"), *shown("/api/files/{name}", found)]

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import secrets
-from collections.abc import AsyncIterator, Callable
-from dataclasses import dataclass
+from collections.abc import AsyncIterator
 from pathlib import Path
 from string import Template
 from typing import Any
@@ -31,39 +30,15 @@ from reports.shared.errors import KshmError
 from reports.shared.files import make_dir
 from reports.shared.resources import resource_dir
 from reports.shared.workers import Workers
-from reports.web import engine, files
+from reports.web import engine
 from reports.web.classes import Classes
-from reports.web.doors import (
-    MOST_BOOK,
-    Door,
-    Guard,
-    Rate,
-    ask,
-    body,
-    failed,
-    refusal,
-    route,
-    uploaded,
-)
+from reports.web.doors import Door, Guard, Settings, asked, book, failed, route
+from reports.web.jobs import KINDS as FILES
+from reports.web.jobs import Jobs
 
 STATIC = Path(__file__).parent / "static"
-BOOK_S = 60.0
 SESSION_S = 12 * 3600
-_OWN_NAMES = ("127.0.0.1", "localhost", "::1")
 _ANSWERS = 5_000  # of a solving process
-
-
-@dataclass(frozen=True, slots=True)
-class Settings:
-    """How the page is served."""
-
-    data: Path  # folder of all that is kept
-    hosts: tuple[str, ...] = ()  # names under which it is known, besides this machine's own
-    public: str = ""  # where a proxy shows it; by https cookies go no other way
-    dask: str | None = None  # address of a cluster that builds the files
-    per_s: float = 200.0  # requests a second of one address: a class may stand behind one
-    workers: int | None = None  # processes that solve; None takes the processors
-    body_s: float = 30.0  # seconds that the body of a form may take
 
 
 def page(name: str, root: str = ".") -> Door:
@@ -77,29 +52,10 @@ def page(name: str, root: str = ".") -> Door:
     return shown
 
 
-def asked(function: Callable[..., Data], *keys: str) -> Door:
-    """A question to the solving processes: values of these keys of a request, or all of it."""
-
-    async def answer(request: Request) -> Response | Data:
-        data = await body(request)
-        try:
-            return await ask(request, function, *([data.get(key) for key in keys] or [data]))
-        except KshmError as error:  # usual while one types
-            return refusal(200, error)
-
-    return answer
-
-
 async def choices(_: Request) -> Data:
     """What may be chosen before there is an engine."""
     return {"samples": list_samples(), "layouts": LAYOUTS, "strokes": STROKES, "kinds": KINDS,
-            "files": files.KINDS}  # fmt: skip
-
-
-async def book(request: Request) -> Data:
-    """The input that an edited workbook holds, read by a solving process."""
-    async with uploaded(request, MOST_BOOK) as path:
-        return await ask(request, engine.read_book, str(path), seconds=BOOK_S)
+            "files": FILES}  # fmt: skip
 
 
 def server_secret(folder: Path) -> bytes:
@@ -110,9 +66,11 @@ def server_secret(folder: Path) -> bytes:
 
 def create_app(settings: Settings) -> Guard:
     """The whole application, the guard before it."""
-    make_dir(settings.data)
+    if not settings.data.exists():
+        make_dir(settings.data)
+        settings.data.chmod(0o700)
     secret, count = server_secret(settings.data), settings.workers or processors()
-    jobs = files.Jobs(settings.data / "jobs", secret, count, settings.dask)
+    jobs = Jobs(settings.data / "jobs", secret, count, settings.dask)
     classes = Classes(settings.data / "classes", secret, settings.dask)
 
     @contextlib.asynccontextmanager
@@ -150,6 +108,4 @@ def create_app(settings: Settings) -> Guard:
         middleware=[Middleware(GZipMiddleware, minimum_size=1000), session],
     )  # fmt: skip
     app.state.settings, app.state.jobs = settings, jobs
-    hosts = frozenset({*_OWN_NAMES, *map(str.lower, settings.hosts), public.hostname or ""} - {""})
-    origin = f"{public.scheme}://{public.netloc}" if public.netloc else ""
-    return Guard(app, hosts, origin, Rate(10 * settings.per_s, 10))
+    return Guard(app, settings)

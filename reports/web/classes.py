@@ -24,7 +24,6 @@ from reports.web import engine
 from reports.web.doors import Rate, Shown, ask, body, caller, route, shown
 from reports.web.jobs import Queue
 
-GRADE_S = 3600.0
 _TEXTS = ("base.toml", "roster.csv", "rubric.toml")
 _SECRET = ("--secret", "secret.key")
 _DECISION = ("who", "what", "points", "remark")
@@ -36,15 +35,14 @@ def token_of(secret: bytes) -> str:
 
 
 class Classes(Queue):
-    """All classes of a server; grading takes all processors by itself, so one at a time.
+    """All classes of a server; grading takes all processors by itself, so one at a time."""
 
-    ``secret`` makes the instructor's key and students' links, a cluster at ``dask`` grades.
-    """
+    timeout_s = 3600.0
+    pack = ("issued.zip", "issued", "*/*.xlsx")
 
     def __init__(self, folder: Path, secret: bytes, dask: str | None) -> None:
-        super().__init__(folder, 1, GRADE_S, ("issued.zip", "issued", "*/*.xlsx"))
-        self.token, self.dask, self.tries = token_of(secret), dask, Rate(10, 60)
-        self.signer = URLSafeSerializer(secret, "student")
+        super().__init__(folder, secret, dask=dask)
+        self.signer, self.tries = URLSafeSerializer(secret, "student"), Rate(10, 60)
 
     def routes(self) -> list[Route]:
         """Doors of the instructor, all but the first behind the key, and of the students."""
@@ -62,7 +60,9 @@ class Classes(Queue):
         given = str((await body(request)).get("token", "")).strip()
         if not self.tries.allows(caller(request)):
             raise HTTPException(429, "слишком много попыток; подождите минуту")
-        if not hmac.compare_digest(self.token.encode(), given.encode("utf-8", "replace")):
+        if not hmac.compare_digest(
+            token_of(self.secret).encode(), given.encode("utf-8", "replace")
+        ):
             raise HTTPException(403, "неверный ключ; его печатает команда kshm serve")
         request.session["teacher"] = True
 
@@ -115,7 +115,7 @@ class Classes(Queue):
             write_zip(folder / "submitted.zip", works, folder / "moodle.zip")
         if (folder / "worksheet.csv").exists():
             command += ["--moodle", "worksheet.csv"]
-        self.put(folder.name, command + (["--dask", self.dask] if self.dask else []))
+        self.put(folder.name, [*command, *self.far])
 
     async def _open(self, request: Request) -> None:
         path, data = self._chosen(request) / "about.json", await body(request)

@@ -33,6 +33,7 @@ from reports.workbook.intake import check_data
 Door = Callable[[Request], Awaitable[Response | Data | None]]
 MOST_JSON, MOST_BOOK, MOST_ARCHIVE = 2_000_000, 30 * 2**20, 100_000_000
 FILE_S = 300.0  # for an uploaded file
+BOOK_S = 60.0  # to read an edited workbook
 ANSWER_S = 20.0
 WAIT_S = 30.0  # before a process is free
 MARK = "x-kshm"  # a header that no foreign page can send without being asked for leave
@@ -54,6 +55,19 @@ _HEADERS = {
 _SANDBOX = "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:; font-src data:"
 
 
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """How the page is served."""
+
+    data: Path  # folder of all that is kept
+    hosts: tuple[str, ...] = ()  # names under which it is known, besides this machine's own
+    public: str = ""  # where a proxy shows it; by https cookies go no other way
+    dask: str | None = None  # address of a cluster that builds the files
+    per_s: float = 200.0  # requests a second of one address: a class may stand behind one
+    workers: int | None = None  # processes that solve; None takes the processors
+    body_s: float = 30.0  # seconds that the body of a form may take
+
+
 class Rate:
     """So many requests of one address in so many seconds, counted anew after them."""
 
@@ -70,18 +84,15 @@ class Rate:
 
 
 class Guard(BaseHTTPMiddleware):
-    """Lets through what a person's own page may ask for; every answer has headers of safety.
+    """Lets through what a person's own page may ask for; every answer has headers of safety."""
 
-    Args:
-        app: what it stands before.
-        hosts: names under which the page is known, «*» any bare address.
-        public: scheme and host before which a proxy shows it.
-        rate: requests of one address.
-    """
-
-    def __init__(self, app: ASGIApp, hosts: frozenset[str], public: str, rate: Rate) -> None:
+    def __init__(self, app: ASGIApp, settings: Settings) -> None:
         super().__init__(app)
-        self.hosts, self.public, self.rate = hosts, public, rate
+        public = urlsplit(settings.public)
+        self.public = f"{public.scheme}://{public.netloc}"
+        self.hosts = {"127.0.0.1", "localhost", "::1", *map(str.lower, settings.hosts)}
+        self.hosts |= {public.hostname} if public.hostname else set()
+        self.rate = Rate(10 * settings.per_s, 10)
 
     async def dispatch(self, request: Request, call_next: RequestResponseEndpoint) -> Response:
         """Refuse or hand on."""
@@ -150,10 +161,7 @@ def route(path: str, door: Door, method: str = "GET") -> Route:
 
 
 async def ask(
-    request: Request,
-    function: Callable[..., Data],
-    *values: Any,  # noqa: ANN401
-    seconds: float = ANSWER_S,
+    request: Request, function: Callable[..., Data], *values: object, seconds: float = ANSWER_S
 ) -> Data:
     """A function's answer from a solving process; HTTPException if there was none in time."""
     asked = request.app.state.workers.ask(function, *values, seconds=seconds)
@@ -196,6 +204,25 @@ async def uploaded(request: Request, most: int) -> AsyncIterator[Path]:
         with path.open("wb") as stream:
             await _read(request, stream, most, FILE_S)
         yield path
+
+
+def asked(function: Callable[..., Data], *keys: str) -> Door:
+    """A question to the solving processes: values of these keys of a request, or all of it."""
+
+    async def answer(request: Request) -> Response | Data:
+        data = await body(request)
+        try:
+            return await ask(request, function, *([data.get(key) for key in keys] or [data]))
+        except KshmError as error:  # usual while one types
+            return refusal(200, error)
+
+    return answer
+
+
+async def book(request: Request) -> Data:
+    """The input that an edited workbook holds, read by a solving process."""
+    async with uploaded(request, MOST_BOOK) as path:
+        return await ask(request, engine.read_book, str(path), seconds=BOOK_S)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""Commands that run in processes of their own: queues that stand on the disk.
+"""Commands that run in processes of their own, in queues that stand on the disk; files they make.
 
 A job is a folder.  Its ``order.json`` stands from the beginning, ``done.json`` at the end; what
 has the first alone when the server starts is done again.
@@ -8,31 +8,53 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import hmac
+import json
+import os
+import shutil
 import time
 from collections import Counter
-from collections.abc import AsyncIterator, Sequence
+from collections.abc import AsyncIterator, Mapping, Sequence
+from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
+
+from starlette.exceptions import HTTPException
+from starlette.requests import Request
+from starlette.routing import Route
 
 from reports.commands.apart import failed, run
-from reports.shared.errors import KshmError
-from reports.shared.files import make_dir, read_json, write_json, write_zip
+from reports.inputs.described import Data
+from reports.inputs.sections.report import FORMATS
+from reports.shared.errors import InputError, KshmError, Problem
+from reports.shared.files import make_dir, read_json, write_json, write_text, write_zip
+from reports.web import engine
+from reports.web.doors import Shown, ask, body, caller, route, shown
+
+MOST_WAITING, MOST_OWN = 500, 6
+MOST_BYTES = 2 * 10**9  # of all files kept
+KEEP_S = 14 * 86400.0
+KINDS = {
+    **{kind: title[0].upper() + title[1:] for kind, title in FORMATS.items()},
+    "csv": "Таблицы CSV", "json": "Числа JSON",
+    "compare-xlsx": "Сравнение: книга", "compare-pdf": "Сравнение: PDF",
+}  # fmt: skip
 
 
 class Queue:
-    """Commands in folders of one folder.
+    """Commands in folders of one folder, ``at_once`` together.
 
-    Args:
-        folder: where they all lie.
-        at_once: how many run together.
-        timeout_s: seconds that one may take.
-        pack: archive made of the many files of a command, their folder and pattern.
+    ``secret`` makes names unguessable; a cluster at ``dask`` does what commands leave to it.
     """
 
+    timeout_s: ClassVar[float]  # that a command may take
+    pack: ClassVar[tuple[str, str, str]]  # archive of its many files, their folder and pattern
+
     def __init__(
-        self, folder: Path, at_once: int, timeout_s: float, pack: tuple[str, str, str]
+        self, folder: Path, secret: bytes, at_once: int = 1, dask: str | None = None
     ) -> None:
-        self.folder, self.at_once, self.timeout_s, self.pack = folder, at_once, timeout_s, pack
+        self.folder, self.secret, self.at_once = folder, secret, at_once
+        self.far = ["--dask", dask] if dask else []
         self.waiting: dict[str, str] = {}  # job → visitor, in the order of coming
         self.running: dict[str, tuple[str, float]] = {}  # job → visitor, beginning
         self._wake = asyncio.Event()
@@ -91,6 +113,8 @@ class Queue:
                 done = await self._make(self.folder / name)
             except OSError:
                 done = failed("на сервере не удаётся записать файл; сообщите кафедре")
+            except Exception as error:  # a bug must cost one job, never the queue
+                done = failed(f"внутренняя ошибка {type(error).__name__}")
             with contextlib.suppress(OSError, KshmError):  # a full disk must not end the queue
                 write_json(self.folder / name / "done.json", done)
             del self.running[name]
@@ -104,3 +128,84 @@ class Queue:
         if files:
             await asyncio.to_thread(write_zip, folder / target, files)
         return done
+
+
+class Jobs(Queue):
+    """Files made by commands, each named by its content and the server's secret.
+
+    The same order is made once, nobody guesses another's, and the oldest are forgotten.
+    """
+
+    timeout_s = 300.0
+    pack = ("out/tables.zip", "csv", "*.csv")
+
+    def add(self, files: Mapping[str, str], command: Sequence[str], visitor: str) -> str:
+        """An order: files by name, the command to run beside them; the name of the job.
+
+        Raises:
+            InputError: the queue is full, or the visitor has enough in it.
+        """
+        text = json.dumps([files, command, version("kshm")], ensure_ascii=False, sort_keys=True)
+        name = hmac.digest(self.secret, text.encode(), "sha256").hex()[:40]
+        folder, state = self.folder / name, self.about(name).get("state")
+        if state == "done":
+            os.utime(folder / "done.json")
+        if state in ("waiting", "running", "done"):
+            return name
+        own = [*self.waiting.values(), *(who for who, _ in self.running.values())].count(visitor)
+        if len(self.waiting) >= MOST_WAITING or own >= MOST_OWN:
+            what = "очередь полна" if own < MOST_OWN else f"у вас уже {own} файлов в очереди"
+            raise InputError(Problem("", what, "дождитесь их"))
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(mode=0o700)
+        for file, content in files.items():
+            write_text(folder / file, content)
+        self.clean()
+        self.put(name, command, visitor)
+        return name
+
+    def clean(self) -> None:
+        """Forget the oldest files where they are too old or too many."""
+        done = sorted(self.folder.glob("*/done.json"), key=lambda path: -path.stat().st_mtime)
+        size = 0
+        for path in done:
+            size += sum(each.stat().st_size for each in path.parent.rglob("*") if each.is_file())
+            if size > MOST_BYTES or time.time() - path.stat().st_mtime > KEEP_S:
+                shutil.rmtree(path.parent, ignore_errors=True)
+
+    def routes(self) -> list[Route]:
+        """Doors at which files are ordered, asked after and taken."""
+        order = route("/api/files", self._ordered, "POST")
+        return [order, *shown("/api/files/{name}", self._made)]
+
+    async def _ordered(self, request: Request) -> Data:
+        data = await body(request)
+        kind = str(data.get("kind"))
+        if kind not in KINDS:
+            raise InputError(Problem("kind", "нет такого вида файла", "обновите страницу"))
+        wanted = {"engine.toml": data.get("raw")}
+        if kind.startswith("compare-"):
+            wanted["other.toml"] = data.get("other")
+            if not wanted["other.toml"]:
+                raise InputError(Problem("", "нет второго двигателя", "нажмите «Сравнить с этим»"))
+        texts = {name: (await ask(request, engine.as_toml, raw))["text"]
+                 for name, raw in wanted.items()}  # fmt: skip
+        who = request.session.get("visitor") or caller(request)
+        return {"id": self.add(texts, self._command(kind), who)}
+
+    def _command(self, kind: str) -> list[str]:
+        """What makes a kind of file out of ``engine.toml`` (and ``other.toml``) into ``out``."""
+        if kind.startswith("compare-"):
+            return ["compare", "engine.toml", "other.toml", "-o", f"out/compare.{kind[8:]}"]
+        if kind in ("csv", "json"):
+            where = "csv" if kind == "csv" else "out/engine.json"
+            return ["solve", "engine.toml", f"--{kind}", where]
+        return ["build", "engine.toml", "-o", "out", "--only", kind, *self.far]
+
+    def _made(self, request: Request) -> Shown:
+        name = request.path_params["name"]
+        if not (about := self.about(name)):
+            raise HTTPException(404, "нет такого файла; закажите заново")
+        made = sorted((self.folder / name / "out").glob("[!.]*"))
+        sizes = [{"name": path.name, "size": path.stat().st_size} for path in made]
+        return Shown({**about, "files": sizes}, {path.name: path for path in made})

@@ -16,7 +16,7 @@ from starlette.testclient import TestClient
 
 from reports.commands.engine import build
 from reports.web.app import Settings, create_app
-from reports.web.files import KINDS
+from reports.web.jobs import KINDS
 from tests.web.conftest import MARK, Page
 
 

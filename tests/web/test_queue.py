@@ -17,9 +17,9 @@ from starlette.testclient import TestClient
 
 from reports.commands.apart import run
 from reports.shared.errors import InputError
-from reports.web import files as room
+from reports.web import jobs as room
 from reports.web.app import Settings, create_app
-from reports.web.files import MOST_OWN, Jobs
+from reports.web.jobs import MOST_OWN, Jobs
 from tests.web.conftest import MARK, Page, finished, serving
 from tests.web.test_files import made
 

@@ -90,8 +90,8 @@ class Guard(BaseHTTPMiddleware):
         super().__init__(app)
         public = urlsplit(settings.public)
         self.public = f"{public.scheme}://{public.netloc}"
-        self.hosts = {"127.0.0.1", "localhost", "::1", *map(str.lower, settings.hosts)}
-        self.hosts |= {public.hostname} if public.hostname else set()
+        known = ("127.0.0.1", "localhost", "::1", *settings.hosts, public.hostname or "")
+        self.hosts = {name.lower() for name in known if name}
         self.rate = Rate(10 * settings.per_s, 10)
 
     async def dispatch(self, request: Request, call_next: RequestResponseEndpoint) -> Response:

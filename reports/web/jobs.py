@@ -68,13 +68,11 @@ class Queue:
         for path in sorted(left, key=lambda path: path.stat().st_mtime):
             self.waiting[path.parent.name] = read_json(path).get("visitor", "")
         self._wake.set()
-        tasks = [asyncio.create_task(self._work()) for _ in range(self.at_once)]
-        try:
+        async with asyncio.TaskGroup() as group:
+            tasks = [group.create_task(self._work()) for _ in range(self.at_once)]
             yield
-        finally:
             for task in tasks:
                 task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
 
     def put(self, name: str, command: Sequence[str], visitor: str = "") -> None:
         """A command to be run in the folder of that name."""

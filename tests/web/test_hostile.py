@@ -189,6 +189,10 @@ def test_the_instructors_doors_are_shut(client: TestClient, door: str) -> None:
     path = f"/api/teacher/{'0' * 16}{door}"
     answer = fresh.post(path, json={}, headers=MARK) if door else fresh.get(path)
     is_refused(answer, 403)
+    if door:
+        is_refused(fresh.get(path), 403, 404, 405)
+    is_refused(fresh.post("/api/teacher", json={}, headers=MARK), 403)
+    is_refused(fresh.get("/api/teacher"), 403)
 
 
 @pytest.mark.parametrize(

@@ -33,8 +33,7 @@ from reports.shared.workers import Workers
 from reports.web import engine
 from reports.web.classes import Classes
 from reports.web.doors import Door, Guard, Settings, asked, book, failed, route
-from reports.web.jobs import KINDS as FILES
-from reports.web.jobs import Jobs
+from reports.web.jobs import OFFERED, Jobs
 
 STATIC = Path(__file__).parent / "static"
 SESSION_S = 12 * 3600
@@ -55,7 +54,7 @@ def page(name: str, root: str = ".") -> Door:
 async def choices(_: Request) -> Data:
     """What may be chosen before there is an engine."""
     return {"samples": list_samples(), "layouts": LAYOUTS, "strokes": STROKES, "kinds": KINDS,
-            "files": FILES}  # fmt: skip
+            "files": OFFERED}  # fmt: skip
 
 
 def server_secret(folder: Path) -> bytes:

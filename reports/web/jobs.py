@@ -34,7 +34,7 @@ from reports.web.doors import Shown, ask, body, caller, route, shown
 MOST_WAITING, MOST_OWN = 500, 6
 MOST_BYTES = 2 * 10**9  # of all files kept
 KEEP_S = 14 * 86400.0
-KINDS = {
+OFFERED = {
     **{kind: title[0].upper() + title[1:] for kind, title in FORMATS.items()},
     "csv": "Таблицы CSV", "json": "Числа JSON",
     "compare-xlsx": "Сравнение: книга", "compare-pdf": "Сравнение: PDF",
@@ -179,7 +179,7 @@ class Jobs(Queue):
     async def _ordered(self, request: Request) -> Data:
         data = await body(request)
         kind = str(data.get("kind"))
-        if kind not in KINDS:
+        if kind not in OFFERED:
             raise InputError(Problem("kind", "нет такого вида файла", "обновите страницу"))
         wanted = {"engine.toml": data.get("raw")}
         if kind.startswith("compare-"):

@@ -32,6 +32,7 @@ _REASONS = {
     errno.EFBIG: "файл больше, чем разрешено",
     errno.ENAMETOOLONG: "слишком длинное имя",
     errno.ENOENT: "нет такого файла или папки",
+    errno.EADDRINUSE: "порт занят",
 }
 _ADVICE = "укажите другое место"
 

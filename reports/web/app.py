@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import secrets
-from collections.abc import AsyncIterator, Callable
-from dataclasses import dataclass
+from collections.abc import AsyncIterator
 from pathlib import Path
 from string import Template
 from typing import Any
@@ -17,7 +16,7 @@ from starlette.middleware import Middleware
 from starlette.middleware.gzip import GZipMiddleware
 from starlette.middleware.sessions import SessionMiddleware
 from starlette.requests import Request
-from starlette.responses import HTMLResponse, JSONResponse, Response
+from starlette.responses import HTMLResponse, Response
 from starlette.routing import Mount
 from starlette.staticfiles import StaticFiles
 
@@ -30,30 +29,15 @@ from reports.shared.aside import processors
 from reports.shared.errors import KshmError
 from reports.shared.files import make_dir
 from reports.shared.resources import resource_dir
-from reports.web import engine, files, teacher
+from reports.shared.workers import Workers
+from reports.web import engine
 from reports.web.classes import Classes
-from reports.web.doors import MOST_BOOK, Door, body, route, uploaded
-from reports.web.guard import Guard, Rate, refusal
-from reports.web.jobs import Jobs
-from reports.web.pool import Busy, Pool
+from reports.web.doors import Door, Guard, Settings, asked, book, failed, route
+from reports.web.jobs import OFFERED, Jobs
 
 STATIC = Path(__file__).parent / "static"
-BOOK_S = 60.0
 SESSION_S = 12 * 3600
-_OWN_NAMES = ("127.0.0.1", "localhost", "::1")
-
-
-@dataclass(frozen=True, slots=True)
-class Settings:
-    """How the page is served."""
-
-    data: Path  # folder of all that is kept
-    hosts: tuple[str, ...] = ()  # names under which it is known, besides this machine's own
-    public: str = ""  # where a proxy shows it; by https cookies go no other way
-    dask: str | None = None  # address of a cluster that builds the files
-    per_s: float = 200.0  # requests a second of one address: a class may stand behind one
-    workers: int | None = None  # processes that solve; None takes the processors
-    body_s: float = 30.0  # seconds that the body of a form may take
+_ANSWERS = 5_000  # of a solving process
 
 
 def page(name: str, root: str = ".") -> Door:
@@ -67,33 +51,10 @@ def page(name: str, root: str = ".") -> Door:
     return shown
 
 
-def asked(function: Callable[..., Data], *keys: str) -> Door:
-    """A question to the solving processes: values of these keys of a request, or all of it."""
-
-    async def answer(request: Request) -> Data:
-        data = await body(request)
-        values = [data.get(key) for key in keys] or [data]
-        try:
-            found: Data = await request.app.state.pool.ask(function, *values)
-        except KshmError as error:  # usual while one types
-            return {"errors": engine.told(error)}
-        return found
-
-    return answer
-
-
 async def choices(_: Request) -> Data:
     """What may be chosen before there is an engine."""
     return {"samples": list_samples(), "layouts": LAYOUTS, "strokes": STROKES, "kinds": KINDS,
-            "files": files.KINDS}  # fmt: skip
-
-
-async def book(request: Request) -> Data:
-    """The input that an edited workbook holds, read by a solving process."""
-    async with uploaded(request, MOST_BOOK) as path:
-        ask = request.app.state.pool.ask
-        found: Data = await ask(engine.read_book, str(path), seconds=BOOK_S)
-        return found
+            "files": OFFERED}  # fmt: skip
 
 
 def server_secret(folder: Path) -> bytes:
@@ -104,21 +65,18 @@ def server_secret(folder: Path) -> bytes:
 
 def create_app(settings: Settings) -> Guard:
     """The whole application, the guard before it."""
-    make_dir(settings.data)
-    secret, workers = server_secret(settings.data), settings.workers or processors()
-    pool, jobs = Pool(workers), Jobs(settings.data / "jobs", secret, workers)
+    if not settings.data.exists():
+        make_dir(settings.data)
+        settings.data.chmod(0o700)
+    secret, count = server_secret(settings.data), settings.workers or processors()
+    jobs = Jobs(settings.data / "jobs", secret, count, settings.dask)
     classes = Classes(settings.data / "classes", secret, settings.dask)
 
     @contextlib.asynccontextmanager
-    async def lifespan(_: Starlette) -> AsyncIterator[None]:
-        for each in (pool, jobs, classes):
-            each.start()
-        try:
-            yield
-        finally:
-            await classes.stop()
-            await jobs.stop()
-            pool.stop()
+    async def lifespan(app: Starlette) -> AsyncIterator[None]:
+        async with jobs.working(), classes.working():
+            with Workers(count, engine.ready, most=_ANSWERS) as app.state.workers:
+                yield
 
     routes = [
         route("/", page("engine")),
@@ -134,36 +92,19 @@ def create_app(settings: Settings) -> Guard:
         route("/api/checks", asked(engine.checks, "raw"), "POST"),
         route("/api/toml", asked(engine.as_toml, "raw"), "POST"),
         route("/api/book", book, "POST"),
-        *files.routes(jobs, settings.dask),
-        *teacher.routes(classes, secret),
-        *teacher.student_routes(classes),
+        *jobs.routes(),
+        *classes.routes(),
     ]
     public = urlsplit(settings.public)
+    prefixed = [Mount(public.path.rstrip("/"), routes=routes)] if public.path.strip("/") else []
     session = Middleware(
         SessionMiddleware, secret.hex(), "kshm", SESSION_S, same_site="lax",
         https_only=public.scheme == "https",
     )  # fmt: skip
-    small = Middleware(GZipMiddleware, minimum_size=1000)
-    errors: Any = dict.fromkeys((KshmError, Busy, HTTPException, 500), failed)
-    prefixed = [Mount(public.path.rstrip("/"), routes=routes)] if public.path.strip("/") else []
+    errors: Any = dict.fromkeys((KshmError, HTTPException, 500), failed)
     app = Starlette(
         routes=[*prefixed, *routes], lifespan=lifespan, exception_handlers=errors,
-        middleware=[small, session],
+        middleware=[Middleware(GZipMiddleware, minimum_size=1000), session],
     )  # fmt: skip
-    app.state.pool, app.state.settings = pool, settings
-    app.state.jobs, app.state.classes = jobs, classes
-    hosts = frozenset({*_OWN_NAMES, *map(str.lower, settings.hosts), public.hostname or ""} - {""})
-    origin = f"{public.scheme}://{public.netloc}" if public.netloc else ""
-    return Guard(app, hosts, origin, Rate(10 * settings.per_s, 10))
-
-
-async def failed(_: Request, error: Exception) -> Response:
-    """What becomes of an error: a line for the person, never a traceback."""
-    if isinstance(error, KshmError):
-        return JSONResponse({"errors": engine.told(error)}, 422)
-    if isinstance(error, Busy):
-        return refusal(503, "сервер занят или данные не считаются за отведённое время; повторите")
-    if isinstance(error, HTTPException):
-        ours = not error.detail.isascii()
-        return refusal(error.status_code, error.detail if ours else "нет такой страницы")
-    return refusal(500, f"внутренняя ошибка {type(error).__name__}")
+    app.state.settings, app.state.jobs = settings, jobs
+    return Guard(app, settings)

@@ -1,142 +1,178 @@
-"""Classes on the disk: issued, handed in, graded and decided by the commands.
+"""Classes: issued, handed in, graded and decided by the commands, seen by both sides.
 
 A class is a folder with an unguessable name, and a job of its own queue.
 """
 
 from __future__ import annotations
 
+import hmac
 import secrets
-from collections.abc import Mapping
-from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
-from typing import Any
 
 from itsdangerous import BadData, URLSafeSerializer
 from starlette.exceptions import HTTPException
+from starlette.requests import Request
+from starlette.routing import Route
 
 from reports.grading.batch.grade import PAGES
 from reports.grading.issuing.register import FILE, Issued, load_register
+from reports.inputs.described import Data
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.files import make_dir, read_json, write_json, write_text, write_zip
+from reports.web import engine
+from reports.web.doors import Rate, Shown, ask, body, caller, route, shown
 from reports.web.jobs import Queue
 
-GRADE_S = 3600.0
+_TEXTS = ("base.toml", "roster.csv", "rubric.toml")
+_SECRET = ("--secret", "secret.key")
+_DECISION = ("who", "what", "points", "remark")
 
 
-@dataclass(frozen=True, slots=True)
-class Class:
-    """A class by its folder."""
-
-    folder: Path
-
-    @property
-    def about(self) -> dict[str, Any]:
-        """Title, date, whether pages are open to their students."""
-        return read_json(self.folder / "about.json")
-
-    @property
-    def books(self) -> tuple[Issued, ...]:
-        """The books, once they are issued."""
-        path = self.folder / "issued"
-        return load_register(path).books if (path / FILE).exists() else ()
-
-    @property
-    def rows(self) -> list[dict[str, Any]]:
-        """Rows of the gradebook, once there are any."""
-        return list(read_json(self.folder / "results/summary.json").get("rows", ()))
-
-    def issued(self, book: Issued) -> Path:
-        """A student's work-book."""
-        return self.folder / "issued" / book.folder / book.file
-
-    def work(self, book: Issued) -> Path:
-        """Where a student's own upload lies."""
-        return self.folder / "works" / f"{book.folder}.xlsx"
-
-    def files(self) -> dict[str, Path]:
-        """All that an instructor may take or look at by its name: what grading has made."""
-        results = self.folder / "results"
-        found = (*results.glob("[!.]*.*"), *results.glob(f"{PAGES}/*.html"))
-        return {path.relative_to(results).as_posix(): path for path in found
-                if path.suffix != ".json"}  # fmt: skip
-
-    def issued_zip(self) -> Path:
-        """All work-books that were issued, each in its folder."""
-        target = self.folder / "issued.zip"
-        if not target.exists() and (books := self.books):
-            write_zip(target, {f"{each.folder}/{each.file}": self.issued(each) for each in books})
-        return target
+def token_of(secret: bytes) -> str:
+    """What the instructor logs in with; the same as long as the server keeps its secret."""
+    return hmac.digest(secret, b"teacher", "sha256").hex()[:32]
 
 
 class Classes(Queue):
-    """All classes of a server; grading takes all processors by itself, so one at a time.
+    """All classes of a server; grading takes all processors by itself, so one at a time."""
 
-    ``secret`` makes students' links unguessable, a cluster at ``dask`` grades.
-    """
+    timeout_s = 3600.0
+    pack = ("issued.zip", "issued", "*/*.xlsx")
 
     def __init__(self, folder: Path, secret: bytes, dask: str | None) -> None:
-        super().__init__(folder, at_once=1, timeout_s=GRADE_S)
-        self.signer, self.dask = URLSafeSerializer(secret, "student"), dask
+        super().__init__(folder, secret, dask=dask)
+        self.signer, self.tries = URLSafeSerializer(secret, "student"), Rate(10, 60)
 
-    def all(self) -> list[Class]:
-        """Every class, the newest first."""
-        found = [Class(path.parent) for path in self.folder.glob("*/about.json")]
-        return sorted(found, key=lambda each: str(each.about.get("date")), reverse=True)
+    def routes(self) -> list[Route]:
+        """Doors of the instructor, all but the first behind the key, and of the students."""
+        return [
+            route("/api/login", self._login, "POST"),
+            route("/api/teacher", self._listed),
+            route("/api/teacher", self._issue, "POST"),
+            route("/api/teacher/{name}/grade", self._grade, "POST"),
+            route("/api/teacher/{name}/open", self._open, "POST"),
+            *shown("/api/teacher/{name}", self._whole, "/file/{file:path}"),
+            *shown("/api/student/{link}", self._own),
+        ]
 
-    def find(self, name: str) -> Class:
-        """A class by the name of its folder; HTTPException if there is none."""
+    async def _login(self, request: Request) -> None:
+        given = str((await body(request)).get("token", "")).strip()
+        if not self.tries.allows(caller(request)):
+            raise HTTPException(429, "слишком много попыток; подождите минуту")
+        if not hmac.compare_digest(
+            token_of(self.secret).encode(), given.encode("utf-8", "replace")
+        ):
+            raise HTTPException(403, "неверный ключ; его печатает команда kshm serve")
+        request.session["teacher"] = True
+
+    def _find(self, name: str) -> Path:
         for path in self.folder.glob("*/about.json"):  # never a path from the name
             if path.parent.name == name:
-                return Class(path.parent)
+                return path.parent
         raise HTTPException(404, "нет такой группы")
 
-    def issue(self, seed: int, title: str, files: Mapping[str, str]) -> Class:
-        """A new class, its books being issued out of base, roster and rubric."""
-        made = Class(self.folder / secrets.token_hex(8))
-        make_dir(made.folder / "works")
+    def _chosen(self, request: Request) -> Path:
+        _enter(request)
+        return self._find(request.path_params["name"])
+
+    async def _listed(self, request: Request) -> Data:
+        _enter(request)
+        found = [{"name": path.parent.name, **read_json(path)}
+                 for path in self.folder.glob("*/about.json")]  # fmt: skip
+        return {"classes": sorted(found, key=lambda each: str(each.get("date")), reverse=True)}
+
+    async def _issue(self, request: Request) -> Data:
+        _enter(request)
+        data = await body(request)
+        files = {name: text for name in _TEXTS if (text := str(data.get(name) or "")).strip()}
+        if not (seed := str(data.get("seed", ""))).lstrip("-").isdecimal() or len(seed) > 9:
+            raise InputError(Problem("seed", "нужно целое число", "например 1"))
+        base = await ask(request, engine.read_toml, files.get("base.toml", ""))
+        await ask(request, engine.as_toml, base["raw"])  # without its ranges it is an input too
+        folder = self.folder / secrets.token_hex(8)
+        make_dir(folder / "works")
         for file, text in files.items():
-            write_text(made.folder / file, text)
+            write_text(folder / file, text)
+        title = one_line(str(data.get("title")), 120) or "Группа"
         date = datetime.now().isoformat(timespec="seconds")
-        about = {"title": one_line(title, 120) or "Группа", "open": False, "date": date}
-        write_json(made.folder / "about.json", about)
+        write_json(folder / "about.json", {"title": title, "open": False, "date": date})
         more = ["--rubric", "rubric.toml"] if "rubric.toml" in files else []
-        command = ["issue", "base.toml", "--roster", "roster.csv", "-o", "issued",
-                   "--seed", str(seed), "--secret", "secret.key", *more]  # fmt: skip
-        self.put(made.folder.name, command)
-        return made
+        self.put(folder.name, ["issue", "base.toml", "--roster", "roster.csv", "-o", "issued",
+                               "--seed", seed, *_SECRET, *more])  # fmt: skip
+        return {"name": folder.name}
 
-    def grade(self, each: Class, decision: tuple[str, ...] = ()) -> None:
-        """Begin to grade what was handed in, or to decide: who, what, points, remark.
-
-        Raises:
-            InputError: nothing was handed in, or something is being done already.
-        """
-        name, folder = each.folder.name, each.folder
-        if name in self.waiting or name in self.running:
+    async def _grade(self, request: Request) -> None:
+        folder, data = self._chosen(request), await body(request)
+        if self.about(folder.name).get("state") in ("waiting", "running"):
             raise InputError(Problem("", "группа занята", "дождитесь окончания"))
-        own, archive = sorted((folder / "works").glob("*.xlsx")), folder / "moodle.zip"
-        if not own and not archive.exists():
-            raise InputError(Problem("", "нет ни одной работы", "загрузите архив"))
-        command = ["grade", "issued", "submitted.zip", "-o", "results", "--secret", "secret.key"]
-        if decision:
+        command = ["grade", "issued", "submitted.zip", "-o", "results", *_SECRET]
+        if "who" in data:
+            decision = [str(data.get(key, ""))[:500] for key in _DECISION]
             command += ["--decide", *decision, "--author", "преподаватель"]
         else:
-            works = {f"страница/{path.name}": path for path in own}
-            write_zip(folder / "submitted.zip", works, archive)
+            works = {f"страница/{path.name}": path for path in folder.glob("works/*.xlsx")}
+            write_zip(folder / "submitted.zip", works, folder / "moodle.zip")
         if (folder / "worksheet.csv").exists():
             command += ["--moodle", "worksheet.csv"]
-        self.put(name, command + (["--dask", self.dask] if self.dask else []))
+        self.put(folder.name, [*command, *self.far])
 
-    def link(self, each: Class, book: Issued) -> str:
-        """The word of a student's own page."""
-        return str(self.signer.dumps([each.folder.name, book.number]))
+    async def _open(self, request: Request) -> None:
+        path, data = self._chosen(request) / "about.json", await body(request)
+        write_json(path, {**read_json(path), "open": bool(data.get("open"))})
 
-    def student(self, link: str) -> tuple[Class, Issued]:
-        """The class and the issued book that a link belongs to; HTTPException if to none."""
+    def _whole(self, request: Request) -> Shown:
+        folder = self._chosen(request)
+        results = folder / "results"
+        made = {path.name: path for path in results.glob("[!.]*.*") if path.suffix != ".json"}
+        pages = {f"{PAGES}/{path.name}": path for path in results.glob(f"{PAGES}/*.html")}
+        students = [
+            {"name": book.student.full, "group": book.student.group,
+             "link": self.signer.dumps([folder.name, book.number]),
+             "handed": _work(folder, book).exists()}
+            for book in _books(folder)
+        ]  # fmt: skip
+        return Shown(
+            {**read_json(folder / "about.json"), **self.about(folder.name), "students": students,
+             "rows": _rows(folder), "files": [*made], "graded": len(pages)},
+            {**made, **pages, "issued.zip": folder / "issued.zip"},
+            {name: folder / name for name in ("moodle.zip", "worksheet.csv")},
+        )  # fmt: skip
+
+    def _own(self, request: Request) -> Shown:
         try:
-            name, number = self.signer.loads(link)
-            each = self.find(name)
-            return each, next(book for book in each.books if book.number == number)
+            name, number = self.signer.loads(request.path_params["link"])
+            folder = self._find(name)
+            book = next(book for book in _books(folder) if book.number == number)
         except (BadData, StopIteration):
             raise HTTPException(404, "нет такой страницы") from None
+        about, work = read_json(folder / "about.json"), _work(folder, book)
+        rows = (row for row in _rows(folder) if about["open"] and row["number"] == number)
+        row = next(rows, {})
+        files = {"book": folder / "issued" / book.folder / book.file}
+        if page := row.get("page"):
+            files["page"] = folder / "results" / page
+        told = {
+            "title": about["title"], "student": book.student.full, "file": book.file,
+            "handed": work.exists(), "open": bool(page), "points": row.get("points"),
+            "status": row.get("status", ""),
+        }  # fmt: skip
+        return Shown(told, files, {"work": work})
+
+
+def _enter(request: Request) -> None:
+    if not request.session.get("teacher"):
+        raise HTTPException(403, "войдите с ключом преподавателя")
+
+
+def _books(folder: Path) -> tuple[Issued, ...]:
+    path = folder / "issued"
+    return load_register(path).books if (path / FILE).exists() else ()
+
+
+def _rows(folder: Path) -> list[Data]:
+    return list(read_json(folder / "results/summary.json").get("rows", ()))
+
+
+def _work(folder: Path, book: Issued) -> Path:
+    return folder / "works" / f"{book.folder}.xlsx"

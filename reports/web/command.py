@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import os
 import socket
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -14,7 +13,7 @@ from reports.commands.common import DONE, HELP, dask_option, path_option, verbos
 from reports.commands.words import RussianCommand
 from reports.shared.doctor import need_packages
 from reports.shared.errors import KshmError
-from reports.shared.files import make_dir, reason
+from reports.shared.files import reason
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)
@@ -30,7 +29,7 @@ from reports.shared.files import make_dir, reason
 @verbose_option
 def serve(port: int, host: str, folder: Path, public: str, dask: str | None) -> int:
     """Открыть страницу в браузере: числа, диаграммы, файлы, группа преподавателя."""
-    packages = ("starlette", "uvicorn", "pebble", "itsdangerous")
+    packages = ("starlette", "uvicorn", "itsdangerous")
     need_packages("для kshm serve", **{name: name for name in packages})
     address = urlsplit(public)
     if public and (address.scheme not in ("http", "https") or not address.hostname):
@@ -39,12 +38,10 @@ def serve(port: int, host: str, folder: Path, public: str, dask: str | None) -> 
     bound = _bound(host, port)
     import uvicorn
 
-    from reports.web.app import Settings, create_app, server_secret
-    from reports.web.teacher import token_of
+    from reports.web.app import create_app, server_secret
+    from reports.web.classes import token_of
+    from reports.web.doors import Settings
 
-    if not folder.exists():
-        make_dir(folder)
-        folder.chmod(0o700)
     wide = host in ("0.0.0.0", "::")
     hosts = (socket.gethostname(), "*") if wide else (host,)
     app = create_app(Settings(folder.resolve(), hosts, public, dask))
@@ -63,13 +60,10 @@ def serve(port: int, host: str, folder: Path, public: str, dask: str | None) -> 
 
 def _bound(host: str, port: int) -> socket.socket:
     """A socket at an address, or a line that says why there is none."""
-    bound = socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET)
-    if os.name == "posix":  # elsewhere two servers would share the port
-        bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    six = ":" in host
+    family = socket.AF_INET6 if six else socket.AF_INET
     try:
-        bound.bind((host, port))
-        return bound
+        return socket.create_server((host, port), family=family, dualstack_ipv6=six)
     except OSError as error:
-        text = "порт занят" if error.errno == 98 else reason(error)
-        msg = f"--host {host} --port {port}: {text}; укажите другой адрес или порт"
+        msg = f"--host {host} --port {port}: {reason(error)}; укажите другой адрес или порт"
         raise KshmError(msg) from None

@@ -1,4 +1,4 @@
-"""What every door does: reads what is brought within bounds, and hands out answers and files."""
+"""Every door: what is let in, read within bounds, asked, handed out and refused."""
 
 from __future__ import annotations
 
@@ -7,23 +7,147 @@ import contextlib
 import io
 import json
 import tempfile
-from collections.abc import AsyncIterator, Awaitable, Callable
+import time
+from collections import Counter
+from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
+from dataclasses import dataclass, field
+from ipaddress import ip_address
 from pathlib import Path
 from typing import Any, BinaryIO
+from urllib.parse import urlsplit
+from zipfile import is_zipfile
 
 from starlette.exceptions import HTTPException
+from starlette.middleware.base import BaseHTTPMiddleware, RequestResponseEndpoint
 from starlette.requests import Request
 from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route
+from starlette.types import ASGIApp
 
 from reports.inputs.described import Data
-from reports.shared.errors import InputError, Problem
+from reports.shared.errors import InputError, KshmError, Problem
+from reports.shared.workers import Died, NeverStarted
+from reports.web import engine
+from reports.workbook.intake import check_data
 
 Door = Callable[[Request], Awaitable[Response | Data | None]]
 MOST_JSON, MOST_BOOK, MOST_ARCHIVE = 2_000_000, 30 * 2**20, 100_000_000
 FILE_S = 300.0  # for an uploaded file
+BOOK_S = 60.0  # to read an edited workbook
+ANSWER_S = 20.0
+WAIT_S = 30.0  # before a process is free
+MARK = "x-kshm"  # a header that no foreign page can send without being asked for leave
+_KINDS = ("application/json", "application/octet-stream")
+_HEADERS = {
+    "content-security-policy": (
+        "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
+        "img-src 'self' data:; font-src 'self' data:; connect-src 'self'; form-action 'none'; "
+        "base-uri 'none'; frame-ancestors 'none'"
+    ),
+    "x-content-type-options": "nosniff",
+    "x-frame-options": "DENY",
+    "referrer-policy": "no-referrer",
+    "cross-origin-opener-policy": "same-origin",
+    "cross-origin-resource-policy": "same-origin",
+    "permissions-policy": "camera=(), microphone=(), geolocation=()",
+}
 # A page about a work may hold a student's words: nothing in a file that is shown may act.
 _SANDBOX = "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:; font-src data:"
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """How the page is served."""
+
+    data: Path  # folder of all that is kept
+    hosts: tuple[str, ...] = ()  # names under which it is known, besides this machine's own
+    public: str = ""  # where a proxy shows it; by https cookies go no other way
+    dask: str | None = None  # address of a cluster that builds the files
+    per_s: float = 200.0  # requests a second of one address: a class may stand behind one
+    workers: int | None = None  # processes that solve; None takes the processors
+    body_s: float = 30.0  # seconds that the body of a form may take
+
+
+class Rate:
+    """So many requests of one address in so many seconds, counted anew after them."""
+
+    def __init__(self, most: float, seconds: float) -> None:
+        self.most, self.seconds = most, seconds
+        self._seen, self._end = Counter[str](), 0.0
+
+    def allows(self, who: str) -> bool:
+        """Take one request of ``who``, if there is one left."""
+        if time.monotonic() >= self._end:
+            self._seen, self._end = Counter(), time.monotonic() + self.seconds
+        self._seen[who] += 1
+        return self._seen[who] <= self.most
+
+
+class Guard(BaseHTTPMiddleware):
+    """Lets through what a person's own page may ask for; every answer has headers of safety."""
+
+    def __init__(self, app: ASGIApp, settings: Settings) -> None:
+        super().__init__(app)
+        public = urlsplit(settings.public)
+        self.public = f"{public.scheme}://{public.netloc}"
+        known = ("127.0.0.1", "localhost", "::1", *settings.hosts, public.hostname or "")
+        self.hosts = {name.lower() for name in known if name}
+        self.rate = Rate(10 * settings.per_s, 10)
+
+    async def dispatch(self, request: Request, call_next: RequestResponseEndpoint) -> Response:
+        """Refuse or hand on."""
+        why = self._refused(request)
+        answer = refusal(*why) if why else await call_next(request)
+        cache = "no-cache" if "/static/" in request.scope["path"] else "no-store"
+        for key, value in (*_HEADERS.items(), ("cache-control", cache)):
+            answer.headers.setdefault(key, value)
+        return answer
+
+    def _refused(self, request: Request) -> tuple[int, str] | None:
+        headers = request.headers
+        if not self.rate.allows(caller(request)):
+            return 429, "слишком много запросов; подождите немного"
+        if len(headers.getlist("host")) != 1 or not self._known(headers["host"]):
+            return 421, "страница известна под другим адресом; см. ключ --public"
+        if request.method in ("GET", "HEAD"):
+            return None
+        if request.method != "POST":
+            return 405, "нет такого действия"
+        own = {f"{scheme}://{headers['host']}" for scheme in ("http", "https")} | {self.public}
+        foreign = headers.get("sec-fetch-site", "same-origin") != "same-origin"
+        if foreign or MARK not in headers or headers.get("origin", self.public) not in own:
+            return 403, "запрос с чужой страницы"
+        if not headers.get("content-type", "").startswith(_KINDS):
+            return 415, "неверный вид данных"
+        return None
+
+    def _known(self, host: str) -> bool:
+        """Whether a host is ours; a bare address, unlike a name, cannot be made to lead here."""
+        with contextlib.suppress(ValueError):
+            name = urlsplit(f"//{host}").hostname or ""
+            return name in self.hosts or ("*" in self.hosts and bool(ip_address(name)))
+        return False
+
+
+def caller(request: Request) -> str:
+    """The address from which a request comes."""
+    return request.client.host if request.client else ""
+
+
+def refusal(code: int, why: KshmError | str) -> JSONResponse:
+    """An answer that says why not, a line for each problem, never a traceback."""
+    error = KshmError(why) if isinstance(why, str) else why
+    return JSONResponse({"errors": engine.told(error)}, code)
+
+
+async def failed(_: Request, error: Exception) -> Response:
+    """What becomes of an error."""
+    if isinstance(error, KshmError):
+        return refusal(422, error)
+    if isinstance(error, HTTPException):
+        ours = not error.detail.isascii()
+        return refusal(error.status_code, error.detail if ours else "нет такой страницы")
+    return refusal(500, f"внутренняя ошибка {type(error).__name__}")
 
 
 def route(path: str, door: Door, method: str = "GET") -> Route:
@@ -34,6 +158,19 @@ def route(path: str, door: Door, method: str = "GET") -> Route:
         return found if isinstance(found, Response) else JSONResponse(found or {})
 
     return Route(path, answer, methods=[method])
+
+
+async def ask(
+    request: Request, function: Callable[..., Data], *values: object, seconds: float = ANSWER_S
+) -> Data:
+    """A function's answer from a solving process; HTTPException if there was none in time."""
+    asked = request.app.state.workers.ask(function, *values, seconds=seconds)
+    try:
+        found: Data = await asyncio.wait_for(asyncio.wrap_future(asked), WAIT_S + seconds)
+    except (TimeoutError, Died, NeverStarted):
+        what = "сервер занят или данные не считаются за отведённое время; повторите"
+        raise HTTPException(503, what) from None
+    return found
 
 
 async def _read(request: Request, target: BinaryIO, most: int, seconds: float) -> None:
@@ -69,12 +206,64 @@ async def uploaded(request: Request, most: int) -> AsyncIterator[Path]:
         yield path
 
 
-def handed(path: Path | None) -> FileResponse:
-    """A file to be kept, or a page that can do nothing; HTTPException if there is none."""
-    if path is None or not path.is_file():
-        raise HTTPException(404, "нет такого файла; закажите заново")
-    how = "inline" if path.suffix == ".html" else "attachment"
-    return FileResponse(
-        path, headers={"content-security-policy": _SANDBOX}, filename=path.name,
-        content_disposition_type=how,
-    )  # fmt: skip
+def asked(function: Callable[..., Data], *keys: str) -> Door:
+    """A question to the solving processes: values of these keys of a request, or all of it."""
+
+    async def answer(request: Request) -> Response | Data:
+        data = await body(request)
+        try:
+            return await ask(request, function, *([data.get(key) for key in keys] or [data]))
+        except KshmError as error:  # usual while one types
+            return refusal(200, error)
+
+    return answer
+
+
+async def book(request: Request) -> Data:
+    """The input that an edited workbook holds, read by a solving process."""
+    async with uploaded(request, MOST_BOOK) as path:
+        return await ask(request, engine.read_book, str(path), seconds=BOOK_S)
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """What a thing at a path tells; which files it gives and takes, by words of its own."""
+
+    told: Data
+    gives: Mapping[str, Path]
+    takes: Mapping[str, Path] = field(default_factory=dict)
+
+
+def shown(path: str, find: Callable[[Request], Shown], files: str = "/{file}") -> list[Route]:
+    """Doors of things that ``find`` finds; HTTPException where there is no such file."""
+
+    async def told(request: Request) -> Data:
+        return find(request).told
+
+    async def given(request: Request) -> Response:
+        file = find(request).gives.get(request.path_params["file"])
+        if file is None or not file.is_file():
+            raise HTTPException(404, "нет такого файла; закажите заново")
+        how = "inline" if file.suffix == ".html" else "attachment"  # a page can do nothing
+        return FileResponse(
+            file, headers={"content-security-policy": _SANDBOX}, filename=file.name,
+            content_disposition_type=how,
+        )  # fmt: skip
+
+    async def taken(request: Request) -> None:
+        place = find(request).takes.get(request.path_params["file"])
+        if place is None:
+            raise HTTPException(404, "такого файла здесь не ждут")
+        is_book = place.suffix == ".xlsx"
+        async with uploaded(request, MOST_BOOK if is_book else MOST_ARCHIVE) as file:
+            if is_book:
+                check_data(file.read_bytes(), "работа")
+            elif not file.stat().st_size or is_zipfile(file) != (place.suffix == ".zip"):
+                raise InputError(Problem("", "это не тот файл", "загрузите архив .zip"))
+            file.replace(place)
+
+    return [
+        route(path, told),
+        route(f"{path}{files}", given),
+        route(f"{path}{files}", taken, "POST"),
+    ]

@@ -1,8 +1,9 @@
-"""What the page of an engine asks for, as plain data, in the workers of `reports.web.pool`."""
+"""What the page of an engine asks for, as plain data, in processes of their own."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import operator
+from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -25,7 +26,7 @@ from reports.shared.errors import InputError, KshmError
 from reports.tables.registry import kept_model
 
 HEAD = ("Исходные данные двигателя для kshm.",)
-_OPTIONS = ("layout", "strokes", "kind", "power", "speed")  # of kshm new
+_OPTIONS = ("sample", "layout", "strokes", "kind", "power", "speed")  # of kshm new
 
 
 def told(error: KshmError) -> list[Data]:
@@ -93,19 +94,18 @@ def fresh(wanted: Mapping[str, Any]) -> Data:
         KshmError: there is no such engine.
     """
     options = [f"--{key}={wanted[key]}".replace(",", ".") for key in _OPTIONS if wanted.get(key)]
-    if "sample" in wanted:
-        options = [f"--sample={wanted['sample']}"]
-    else:
+    if "sample" not in wanted:
         options.append(f"--cylinders={wanted.get('cylinders')!r}")
     try:
         given = new.make_context("new", options).params
     except click.ClickException as error:
         raise KshmError(error_text(error)) from None
+    del given["output"]
     base = ("исходном двигателе", lambda: load_apart(wanted["raw"]).model)
-    given = {key: given[key] for key in given if key not in ("output", "verbose")}
     return read_toml(new_text(**{**given, "base": base if "raw" in wanted else None}))
 
 
-def warm() -> None:
-    """Import and solve once, so that the first person does not wait."""
+def ready() -> Callable[..., Data]:
+    """What answers in a process: any function, all imported and solved once before."""
     answer(fresh({"sample": "gots-diesel"})["raw"], "П4.1")
+    return operator.call

@@ -1,4 +1,4 @@
-"""Commands that run in processes of their own: queues that stand on the disk.
+"""Commands that run in processes of their own, in queues that stand on the disk; files they make.
 
 A job is a folder.  Its ``order.json`` stands from the beginning, ``done.json`` at the end; what
 has the first alone when the server starts is done again.
@@ -8,52 +8,71 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import hashlib
 import hmac
 import json
 import os
 import shutil
 import time
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import AsyncIterator, Mapping, Sequence
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
+
+from starlette.exceptions import HTTPException
+from starlette.requests import Request
+from starlette.routing import Route
 
 from reports.commands.apart import failed, run
+from reports.inputs.described import Data
+from reports.inputs.sections.report import FORMATS
 from reports.shared.errors import InputError, KshmError, Problem
-from reports.shared.files import make_dir, read_json, write_json, write_text
+from reports.shared.files import make_dir, read_json, write_json, write_text, write_zip
+from reports.web import engine
+from reports.web.doors import Shown, ask, body, caller, route, shown
 
-TIMEOUT_S = 300.0
 MOST_WAITING, MOST_OWN = 500, 6
 MOST_BYTES = 2 * 10**9  # of all files kept
 KEEP_S = 14 * 86400.0
+OFFERED = {
+    **{kind: title[0].upper() + title[1:] for kind, title in FORMATS.items()},
+    "csv": "Таблицы CSV", "json": "Числа JSON",
+    "compare-xlsx": "Сравнение: книга", "compare-pdf": "Сравнение: PDF",
+}  # fmt: skip
 
 
 class Queue:
-    """Commands in folders of one folder, ``at_once`` together, each for ``timeout_s`` at most."""
+    """Commands in folders of one folder, ``at_once`` together.
 
-    def __init__(self, folder: Path, at_once: int, timeout_s: float = TIMEOUT_S) -> None:
-        self.folder, self.at_once, self.timeout_s = folder, at_once, timeout_s
+    ``secret`` makes names unguessable; a cluster at ``dask`` does what commands leave to it.
+    """
+
+    timeout_s: ClassVar[float]  # that a command may take
+    pack: ClassVar[tuple[str, str, str]]  # archive of its many files, their folder and pattern
+
+    def __init__(
+        self, folder: Path, secret: bytes, at_once: int = 1, dask: str | None = None
+    ) -> None:
+        self.folder, self.secret, self.at_once = folder, secret, at_once
+        self.far = ["--dask", dask] if dask else []
         self.waiting: dict[str, str] = {}  # job → visitor, in the order of coming
         self.running: dict[str, tuple[str, float]] = {}  # job → visitor, beginning
         self._wake = asyncio.Event()
 
-    def start(self) -> None:
-        """Take up what an earlier server has left, and begin."""
+    @contextlib.asynccontextmanager
+    async def working(self) -> AsyncIterator[None]:
+        """Take up what an earlier server has left; what runs at the end is left to the next."""
         make_dir(self.folder)
         left = [path for path in self.folder.glob("*/order.json")
                 if not path.with_name("done.json").exists()]  # fmt: skip
         for path in sorted(left, key=lambda path: path.stat().st_mtime):
             self.waiting[path.parent.name] = read_json(path).get("visitor", "")
         self._wake.set()
-        self._tasks = [asyncio.create_task(self._work()) for _ in range(self.at_once)]
-
-    async def stop(self) -> None:
-        """End what runs; it is done again by the next server."""
-        for task in self._tasks:
-            task.cancel()
-        await asyncio.gather(*self._tasks, return_exceptions=True)
+        async with asyncio.TaskGroup() as group:
+            tasks = [group.create_task(self._work()) for _ in range(self.at_once)]
+            yield
+            for task in tasks:
+                task.cancel()
 
     def put(self, name: str, command: Sequence[str], visitor: str = "") -> None:
         """A command to be run in the folder of that name."""
@@ -65,12 +84,12 @@ class Queue:
 
     def line(self) -> list[str]:
         """The waiting jobs in their order: everybody's first before anybody's second."""
-        turn = Counter(who for who, _ in self.running.values())
-        ordered = []
-        for place, (name, visitor) in enumerate(self.waiting.items()):
-            ordered.append((turn[visitor], place, name))
-            turn[visitor] += 1
-        return [name for _, _, name in sorted(ordered)]
+        turns = Counter(visitor for visitor, _ in self.running.values())
+        turn = {}
+        for name, visitor in self.waiting.items():
+            turn[name] = turns[visitor]
+            turns[visitor] += 1
+        return sorted(turn, key=lambda name: turn[name])
 
     def about(self, name: str) -> dict[str, Any]:
         """How far a job is; nothing if there is no such job."""
@@ -89,17 +108,24 @@ class Queue:
             name = line[0]
             self.running[name] = self.waiting.pop(name), time.monotonic()
             try:
-                done = await self.make(self.folder / name)
+                done = await self._make(self.folder / name)
             except OSError:
                 done = failed("на сервере не удаётся записать файл; сообщите кафедре")
+            except Exception as error:  # a bug must cost one job, never the queue
+                done = failed(f"внутренняя ошибка {type(error).__name__}")
             with contextlib.suppress(OSError, KshmError):  # a full disk must not end the queue
                 write_json(self.folder / name / "done.json", done)
             del self.running[name]
 
-    async def make(self, folder: Path) -> dict[str, Any]:
-        """Run the command of a job; how it ended."""
+    async def _make(self, folder: Path) -> dict[str, Any]:
         command = read_json(folder / "order.json").get("command", ())
-        return await run(command, folder, self.timeout_s)
+        done = await run(command, folder, self.timeout_s)
+        target, place, pattern = self.pack
+        files = {path.relative_to(folder / place).as_posix(): path
+                 for path in sorted((folder / place).glob(pattern))}  # fmt: skip
+        if files:
+            await asyncio.to_thread(write_zip, folder / target, files)
+        return done
 
 
 class Jobs(Queue):
@@ -108,9 +134,8 @@ class Jobs(Queue):
     The same order is made once, nobody guesses another's, and the oldest are forgotten.
     """
 
-    def __init__(self, folder: Path, secret: bytes, at_once: int) -> None:
-        super().__init__(folder, at_once)
-        self.secret = secret
+    timeout_s = 300.0
+    pack = ("out/tables.zip", "csv", "*.csv")
 
     def add(self, files: Mapping[str, str], command: Sequence[str], visitor: str) -> str:
         """An order: files by name, the command to run beside them; the name of the job.
@@ -119,7 +144,7 @@ class Jobs(Queue):
             InputError: the queue is full, or the visitor has enough in it.
         """
         text = json.dumps([files, command, version("kshm")], ensure_ascii=False, sort_keys=True)
-        name = hmac.new(self.secret, text.encode(), hashlib.sha256).hexdigest()[:40]
+        name = hmac.digest(self.secret, text.encode(), "sha256").hex()[:40]
         folder, state = self.folder / name, self.about(name).get("state")
         if state == "done":
             os.utime(folder / "done.json")
@@ -133,27 +158,9 @@ class Jobs(Queue):
         folder.mkdir(mode=0o700)
         for file, content in files.items():
             write_text(folder / file, content)
+        self.clean()
         self.put(name, command, visitor)
         return name
-
-    def file(self, name: str, file: str) -> Path | None:
-        """A file that a job has made; only those that it names itself."""
-        files = [each["name"] for each in self.about(name).get("files", ())]
-        return self.folder / name / "out" / file if file in files else None
-
-    async def make(self, folder: Path) -> dict[str, Any]:
-        """Make the files of a job anew, many tables as one file."""
-        out = folder / "out"
-        shutil.rmtree(out, ignore_errors=True)
-        out.mkdir()
-        done = await super().make(folder)
-        if (folder / "csv").exists():
-            pack = shutil.make_archive
-            await asyncio.to_thread(pack, str(out / "tables"), "zip", folder / "csv")
-        files = [{"name": path.name, "size": path.stat().st_size}
-                 for path in sorted(out.iterdir()) if path.is_file()]  # fmt: skip
-        self.clean()
-        return {**done, "files": files} if files else {**done, "state": "failed"}
 
     def clean(self) -> None:
         """Forget the oldest files where they are too old or too many."""
@@ -163,3 +170,40 @@ class Jobs(Queue):
             size += sum(each.stat().st_size for each in path.parent.rglob("*") if each.is_file())
             if size > MOST_BYTES or time.time() - path.stat().st_mtime > KEEP_S:
                 shutil.rmtree(path.parent, ignore_errors=True)
+
+    def routes(self) -> list[Route]:
+        """Doors at which files are ordered, asked after and taken."""
+        order = route("/api/files", self._ordered, "POST")
+        return [order, *shown("/api/files/{name}", self._made)]
+
+    async def _ordered(self, request: Request) -> Data:
+        data = await body(request)
+        kind = str(data.get("kind"))
+        if kind not in OFFERED:
+            raise InputError(Problem("kind", "нет такого вида файла", "обновите страницу"))
+        wanted = {"engine.toml": data.get("raw")}
+        if kind.startswith("compare-"):
+            wanted["other.toml"] = data.get("other")
+            if not wanted["other.toml"]:
+                raise InputError(Problem("", "нет второго двигателя", "нажмите «Сравнить с этим»"))
+        texts = {name: (await ask(request, engine.as_toml, raw))["text"]
+                 for name, raw in wanted.items()}  # fmt: skip
+        who = request.session.get("visitor") or caller(request)
+        return {"id": self.add(texts, self._command(kind), who)}
+
+    def _command(self, kind: str) -> list[str]:
+        """What makes a kind of file out of ``engine.toml`` (and ``other.toml``) into ``out``."""
+        if kind.startswith("compare-"):
+            return ["compare", "engine.toml", "other.toml", "-o", f"out/compare.{kind[8:]}"]
+        if kind in ("csv", "json"):
+            where = "csv" if kind == "csv" else "out/engine.json"
+            return ["solve", "engine.toml", f"--{kind}", where]
+        return ["build", "engine.toml", "-o", "out", "--only", kind, *self.far]
+
+    def _made(self, request: Request) -> Shown:
+        name = request.path_params["name"]
+        if not (about := self.about(name)):
+            raise HTTPException(404, "нет такого файла; закажите заново")
+        made = sorted((self.folder / name / "out").glob("[!.]*"))
+        sizes = [{"name": path.name, "size": path.stat().st_size} for path in made]
+        return Shown({**about, "files": sizes}, {path.name: path for path in made})

@@ -124,7 +124,7 @@ def test_files_that_exhaust_the_memory_do_not_end_the_batch(tmp_path):
 def test_the_worker_refuses_network_and_programs():
     code = (
         "import socket, subprocess\n"
-        "from reports.grading.batch.worker import forbid_the_world\n"
+        "from reports.shared.workers import forbid_the_world\n"
         "forbid_the_world()\n"
         "for act in (lambda: socket.create_connection(('127.0.0.1', 9)),\n"
         "            lambda: subprocess.run(['true'])):\n"

@@ -16,7 +16,7 @@ from starlette.testclient import TestClient
 
 from reports.commands.engine import build
 from reports.web.app import Settings, create_app
-from reports.web.files import KINDS
+from reports.web.jobs import OFFERED
 from tests.web.conftest import MARK, Page
 
 
@@ -32,7 +32,7 @@ def made(page: Page, **data: Any) -> tuple[str, dict[str, Any]]:
 
 def test_kinds_are_those_of_the_command() -> None:
     only = next(option for option in build.params if option.name == "only")
-    assert set(only.type.choices) < set(KINDS)  # type: ignore[attr-defined]
+    assert set(only.type.choices) < set(OFFERED)  # type: ignore[attr-defined]
 
 
 def test_workbook_down_and_up_again(page: Page, client: TestClient) -> None:

@@ -10,9 +10,8 @@ import pytest
 from starlette.testclient import TestClient
 
 from reports.web.app import STATIC, Settings, create_app, server_secret
-from reports.web.doors import MOST_JSON
-from reports.web.guard import Rate
-from reports.web.teacher import token_of
+from reports.web.classes import token_of
+from reports.web.doors import MOST_JSON, Rate
 from tests.grading import classroom, hostile
 from tests.grading.fill import filled_book
 from tests.web.conftest import MARK, Page, finished
@@ -190,6 +189,10 @@ def test_the_instructors_doors_are_shut(client: TestClient, door: str) -> None:
     path = f"/api/teacher/{'0' * 16}{door}"
     answer = fresh.post(path, json={}, headers=MARK) if door else fresh.get(path)
     is_refused(answer, 403)
+    if door:
+        is_refused(fresh.get(path), 403, 404, 405)
+    is_refused(fresh.post("/api/teacher", json={}, headers=MARK), 403)
+    is_refused(fresh.get("/api/teacher"), 403)
 
 
 @pytest.mark.parametrize(

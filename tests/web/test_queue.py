@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import functools
+import asyncio
 import json
 import os
 import signal
@@ -21,7 +21,6 @@ from reports.shared.errors import InputError
 from reports.web import jobs as room
 from reports.web.app import Settings, create_app
 from reports.web.jobs import MOST_OWN, Jobs
-from reports.web.pool import Busy
 from tests.web.conftest import MARK, Page, finished, serving
 from tests.web.test_files import made
 
@@ -82,9 +81,8 @@ def test_a_killed_solver_and_a_killed_job_cost_one_answer(tmp_path: Path) -> Non
         time.sleep(0.2)
         assert page.post("/api/solve", {"raw": raw, "sheet": "П4.1"})["charts"]
 
-        hung = functools.partial(state.pool.ask, time.sleep, 60, seconds=0.5)
-        with pytest.raises(Busy):
-            client.portal.call(hung)  # type: ignore[union-attr]
+        with pytest.raises(TimeoutError):
+            state.workers.ask(time.sleep, 60, seconds=0.5).result()
         assert page.post("/api/solve", {"raw": raw, "sheet": "П4.1"})["charts"]
 
         job = page.post("/api/files", {"raw": raw, "kind": "xlsx"})["id"]
@@ -132,6 +130,26 @@ def test_a_killed_server_makes_its_job_again(tmp_path: Path) -> None:
 def test_a_job_that_takes_too_long_is_ended(tmp_path: Path) -> None:
     said = finished(run(["solve", "x.toml"], tmp_path, timeout_s=0.05))
     assert said["state"] == "failed" and "не сделано" in said["lines"][0]
+
+
+def test_a_bug_in_a_job_stops_no_other(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    async def broken(*_: Any) -> Any:
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(room, "run", broken)
+    jobs = waiting(tmp_path)
+    names = added(jobs, "a", "b")
+
+    async def work() -> list[Any]:
+        async with jobs.working():
+            for _ in range(200):
+                if not (jobs.waiting or jobs.running):
+                    break
+                await asyncio.sleep(0.01)
+        return [jobs.about(name) for name in names]
+
+    told = {"state": "failed", "lines": ["внутренняя ошибка ZeroDivisionError"]}
+    assert finished(work()) == [told, told]
 
 
 def test_the_oldest_files_are_forgotten(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

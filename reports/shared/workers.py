@@ -1,0 +1,195 @@
+"""Processes that answer questions; one that hangs or dies costs one answer, nothing else.
+
+They look at people's files and inputs: little memory, no network, no other programs.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import multiprocessing
+import os
+import signal
+import sys
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from multiprocessing.connection import Connection
+from pathlib import Path
+from queue import SimpleQueue
+from typing import Any
+
+from reports.shared.errors import KshmError, one_line
+from reports.shared.interrupt import held
+
+MEMORY = 2 * 2**30  # bytes of address space beyond what the ready process has
+_START_S = 120.0  # a cold start on a loaded machine
+_STARTS = 4
+_FORBIDDEN = (
+    "socket.connect", "socket.bind", "socket.getaddrinfo", "socket.sendto", "subprocess.Popen",
+    "os.system", "os.exec", "os.posix_spawn", "os.spawn", "os.fork", "os.forkpty",
+    "os.startfile", "webbrowser.open", "ftplib.connect", "smtplib.connect", "urllib.Request",
+)  # fmt: skip
+
+
+class Died(Exception):  # noqa: N818 - what happened to the process
+    """The process has died of its question."""
+
+
+class NeverStarted(Exception):  # noqa: N818 - what happened to the process
+    """Processes die or hang before they are ready."""
+
+
+class Workers:
+    """So many processes, each with one question at a time, as long as the block lasts.
+
+    Args:
+        count: how many.
+        begin: what makes a process ready; it returns what answers the questions.
+        given: arguments of ``begin``.
+        memory: bytes that a ready process may take besides.
+        most: answers of a process; then a new one: whatever a library leaks is given back.
+    """
+
+    def __init__(
+        self,
+        count: int,
+        begin: Callable[..., Callable[..., Any]],
+        *given: Any,  # noqa: ANN401
+        memory: int = MEMORY,
+        most: int = 500,
+    ) -> None:
+        self._threads = ThreadPoolExecutor(count)  # one waits for each process
+        self._all = [_Worker(most, memory, begin, *given) for _ in range(count)]
+        self._idle = SimpleQueue[_Worker]()
+
+    def __enter__(self) -> Workers:
+        # One thread each: the processes are the parallelism.
+        for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "RAYON_NUM_THREADS"):
+            os.environ.setdefault(name, "1")
+        for worker in self._all:
+            worker.launch()
+            self._idle.put(worker)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._threads.shutdown(wait=False, cancel_futures=True)
+        for worker in self._all:
+            worker.over = True
+            worker.end()
+        self._threads.shutdown()
+
+    def ask(self, *question: Any, seconds: float) -> Future[Any]:  # noqa: ANN401
+        """What a process that has nothing else to do will answer.
+
+        Raises:
+            TimeoutError: it took more than so many seconds, the start of the process apart.
+            Died: it ended the process.
+            NeverStarted: there is no process.
+            KshmError: the answer itself.
+            RuntimeError: any other error in the process, by its name.
+        """
+        return self._threads.submit(self._ask, question, seconds)
+
+    def _ask(self, question: tuple[Any, ...], seconds: float) -> Any:  # noqa: ANN401
+        worker = self._idle.get()
+        try:
+            good, said = worker.ask(question, seconds)
+        finally:
+            self._idle.put(worker)
+        if not good:
+            raise said
+        return said
+
+
+class _Worker:
+    """A process and its pipe, alone with each other: its death harms no other's answers."""
+
+    def __init__(self, most: int, *given: Any) -> None:  # noqa: ANN401
+        self.most, self.given, self.over = most, given, False
+
+    def launch(self) -> None:
+        context = multiprocessing.get_context("spawn")
+        self.connection, theirs = context.Pipe()
+        self.process = context.Process(target=_serve, args=(theirs, *self.given), daemon=True)
+        with held(signal.SIGINT):  # Ctrl-C is for the process that the person has started
+            self.process.start()
+        theirs.close()
+        self.ready, self.answers = False, 0
+        if self.over:  # while it was started
+            self.end()
+
+    def end(self) -> None:
+        self.process.kill()
+        self.process.join()
+
+    def ask(self, question: tuple[Any, ...], seconds: float) -> tuple[bool, Any]:
+        for _ in range(_STARTS):
+            if self._is_ready():
+                break
+            self.end()
+            self.launch()
+        else:
+            raise NeverStarted
+        lost: Exception = TimeoutError()
+        try:
+            self.connection.send(question)
+            if self.connection.poll(seconds):
+                said: tuple[bool, Any] = self.connection.recv()
+                self.answers += 1
+                return said
+        except (EOFError, OSError):
+            lost = Died()
+        self.end()
+        raise lost
+
+    def _is_ready(self) -> bool:
+        with contextlib.suppress(EOFError, OSError):
+            if not self.ready and self.connection.poll(_START_S):
+                self.ready = self.connection.recv()
+        return self.ready and self.process.is_alive() and self.answers < self.most
+
+
+def _serve(
+    connection: Connection,
+    memory: int,
+    begin: Callable[..., Callable[..., Any]],
+    *given: Any,  # noqa: ANN401
+) -> None:
+    answer = begin(*given)
+    limit_memory(memory)
+    forbid_the_world()
+    with contextlib.suppress(EOFError, OSError):  # who asks is gone
+        connection.send(True)
+        while True:
+            question = connection.recv()
+            try:
+                said = True, answer(*question)
+            except MemoryError:  # the heap may be in pieces: a new process takes over
+                return
+            except KshmError as error:
+                said = False, error
+            except Exception as error:
+                said = False, RuntimeError(one_line(f"{type(error).__name__}: {error}"))
+            connection.send(said)
+
+
+def limit_memory(extra: int) -> None:
+    """Cap the address space where the system can do that."""
+    try:
+        import resource
+    except ImportError:  # Windows
+        return
+    with contextlib.suppress(OSError, ValueError):
+        pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
+        limit = pages * resource.getpagesize() + extra
+        resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def forbid_the_world() -> None:
+    """Refuse network and programs from here on, whatever a parser may try."""
+
+    def hook(event: str, _: tuple[Any, ...]) -> None:
+        if event in _FORBIDDEN:
+            raise PermissionError(f"forbidden while grading: {event}")
+
+    sys.addaudithook(hook)

@@ -1,8 +1,8 @@
 // The page of an engine: a mapping of the file's values is all its state, the rest follows from it.
 import {between, figure} from "./charts.js";
-import {alerts, ask, given, html, list, options, picker, printed, row, send, set, show, state, symbol, table}
+import {alerts, ask, given, html, list, options, picker, printed, row, send, set, state, symbol, table}
   from "./common.js";
-import {add, put, section} from "./fields.js";
+import {put, section} from "./fields.js";
 import {mechanism, star} from "./moving.js";
 
 const copy = structuredClone, entries = Object.entries;
@@ -19,37 +19,31 @@ async function open(raw, keep = true) {
   await solve();
 }
 
-let again = false, later = 0;
+let again = false;
 async function solve() {
   again = true;
   if (state.running) return set({}); // at most one question on its way
   while (again) {
     again = false;
     set({running: true});
-    const {raw, other, sheet, cylinder} = state, put = raw => raw && ask("api/solve", {raw, sheet, cylinder});
-    try { localStorage.setItem("kshm", JSON.stringify({raw, other})); } catch { /* private window */ }
-    const [last, second] = await Promise.all([put(raw), put(other)]);
+    const {raw, other, sheet, cylinder} = state, answer = raw => raw && ask("api/solve", {raw, sheet, cylinder});
+    try { localStorage.kshm = JSON.stringify({raw, other}); } catch { /* private window */ }
+    const [last, second] = await Promise.all([answer(raw), answer(other)]);
     const phi = last.errors ? 0 : Math.min(state.phi, last.moves.phi.at(-1)); // of a cycle that may be shorter
-    set(last.errors ? {wrong: last.errors} : {wrong: [], warnings: last.warnings, last, second, phi});
+    set(last.errors ? {wrong: last.errors} : {wrong: [], last, second, phi});
   }
   set({running: false});
-  clearTimeout(later);
-  later = setTimeout(check, 400);
-}
-
-async function check() {
-  const {checks, remarks, errors} = await ask("api/checks", {raw: state.raw});
-  if (!errors) set({checks, warnings: [...state.last.warnings, ...remarks]});
+  const {last} = state; // the checks take longer: they wait until nothing has changed for a while
+  setTimeout(async () => last === state.last && set(await send("api/checks", {raw: state.raw})), 400);
 }
 
 async function order(kind, title) {
   const job = {title, ...await send("api/files", {raw: state.raw, other: state.other, kind})};
   if (!job.id || state.jobs.some(({id, lines}) => id === job.id && !lines)) return;
   state.jobs.unshift(job);
-  while (!job.lines && !job.errors) {
+  for (; !job.lines && !job.errors; await new Promise(done => setTimeout(done, 700))) {
     Object.assign(job, await ask(`api/files/${job.id}`));
     set({});
-    await new Promise(done => setTimeout(done, job.lines ? 0 : 700));
   }
 }
 
@@ -69,12 +63,11 @@ function change(f, value, shape = false) {
   else solve();
 }
 
-async function edited(what, key) { // a change that alters the shape
-  const raw = copy(state.raw), before = new Set(state.groups.map(g => g.key));
-  what(raw);
+async function edited(key, path, value) { // a change that alters the shape
+  const raw = copy(state.raw);
+  put(raw, path, value);
+  state.open.add(key);
   await open(raw);
-  for (const {key} of state.groups) if (!before.has(key)) state.open.add(key);
-  set({});
   if (document.activeElement === document.body) document.querySelector(`[data-key="${key}"] summary`)?.focus();
 }
 
@@ -106,9 +99,8 @@ const upload = async file => fresh(/\.xlsx$/i.test(file.name)
 const back = () => open(JSON.parse(state.past.pop()), false);
 
 function compose(event) {
-  const {cylinders, layout, ...more} = given(event);
-  const own = event.submitter.name === "alike" ? {raw: state.raw} : more;
-  fresh(ask("api/new", {cylinders: Number(cylinders), layout, ...own}));
+  const {cylinders, layout, ...own} = given(event), more = event.submitter.name ? {raw: state.raw} : own;
+  fresh(ask("api/new", {cylinders: Number(cylinders), layout, ...more}));
 }
 
 // --- the page ---
@@ -131,26 +123,29 @@ const ownForm = choices => html`
   </form>
   <p>${picker("Открыть .toml или книгу .xlsx", ".toml,.xlsx", upload, "upload")}</p>`;
 
-function data() {
-  const places = new Set(state.groups.flatMap(g => [g.key, ...g.entries.flat().map(f => f.key)]));
-  return html`
-    <section id="data" aria-label="Исходные данные">
-      <details id="new" open=${state.isNew} onToggle=${e => { state.isNew = e.target.open; }}>
-        <summary>Новый двигатель</summary>${ownForm(state.choices)}</details>
-      <p class="tool-bar">
-        <button id="undo" disabled=${!state.past.length} onClick=${back}>Отменить</button>
-        <button id="save" onClick=${save}>Скачать .toml</button>
-        <button id="link" onClick=${link}>${state.linked ? "Ссылка в адресе" : "Ссылка"}</button>
-        <button id="keep" onClick=${() => asked({other: copy(state.raw)})}>Сравнить с этим</button>
-        <button id="drop" hidden=${!state.other} onClick=${() => asked({other: null})}>Убрать второй</button></p>
-      ${alerts([...state.errors, ...state.wrong.filter(p => !places.has(p.where))])}
-      <p><label>Найти поле <input id="find" type="search" autocomplete="off" value=${state.find}
-        onInput=${e => set({find: e.target.value})} /></label></p>
-      <div id="fields">${state.groups.map(group => section(group, edited, change))}</div>
-      <p class="tool-bar">Добавить раздел: ${entries(state.absent).map(([id, title]) =>
-        html`<button onClick=${() => edited(raw => add(raw, id), id)}>${title}</button>`)}</p>
-    </section>`;
+function begun(id) { // a further regime begins as the main one
+  const {regime, gas, regimes = []} = state.raw, number = regimes.length + 1;
+  if (id !== "regimes") return [id, [id], {}];
+  return [`regimes[${number}]`, [id, number - 1], {...regime, gas, name: `Режим ${number + 1}`}];
 }
+
+const data = () => html`
+  <section id="data" aria-label="Исходные данные">
+    <details id="new" open=${state.isNew} onToggle=${e => { state.isNew = e.target.open; }}>
+      <summary>Новый двигатель</summary>${ownForm(state.choices)}</details>
+    <p class="tool-bar">
+      <button id="undo" disabled=${!state.past.length} onClick=${back}>Отменить</button>
+      <button id="save" onClick=${save}>Скачать .toml</button>
+      <button id="link" onClick=${link}>${state.linked ? "Ссылка в адресе" : "Ссылка"}</button>
+      <button id="keep" onClick=${() => asked({other: copy(state.raw)})}>Сравнить с этим</button>
+      <button id="drop" hidden=${!state.other} onClick=${() => asked({other: null})}>Убрать второй</button></p>
+    ${alerts([...state.errors, ...state.wrong])}
+    <p><label>Найти поле <input id="find" type="search" autocomplete="off" value=${state.find}
+      onInput=${e => set({find: e.target.value})} /></label></p>
+    <div id="fields">${state.groups.map(group => section(group, edited, change))}</div>
+    <p class="tool-bar">Добавить раздел: ${entries(state.absent).map(([id, title]) =>
+      html`<button onClick=${() => edited(...begun(id))}>${title}</button>`)}</p>
+  </section>`;
 
 const scene = ({moves}) => html`
   <div id="scene" class="cards">
@@ -193,7 +188,7 @@ function results({last, second}) {
         <ul id="jobs" aria-live="polite">${state.jobs.map(job)}</ul></div>
       <div id="checks">${state.checks.length > 0 && table("Проверки расчёта", state.checks.map(c =>
         row([[c.title], [printed(c.value), "n"], verdict(c)])))}</div>
-      ${list(state.warnings, "warn")}
+      ${list([...last.warnings, ...state.remarks], "warn")}
       <div id="summary">${last.results.map(({id, title, rows}) => html`
         <details key=${id} open=${/^(summary_torque|geometry)/.test(id)}><summary>${title}</summary>
           ${table(title, rows.map(r => row([[r.title], [symbol(r.symbol), "s"], [r.text, "n"],
@@ -201,28 +196,26 @@ function results({last, second}) {
     </section>`;
 }
 
-async function begin() {
-  Object.assign(state, {
-    raw: null, other: null, past: [], groups: [], sheets: [], absent: {}, sheet: "П4.1", cylinder: 0, phi: 0,
-    typed: {}, wrong: [], warnings: [], checks: [], jobs: [], find: "", isNew: true, theme: 0, last: null,
-    open: new Set(innerWidth > 900 ? ["engine", "geometry", "regime"] : []), choices: await ask("api/choices"),
-  });
-  show(() => html`
-    <a class="skip" href="#results">К результатам</a>
-    <header><h1>Кривошипно-шатунный механизм</h1>
-      <nav aria-label="Страницы"><a href="teacher">Преподавателю</a></nav></header>
-    <main>${data()}${state.last && results(state)}</main>
-    <nav id="places" aria-label="Части страницы"><a href="#data">Данные</a> <a href="#results">Диаграммы</a>
-      <a href="#files">Файлы</a></nav>`);
-  for (const media of ["(prefers-color-scheme: dark)", "print"]) // colours are drawn in
-    matchMedia(media).addEventListener("change", () => set({theme: state.theme + 1}));
-  try {
-    const hash = location.hash.slice(1), text = hash && LZString.decompressFromEncodedURIComponent(hash);
-    const {raw, other} = text ? {raw: JSON.parse(text)} : JSON.parse(localStorage.getItem("kshm"));
-    set({other, isNew: false});
-    await open(raw, false);
-  } catch { /* a damaged link or store is none */ }
-  if (!state.raw) await fresh(ask("api/new", {sample: "gots-diesel"})).then(() => set({isNew: true}));
-}
+const page = () => html`
+  <a class="skip" href="#results">К результатам</a>
+  <header><h1>Кривошипно-шатунный механизм</h1>
+    <nav aria-label="Страницы"><a href="teacher">Преподавателю</a></nav></header>
+  <main>${data()}${state.last && results(state)}</main>
+  <nav id="places" aria-label="Части страницы"><a href="#data">Данные</a> <a href="#results">Диаграммы</a>
+    <a href="#files">Файлы</a></nav>`;
+
+set({
+  raw: null, other: null, past: [], groups: [], sheets: [], absent: {}, sheet: "П4.1", cylinder: 0, phi: 0,
+  typed: {}, wrong: [], checks: [], remarks: [], jobs: [], find: "", isNew: true, theme: 0, last: null,
+  open: new Set(innerWidth > 900 ? ["engine", "geometry", "regime"] : []), choices: await ask("api/choices"),
+}, page);
+for (const media of ["(prefers-color-scheme: dark)", "print"]) // colours are drawn in
+  matchMedia(media).addEventListener("change", () => set({theme: state.theme + 1}));
 Object.assign(window, {kshm: state, ask, fresh, turn}); // for a person's console and for the tests
-begin();
+try {
+  const hash = location.hash.slice(1), text = hash && LZString.decompressFromEncodedURIComponent(hash);
+  const {raw, other} = text ? {raw: JSON.parse(text)} : JSON.parse(localStorage.kshm);
+  set({other, isNew: false});
+  await open(raw, false);
+} catch { /* a damaged link or store is none */ }
+if (!state.raw) await fresh(ask("api/new", {sample: "gots-diesel"})).then(() => set({isNew: true}));

@@ -1,5 +1,5 @@
 // A student's page: the own book taken and handed in, and its page once it is open.
-import {alerts, ask, html, picker, printed, send, set, show, state} from "./common.js";
+import {alerts, ask, html, picker, printed, send, set, state} from "./common.js";
 
 const door = `../../api/student/${location.pathname.split("/").filter(Boolean).at(-1)}`;
 
@@ -18,5 +18,4 @@ function own({student, title, handed, status, points, file, open}) {
       <a id="page" class="<button>" href=${`${door}/page`} hidden=${!open}>Страница проверки</a></p>`;
 }
 
-Object.assign(state, await ask(door));
-show(() => html`<main class="single">${alerts(state.errors)}${state.student ? own(state) : html`<h1>Моя работа</h1>`}</main>`);
+set(await ask(door), () => html`<main class="single">${alerts(state.errors)}${state.student ? own(state) : html`<h1>Моя работа</h1>`}</main>`);

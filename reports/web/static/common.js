@@ -39,8 +39,8 @@ export const options = (list, chosen) => list.map(([value, label, title]) =>
 export const row = (cells, more) => html`
   <tr ...${more}>${cells.map(([text, name]) => html`<td class=${name}>${text}</td>`)}</tr>`;
 export const table = (caption, rows, head) => html`
-  <div class="scroll" tabindex="0" role="region" aria-label=${caption}>
-    <table><caption>${caption}</caption>${head}<tbody>${rows}</tbody></table>
+  <div class="overflow:auto" tabindex="0" role="region" aria-label=${caption}>
+    <table class="width:100%"><caption>${caption}</caption>${head}<tbody>${rows}</tbody></table>
   </div>`;
 export const list = (problems, name, more) => html`
   <ul class=${`${name} color`} ...${more}>${problems.map(p => html`<li>${line(p)}</li>`)}</ul>`;

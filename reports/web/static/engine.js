@@ -152,7 +152,6 @@ const scene = ({moves}) => html`
     <figure>${mechanism(moves, state.phi)}<figcaption><label>Механизм, цилиндр
       <select id="cylinder" onChange=${e => asked({cylinder: Number(e.target.value)})}>
         ${options(Array.from({length: moves.cylinders}, (_, i) => [i, i + 1]), moves.cylinder)}</select></label></figcaption></figure>
-    <figure>${star(moves, state.phi)}<figcaption>Звезда кривошипов</figcaption></figure>
     <div>
       <label for="phi">Угол φ: ${printed(state.phi)}°</label>
       <input id="phi" type="range" min="0" max=${moves.phi.at(-1)} step="1" value=${state.phi}
@@ -161,6 +160,7 @@ const scene = ({moves}) => html`
       ${table("Удельные силы при φ", Object.values(moves.forces).map(f =>
         row([[symbol(f.symbol)], [printed(between(moves.phi, f.values, state.phi)), "n"], [f.unit, "s"]])))}
     </div>
+    <figure>${star(moves, state.phi)}<figcaption>Звезда кривошипов</figcaption></figure>
   </div>`;
 
 const job = ({id, title, state: now, place, seconds, files = [], lines, errors}) => html`<li>${`${title}: `}
@@ -176,7 +176,7 @@ const verdict = ({ok, reason}) =>
 function results({last, second}) {
   const others = new Map((second?.results || []).flatMap(t => t.rows.map(r => [r.key, r.text])));
   return html`
-    <section id="results" aria-label="Результаты" tabindex="-1" class=${state.wrong.length ? "late" : ""}>
+    <section id="results" aria-label="Результаты" tabindex="-1" class=${`margin:0 ${state.wrong.length ? "late" : ""}`}>
       <h2>${state.raw.engine?.name || "Двигатель"}</h2>
       ${scene(last)}
       <p><label>Диаграммы листа <select id="sheet" onChange=${e => asked({sheet: e.target.value})}>
@@ -198,10 +198,10 @@ function results({last, second}) {
 
 const page = () => html`
   <a class="skip" href="#results">К результатам</a>
-  <header><h1>Кривошипно-шатунный механизм</h1>
+  <header class="f-row flex-wrap:wrap align-items:baseline margin:0 padding-block:0"><h1>Кривошипно-шатунный механизм</h1>
     <nav aria-label="Страницы"><a href="teacher">Преподавателю</a></nav></header>
   <main>${data()}${state.last && results(state)}</main>
-  <nav id="places" aria-label="Части страницы"><a href="#data">Данные</a> <a href="#results">Диаграммы</a>
+  <nav id="places" class="f-row justify-content:space-around padding" aria-label="Части страницы"><a href="#data">Данные</a> <a href="#results">Диаграммы</a>
     <a href="#files">Файлы</a></nav>`;
 
 set({

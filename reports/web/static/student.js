@@ -18,4 +18,4 @@ function own({student, title, handed, status, points, file, open}) {
       <a id="page" class="<button>" href=${`${door}/page`} hidden=${!open}>Страница проверки</a></p>`;
 }
 
-set(await ask(door), () => html`<main class="single">${alerts(state.errors)}${state.student ? own(state) : html`<h1>Моя работа</h1>`}</main>`);
+set(await ask(door), () => html`<main>${alerts(state.errors)}${state.student ? own(state) : html`<h1>Моя работа</h1>`}</main>`);

@@ -1,47 +1,36 @@
 // The instructor's page: a class issued, handed in, graded, decided, taken to Moodle.
-import {alerts, ask, given, html, list, options, picker, printed, row, send, set, show, state, table} from "./common.js";
+import {alerts, ask, given, html, list, options, picker, printed, row, send, set, state, table} from "./common.js";
 
 const door = path => `api/teacher/${state.chosen}/${path}`;
 const isBusy = () => ["waiting", "running"].includes(state.own.state);
 
-async function enter() {
-  const {classes = [], errors} = await ask("api/teacher");
-  set({inside: !errors, classes, chosen: state.chosen || classes[0]?.name || ""});
-  await look();
-}
-
 let timer = 0;
-async function look(news = "") {
+async function look(news = "") { // at the chosen class, again and again while something is done
   clearTimeout(timer);
-  const own = state.chosen && await send(`api/teacher/${state.chosen}`);
-  if (own) set({own, news});
+  const {classes = [], errors} = await ask("api/teacher"), chosen = state.chosen || classes[0]?.name;
+  const own = chosen ? await send(`api/teacher/${chosen}`) : null;
+  set({inside: !errors, classes, chosen, own, news});
   if (own && isBusy()) timer = setTimeout(look, 1000);
 }
 
 async function act(path, data, news) {
-  if (await send(door(path), data)) await look(news);
-}
-
-async function login(data) {
-  if (await send("api/login", data)) await enter();
+  if (await send(path, data)) await look(news);
 }
 
 // A list in Windows-1251 is a list as well.
 async function text(file) {
-  const bytes = await file.arrayBuffer();
-  try { return new TextDecoder("utf-8", {fatal: true}).decode(bytes); } catch {
-    return new TextDecoder("windows-1251").decode(bytes);
-  }
+  const bytes = await file.arrayBuffer(), plain = new TextDecoder().decode(bytes);
+  return plain.includes("\ufffd") ? new TextDecoder("windows-1251").decode(bytes) : plain;
 }
 
 async function issue(event) {
   const form = event.target, data = given(event);
-  for (const [key, value] of Object.entries(data)) if (value instanceof File) data[key] = await text(value);
+  for (const key of ["base.toml", "roster.csv", "rubric.toml"]) data[key] = await text(data[key]);
   const made = await send("api/teacher", data);
   if (!made) return;
   form.reset();
   set({chosen: made.name});
-  await enter();
+  await look();
 }
 
 function status({state: now, students, rows, graded}) {
@@ -51,7 +40,7 @@ function status({state: now, students, rows, graded}) {
   return rows.some(each => each.manual) ? "Проверено; есть работы, которые ждут вашего решения." : "Проверено.";
 }
 
-const loaded = name => file => act(`file/${name}`, file, `${file.name}: загружено`);
+const loaded = name => file => act(door(`file/${name}`), file, `${file.name}: загружено`);
 const link = (path, title, more) => html`<a href=${door(`file/${path}`)} ...${more}>${title}</a>`;
 
 const tools = own => html`
@@ -59,9 +48,9 @@ const tools = own => html`
     ${link("issued.zip", "Рабочие книги .zip", {class: "<button>", download: "issued.zip"})}
     ${picker("Загрузить архив работ .zip", ".zip", loaded("moodle.zip"))}
     ${picker("Ведомость Moodle .csv", ".csv", loaded("worksheet.csv"))}
-    <button id="grade" disabled=${isBusy()} onClick=${() => act("grade", {})}>Проверить</button>
+    <button id="grade" disabled=${isBusy()} onClick=${() => act(door("grade"), {})}>Проверить</button>
     <label><input id="open" type="checkbox" checked=${own.open}
-      onChange=${e => act("open", {open: e.target.checked})} /> студенты видят свои страницы</label>
+      onChange=${e => act(door("open"), {open: e.target.checked})} /> студенты видят свои страницы</label>
   </p>`;
 
 const gradebook = own => table("Ведомость", own.rows.map(each => {
@@ -76,7 +65,7 @@ const gradebook = own => table("Ведомость", own.rows.map(each => {
 // What waits for a person stands open; the rest is a click away.
 function decision({number, student, manual, unknown}) {
   const decide = event => {
-    act("grade", {who: String(number), ...given(event)}, "Решение принято.");
+    act(door("grade"), {who: String(number), ...given(event)}, "Решение принято.");
     event.target.reset();
   };
   return html`
@@ -117,10 +106,10 @@ const issuing = () => html`
     </form></details>`;
 
 const page = () => html`
-  <header><h1>Группы</h1><nav aria-label="Страницы"><a href="./">Двигатель</a></nav></header>
-  <main class="single">
+  <header class="f-row flex-wrap:wrap align-items:baseline margin:0 padding-block:0"><h1>Группы</h1><nav aria-label="Страницы"><a href="./">Двигатель</a></nav></header>
+  <main>
     ${alerts(state.errors)}
-    ${state.inside === false && html`<form id="login" onSubmit=${e => login(given(e))}>
+    ${state.inside === false && html`<form id="login" onSubmit=${e => act("api/login", given(e))}>
       ${asked("Ключ преподавателя", "token", {type: "password", autocomplete: "current-password", required: true})}
       <button>Войти</button></form>`}
     ${state.inside && html`<div id="inside">${issuing()}
@@ -129,9 +118,8 @@ const page = () => html`
       ${state.own && room(state.own)}</div>`}
   </main>`;
 
-Object.assign(state, {classes: [], chosen: "", own: null, news: ""});
-show(page);
+set({chosen: "", own: null}, page);
 const token = decodeURIComponent(location.hash.slice(1)); // the printed address: the key goes to no log
 history.replaceState(null, "", location.pathname);
-if (token) await login({token});
-await enter();
+if (token) await send("api/login", {token});
+await look();

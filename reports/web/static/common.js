@@ -29,10 +29,8 @@ export async function send(path, data) { // an answer, or nothing and its errors
   return errors ? null : answer;
 }
 
-export function given(event) { // what a form says
-  event.preventDefault();
-  return Object.fromEntries(new FormData(event.target));
-}
+addEventListener("submit", event => event.preventDefault()); // each form has its own question
+export const given = event => Object.fromEntries(new FormData(event.target));
 
 export const options = (list, chosen) => list.map(([value, label, title]) =>
   html`<option key=${value} value=${value} title=${title} selected=${value === chosen}>${label}</option>`);

@@ -5,16 +5,17 @@ import {alerts, ask, given, html, list, options, picker, printed, row, send, set
 import {put, section} from "./fields.js";
 import {mechanism, star} from "./moving.js";
 
-const copy = structuredClone, entries = Object.entries;
+const {entries} = Object;
 
 // --- what is asked of the server ---
-async function open(raw, keep = true) {
-  const {errors, ...shape} = await ask("api/start", {raw});
-  if (!shape.groups) return set({errors});
-  if (keep && state.raw) remember();
+// An input that comes from somewhere takes the page; its fields and charts are asked for.
+async function fresh(coming, keep = true) {
+  const {raw, errors} = await coming, {errors: wrong, ...shape} = raw ? await ask("api/start", {raw}) : {};
+  if (!shape.groups) return set({errors: errors ?? wrong});
+  if (keep && state.raw) Object.assign(state, {past: remembered(), isNew: false});
   if (!shape.sheets.length) delete shape.sheets;
   else if (!shape.sheets.some(([id]) => id === state.sheet)) [[shape.sheet]] = shape.sheets;
-  set({...shape, typed: {}, touched: null});
+  set({...shape, typed: {}, touched: null, errors: []});
   document.title = `${state.raw.engine?.name || "Двигатель"} — КШМ`;
   await solve();
 }
@@ -38,43 +39,28 @@ async function solve() {
 }
 
 async function order(kind, title) {
-  const job = {title, ...await send("api/files", {raw: state.raw, other: state.other, kind})};
-  if (!job.id || state.jobs.some(({id, lines}) => id === job.id && !lines)) return;
-  state.jobs.unshift(job);
-  for (; !job.lines && !job.errors; await new Promise(done => setTimeout(done, 700))) {
+  const {raw, other} = state, job = {title, ...await send("api/files", {raw, other, kind})};
+  if (job.id) state.jobs = [job, ...state.jobs.filter(({id}) => id !== job.id)];
+  for (; job.id && !job.lines && !job.errors; await new Promise(done => setTimeout(done, 700))) {
     Object.assign(job, await ask(`api/files/${job.id}`));
     set({});
   }
 }
 
 // --- what a person does ---
-function remember() {
-  const text = JSON.stringify(state.raw);
-  if (state.past.at(-1) !== text) state.past = [...state.past, text].slice(-200);
-}
+const remembered = () => [...state.past, JSON.stringify(state.raw)].slice(-200);
+const back = () => fresh({raw: JSON.parse(state.past.pop())}, false);
 
-function change(f, value, shape = false) {
-  if (state.touched !== f.key || shape) remember(); // one step of undo for one field
-  state.touched = f.key;
-  const plain = value.trim().replace(",", ".").replace("−", "-");
-  put(state.raw, f.path, f.number && /^-?\d+(\.\d+)?$/.test(plain) ? Number(plain) : value.trim());
-  state.typed[f.key] = value;
-  if (shape) open(state.raw, false);
-  else solve();
-}
-
-async function edited(key, path, value) { // a change that alters the shape
-  const raw = copy(state.raw);
+// A value at a place; other fields may come and go with it.
+async function change(key, path, value, reshapes) {
+  if (state.touched !== key || reshapes) state.past = remembered(); // one step of undo for one field
+  state.touched = key;
+  const raw = reshapes ? structuredClone(state.raw) : state.raw;
   put(raw, path, value);
+  if (!reshapes) return solve();
   state.open.add(key);
-  await open(raw);
+  await fresh({raw}, false);
   if (document.activeElement === document.body) document.querySelector(`[data-key="${key}"] summary`)?.focus();
-}
-
-async function fresh(answering) {
-  const {raw, errors = []} = await answering;
-  set({errors, isNew: state.isNew && !raw});
-  if (raw) await open(raw);
 }
 
 const turn = phi => set({phi: Number(phi)});
@@ -96,7 +82,6 @@ async function link() {
 const asked = changes => { Object.assign(state, changes); solve(); };
 const upload = async file => fresh(/\.xlsx$/i.test(file.name)
   ? ask("api/book", file) : ask("api/read", {text: await file.text()}));
-const back = () => open(JSON.parse(state.past.pop()), false);
 
 function compose(event) {
   const {cylinders, layout, ...own} = given(event), more = event.submitter.name ? {raw: state.raw} : own;
@@ -137,14 +122,14 @@ const data = () => html`
       <button id="undo" disabled=${!state.past.length} onClick=${back}>Отменить</button>
       <button id="save" onClick=${save}>Скачать .toml</button>
       <button id="link" onClick=${link}>${state.linked ? "Ссылка в адресе" : "Ссылка"}</button>
-      <button id="keep" onClick=${() => asked({other: copy(state.raw)})}>Сравнить с этим</button>
+      <button id="keep" onClick=${() => asked({other: structuredClone(state.raw)})}>Сравнить с этим</button>
       <button id="drop" hidden=${!state.other} onClick=${() => asked({other: null})}>Убрать второй</button></p>
     ${alerts([...state.errors, ...state.wrong])}
     <p><label>Найти поле <input id="find" type="search" autocomplete="off" value=${state.find}
       onInput=${e => set({find: e.target.value})} /></label></p>
-    <div id="fields">${state.groups.map(group => section(group, edited, change))}</div>
+    <div id="fields">${state.groups.map(group => section(group, change))}</div>
     <p class="tool-bar">Добавить раздел: ${entries(state.absent).map(([id, title]) =>
-      html`<button onClick=${() => edited(...begun(id))}>${title}</button>`)}</p>
+      html`<button onClick=${() => change(...begun(id), true)}>${title}</button>`)}</p>
   </section>`;
 
 const scene = ({moves}) => html`
@@ -215,7 +200,8 @@ Object.assign(window, {kshm: state, ask, fresh, turn}); // for a person's consol
 try {
   const hash = location.hash.slice(1), text = hash && LZString.decompressFromEncodedURIComponent(hash);
   const {raw, other} = text ? {raw: JSON.parse(text)} : JSON.parse(localStorage.kshm);
-  set({other, isNew: false});
-  await open(raw, false);
+  set({other});
+  await fresh({raw}, false);
+  set({isNew: false});
 } catch { /* a damaged link or store is none */ }
-if (!state.raw) await fresh(ask("api/new", {sample: "gots-diesel"})).then(() => set({isNew: true}));
+if (!state.raw) await fresh(ask("api/new", {sample: "gots-diesel"}));

@@ -15,13 +15,18 @@ const of = (problems, key) => problems.filter(p => p.where === key);
 const said = (problems, name) => problems.map(p => html`<div class=${name}>${words(p)}</div>`);
 const allSaid = key => [said(of(state.wrong, key), "error bad color"), said(of(state.last?.warnings ?? [], key), "warn color")];
 
-// A group; `edited` changes the shape of the input, `change` a value.
-export function section({title, key, path, entries, blank, drawing, whole}, edited, change) {
+// What is typed: a number in the Russian or the English way, or words.
+function meant({number}, text) {
+  const plain = text.trim().replace(",", ".").replace("−", "-");
+  return number && /^-?\d+(\.\d+)?$/.test(plain) ? Number(plain) : text.trim();
+}
+
+export function section({title, key, path, entries, blank, drawing, whole}, change) {
   const wanted = state.find.trim().toLowerCase(), all = entries.flat();
   const found = f => `${f.title} ${f.key} ${f.symbol}`.toLowerCase().includes(wanted);
   const isWrong = [key, ...all.map(f => f.key)].some(each => of(state.wrong, each).length);
   const list = path?.reduce((part, each) => part?.[each], state.raw) ?? []; // it grows by its last entry
-  const button = (label, ...what) => html`<button onClick=${() => edited(key, ...what)}>${label}</button>`;
+  const button = (label, at, value) => html`<button onClick=${() => change(key, at, value, true)}>${label}</button>`;
   const fields = entry => entry.filter(found).map(f => field(f, change));
   return html`
     <details key=${key} data-key=${key} open=${wanted || isWrong || state.open.has(key)}
@@ -40,6 +45,7 @@ export function section({title, key, path, entries, blank, drawing, whole}, edit
 
 function field(f, change) {
   const text = state.typed[f.key] ?? shown(f.value), id = `f-${f.key}`;
+  const type = value => change(f.key, f.path, meant(f, state.typed[f.key] = value), Boolean(f.choices));
   const told = {id, "aria-describedby": `h-${f.key} e-${f.key}`, "aria-invalid": of(state.wrong, f.key).length > 0};
   const range = f.number && `от ${printed(f.min, 9)} до ${printed(f.max, 9)} ${f.unit}`;
   const empty = f.optional || f.value === null ? [["", "—"]] : [];
@@ -47,20 +53,20 @@ function field(f, change) {
     <div key=${f.key} class=${f.number || f.choices ? "field" : "field wide"} data-key=${f.key}>
       <label for=${id}>${f.title}${f.symbol && ", "}${symbol(f.symbol)}</label>
       ${f.choices
-        ? html`<select ...${told} onChange=${e => change(f, e.target.value, true)}>
+        ? html`<select ...${told} onChange=${e => type(e.target.value)}>
             ${options([...empty, ...Object.entries(f.choices)], text)}</select>`
         : html`<input ...${told} value=${text} inputmode=${f.number && "decimal"} autocomplete="off"
-            maxlength="300" onInput=${e => change(f, e.target.value)} />`}
-      <span>${f.unit}</span>${slider(f, text, change)}
+            maxlength="300" onInput=${e => type(e.target.value)} />`}
+      <span>${f.unit}</span>${slider(f, text, type)}
       <small id=${`h-${f.key}`}>${[range, f.optional && "можно не задавать", f.key].filter(Boolean).join(" · ")}</small>
       <div id=${`e-${f.key}`}>${allSaid(f.key)}</div>
     </div>`;
 }
 
-function slider(f, text, change) { // two figures of its ends are round enough for its step
+function slider(f, text, type) { // two figures of its ends are round enough for its step
   if (!f.number || typeof f.value !== "number" || !f.value || f.key.includes("[")) return null;
   const span = Math.abs(f.value) * .4;
   return html`<input type="range" aria-label=${`${f.title}: подвинуть`} step=${10 ** Math.floor(Math.log10(span / 50))}
     min=${Math.max(f.min, f.value - span).toPrecision(2)} max=${Math.min(f.max, f.value + span)}
-    value=${text.replace(",", ".")} onInput=${e => change(f, shown(Number(e.target.value)))} />`;
+    value=${text.replace(",", ".")} onInput=${e => type(shown(Number(e.target.value)))} />`;
 }

@@ -24,12 +24,12 @@ async function text(file) {
 }
 
 async function issue(event) {
-  const form = event.target, data = given(event);
+  const data = given(event);
   for (const key of ["base.toml", "roster.csv", "rubric.toml"]) data[key] = await text(data[key]);
   const made = await send("api/teacher", data);
   if (!made) return;
-  form.reset();
-  set({chosen: made.name});
+  event.target.reset();
+  state.chosen = made.name;
   await look();
 }
 
@@ -43,17 +43,7 @@ function status({state: now, students, rows, graded}) {
 const loaded = name => file => act(door(`file/${name}`), file, `${file.name}: загружено`);
 const link = (path, title, more) => html`<a href=${door(`file/${path}`)} ...${more}>${title}</a>`;
 
-const tools = own => html`
-  <p class="tool-bar">
-    ${link("issued.zip", "Рабочие книги .zip", {class: "<button>", download: "issued.zip"})}
-    ${picker("Загрузить архив работ .zip", ".zip", loaded("moodle.zip"))}
-    ${picker("Ведомость Moodle .csv", ".csv", loaded("worksheet.csv"))}
-    <button id="grade" disabled=${isBusy()} onClick=${() => act(door("grade"), {})}>Проверить</button>
-    <label><input id="open" type="checkbox" checked=${own.open}
-      onChange=${e => act(door("open"), {open: e.target.checked})} /> студенты видят свои страницы</label>
-  </p>`;
-
-const gradebook = own => table("Ведомость", own.rows.map(each => {
+const gradebook = rows => table("Ведомость", rows.map(each => {
   const points = each.points ?? each.provisional, judged = each.number && each.page;
   const shown = each.points === null && points !== null ? `(${printed(points)})` : printed(points);
   return row([[judged ? link(each.page, each.student, {target: "_blank"}) : each.student], [each.status],
@@ -62,35 +52,35 @@ const gradebook = own => table("Ведомость", own.rows.map(each => {
 }), html`<thead><tr>${["Студент", "Состояние", "Баллы", "Примечание", "Решение"].map(title =>
   html`<th scope="col">${title}</th>`)}</tr></thead>`);
 
-// What waits for a person stands open; the rest is a click away.
-function decision({number, student, manual, unknown}) {
-  const decide = event => {
-    act(door("grade"), {who: String(number), ...given(event)}, "Решение принято.");
-    event.target.reset();
-  };
-  return html`
-    <details open=${manual}><summary aria-label=${`Решить: ${student}`}>Решить</summary>
-      <form onSubmit=${decide}>
-        <select name="what" aria-label=${`Что решить: ${student}`}>
-          ${options([["всё", "вся работа"], ...unknown.map(item => [item, item])])}</select>
-        <input name="points" aria-label=${`Баллы: ${student}`} size="12" placeholder="баллы, + или -" required />
-        <input name="remark" aria-label=${`Примечание: ${student}`} placeholder="примечание" maxlength="300" />
-        <button>Решить</button>
-      </form></details>`;
+function decide(event, number) {
+  act(door("grade"), {who: String(number), ...given(event)}, "Решение принято.");
+  event.target.reset();
 }
 
-const room = own => html`
-  <div id="class">
-    <p role="status" class=${own.state === "failed" ? "bad color" : ""}>${state.news} ${status(own)}</p>
-    ${list(own.lines || [], own.state === "failed" ? "bad" : "warn")}
-    ${own.students.length > 0 && tools(own)}
-    <p id="results" class="tool-bar">${own.files.map(name => link(name, name,
-      name.endsWith(".html") ? {target: "_blank"} : {download: name}))}</p>
-    ${own.rows.length > 0 && gradebook(own)}
-    ${own.students.length > 0 && html`<details id="links" open><summary>Ссылки студентов</summary><ul>
-      ${own.students.map(each => html`<li><a href=${`s/${each.link}/`}>${each.name}</a>${each.group && `, ${each.group}`}
-        ${each.handed && " — сдал здесь"}</li>`)}</ul></details>`}
-  </div>`;
+// What waits for a person stands open; the rest is a click away.
+const decision = ({number, student, manual, unknown}) => html`
+  <details open=${manual}><summary aria-label=${`Решить: ${student}`}>Решить</summary>
+    <form onSubmit=${e => decide(e, number)}>
+      <select name="what" aria-label=${`Что решить: ${student}`}>
+        ${options([["всё", "вся работа"], ...unknown.map(item => [item, item])])}</select>
+      <input name="points" aria-label=${`Баллы: ${student}`} size="12" placeholder="баллы, + или -" required />
+      <input name="remark" aria-label=${`Примечание: ${student}`} placeholder="примечание" maxlength="300" />
+      <button>Решить</button></form></details>`;
+
+const issued = ({open, students, rows, files}) => html`
+  <p class="tool-bar">
+    ${link("issued.zip", "Рабочие книги .zip", {class: "<button>", download: "issued.zip"})}
+    ${picker("Загрузить архив работ .zip", ".zip", loaded("moodle.zip"))}
+    ${picker("Ведомость Moodle .csv", ".csv", loaded("worksheet.csv"))}
+    <button id="grade" disabled=${isBusy()} onClick=${() => act(door("grade"), {})}>Проверить</button>
+    <label><input id="open" type="checkbox" checked=${open}
+      onChange=${e => act(door("open"), {open: e.target.checked})} /> студенты видят свои страницы</label></p>
+  <p id="results" class="tool-bar">${files.map(name => link(name, name,
+    name.endsWith(".html") ? {target: "_blank"} : {download: name}))}</p>
+  ${rows.length > 0 && gradebook(rows)}
+  <details id="links" open><summary>Ссылки студентов</summary>
+    <ul>${students.map(each => html`<li><a href=${`s/${each.link}/`}>${each.name}</a>
+      ${each.group && `, ${each.group}`}${each.handed && " — сдал здесь"}</li>`)}</ul></details>`;
 
 const asked = (title, name, more) => html`<label>${title} <input id=${name.split(".")[0]} name=${name} ...${more} /></label>`;
 
@@ -102,11 +92,11 @@ const issuing = () => html`
       ${asked("Список группы, .csv", "roster.csv", {type: "file", accept: ".csv,.txt", required: true})}
       ${asked("Рубрика, .toml (можно без неё)", "rubric.toml", {type: "file", accept: ".toml"})}
       ${asked("Зерно", "seed", {type: "number", defaultValue: 1, required: true})}
-      <button>Выдать</button>
-    </form></details>`;
+      <button>Выдать</button></form></details>`;
 
 const page = () => html`
-  <header class="f-row flex-wrap:wrap align-items:baseline margin:0 padding-block:0"><h1>Группы</h1><nav aria-label="Страницы"><a href="./">Двигатель</a></nav></header>
+  <header class="f-row flex-wrap:wrap align-items:baseline margin:0 padding-block:0"><h1>Группы</h1>
+    <nav aria-label="Страницы"><a href="./">Двигатель</a></nav></header>
   <main>
     ${alerts(state.errors)}
     ${state.inside === false && html`<form id="login" onSubmit=${e => act("api/login", given(e))}>
@@ -115,7 +105,9 @@ const page = () => html`
     ${state.inside && html`<div id="inside">${issuing()}
       <p><label>Группа <select id="classes" onChange=${e => { set({chosen: e.target.value, own: null}); look(); }}>
         ${options(state.classes.map(c => [c.name, `${c.title}, ${c.date.slice(0, 10)}`]), state.chosen)}</select></label></p>
-      ${state.own && room(state.own)}</div>`}
+      ${state.own && html`<div id="class"><p role="status">${state.news} ${status(state.own)}</p>
+        ${list(state.own.lines || [], state.own.state === "failed" ? "bad" : "warn")}
+        ${state.own.students.length > 0 && issued(state.own)}</div>`}</div>`}
   </main>`;
 
 set({chosen: "", own: null}, page);

@@ -26,10 +26,10 @@ function square(curves) { // limits of both axes, which have one scale
 }
 
 function cursor({canvas, ctx, scales: {x, y}}) { // a line at φ and a point of each curve, or of the path
-  const {own: {path}, phi, curves} = canvas.props, here = curves.filter(c => c.at !== null);
-  const dots = here.map(c => [phi, c.at, c.borderColor]);
+  const {own: {path}, phi, curves} = canvas.props;
+  const dots = curves.filter(c => c.at !== null).map(c => [phi, c.at, c.borderColor]);
   ctx.fillStyle = "#888";
-  if (here.length) ctx.fillRect(x.getPixelForValue(phi), y.top, 1, y.height);
+  if (dots.length) ctx.fillRect(x.getPixelForValue(phi), y.top, 1, y.height);
   const place = key => between(path.phi, path[key], phi % path.phi.at(-1) || phi);
   if (path) dots.push([place("x"), place("y"), COLOURS[0]]);
   for (const [px, py, colour] of dots) {
@@ -41,10 +41,10 @@ function cursor({canvas, ctx, scales: {x, y}}) { // a line at φ and a point of 
 }
 
 function draw(canvas, props) {
-  const before = canvas.props, chart = Chart.getChart(canvas);
+  const before = canvas.props, chart = Chart.getChart(canvas), {own, curves: datasets, color} = props;
   canvas.props = props;
-  if (before && ["own", "other", "theme"].every(key => before[key] === props[key])) return chart.draw();
-  const {own, curves: datasets} = props, {color} = getComputedStyle(document.body), plain = own.kind === "line";
+  if (before && ["own", "other", "color"].every(key => before[key] === props[key])) return chart.draw();
+  const plain = own.kind === "line";
   const [x, y] = plain ? [{bounds: own.x_is_angle ? "data" : "ticks"}, {}] : square(datasets);
   const axis = (text, reverse, ends, stepSize) => ({
     type: "linear", reverse, display: plain || own.kind === "polar", grid: {color: "#8884"}, ...ends,
@@ -68,12 +68,12 @@ function draw(canvas, props) {
 
 // A chart with its legend, which says the values at φ.
 export function figure(given) {
-  const {own} = given, curves = curvesOf(given);
+  const {own} = given, curves = curvesOf(given), {color} = getComputedStyle(document.body);
   return html`
     <figure key=${own.id} id=${`chart-${own.id}`}>
       <figcaption>${own.title}</figcaption>
-      <div class="plot" style=${`aspect-ratio: ${own.kind === "line" ? 1.6 : 1}`}>
-        <canvas ref=${canvas => canvas && draw(canvas, {...given, curves})} role="img" aria-label=${own.title} /></div>
+      <div style=${`position: relative; min-height: 0; aspect-ratio: ${own.kind === "line" ? 1.6 : 1}`}>
+        <canvas ref=${canvas => canvas && draw(canvas, {...given, curves, color})} role="img" aria-label=${own.title} /></div>
       <ul class="legend">${curves.map(({label, borderColor, line, at}) => html`
         <li style=${`--ink: ${line} ${borderColor}`}>${symbol(label)} <output>${printed(at, 5)}</output></li>`)}</ul>
     </figure>`;

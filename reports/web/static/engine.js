@@ -20,22 +20,18 @@ async function fresh(coming, keep = true) {
   await solve();
 }
 
-let again = false;
 async function solve() {
-  again = true;
-  if (state.running) return set({}); // at most one question on its way
-  while (again) {
-    again = false;
-    set({running: true});
-    const {raw, other, sheet, cylinder} = state, answer = raw => raw && ask("api/solve", {raw, sheet, cylinder});
-    try { localStorage.kshm = JSON.stringify({raw, other}); } catch { /* private window */ }
-    const [last, second] = await Promise.all([answer(raw), answer(other)]);
-    const phi = last.errors ? 0 : Math.min(state.phi, last.moves.phi.at(-1)); // of a cycle that may be shorter
-    set(last.errors ? {wrong: last.errors} : {wrong: [], last, second, phi});
-  }
-  set({running: false});
-  const {last} = state; // the checks take longer: they wait until nothing has changed for a while
-  setTimeout(async () => last === state.last && set(await send("api/checks", {raw: state.raw})), 400);
+  if (state.running) return set({again: true}); // at most one question on its way
+  clearTimeout(state.later);
+  set({running: true, again: false});
+  const {raw, other, sheet, cylinder} = state, answer = raw => raw && ask("api/solve", {raw, sheet, cylinder});
+  try { localStorage.kshm = JSON.stringify({raw, other}); } catch { /* private window */ }
+  const [last, second] = await Promise.all([answer(raw), answer(other)]);
+  const phi = last.errors ? 0 : Math.min(state.phi, last.moves.phi.at(-1)); // of a cycle that may be shorter
+  set({running: false, ...last.errors ? {wrong: last.errors} : {wrong: [], last, second, phi}});
+  if (state.again) return solve();
+  // The checks take longer: they wait until nothing has changed for a while.
+  if (!last.errors) state.later = setTimeout(async () => set(await send("api/checks", {raw})), 400);
 }
 
 async function order(kind, title) {
@@ -190,12 +186,12 @@ const page = () => html`
     <a href="#files">Файлы</a></nav>`;
 
 set({
-  raw: null, other: null, past: [], groups: [], sheets: [], absent: {}, sheet: "П4.1", cylinder: 0, phi: 0,
-  typed: {}, wrong: [], checks: [], remarks: [], jobs: [], find: "", isNew: true, theme: 0, last: null,
-  open: new Set(innerWidth > 900 ? ["engine", "geometry", "regime"] : []), choices: await ask("api/choices"),
+  past: [], groups: [], sheets: [], absent: {}, sheet: "П4.1", cylinder: 0, phi: 0, typed: {}, wrong: [],
+  checks: [], remarks: [], jobs: [], find: "", isNew: true, choices: await ask("api/choices"),
+  open: new Set(innerWidth > 900 ? ["engine", "geometry", "regime"] : []),
 }, page);
 for (const media of ["(prefers-color-scheme: dark)", "print"]) // colours are drawn in
-  matchMedia(media).addEventListener("change", () => set({theme: state.theme + 1}));
+  matchMedia(media).addEventListener("change", () => set({}));
 Object.assign(window, {kshm: state, ask, fresh, turn}); // for a person's console and for the tests
 try {
   const hash = location.hash.slice(1), text = hash && LZString.decompressFromEncodedURIComponent(hash);

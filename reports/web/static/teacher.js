@@ -52,15 +52,13 @@ const gradebook = rows => table("Ведомость", rows.map(each => {
 }), html`<thead><tr>${["Студент", "Состояние", "Баллы", "Примечание", "Решение"].map(title =>
   html`<th scope="col">${title}</th>`)}</tr></thead>`);
 
-function decide(event, number) {
-  act(door("grade"), {who: String(number), ...given(event)}, "Решение принято.");
-  event.target.reset();
-}
-
 // What waits for a person stands open; the rest is a click away.
 const decision = ({number, student, manual, unknown}) => html`
   <details open=${manual}><summary aria-label=${`Решить: ${student}`}>Решить</summary>
-    <form onSubmit=${e => decide(e, number)}>
+    <form onSubmit=${e => {
+      act(door("grade"), {who: String(number), ...given(e)}, "Решение принято.");
+      e.target.reset();
+    }}>
       <select name="what" aria-label=${`Что решить: ${student}`}>
         ${options([["всё", "вся работа"], ...unknown.map(item => [item, item])])}</select>
       <input name="points" aria-label=${`Баллы: ${student}`} size="12" placeholder="баллы, + или -" required />

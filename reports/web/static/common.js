@@ -11,17 +11,10 @@ export function set(changes, template = page) {
   render((page = template)(), document.body);
 }
 
-export async function ask(path, data) {
-  try {
-    const answer = await fetch(path, data && {
-      method: "POST", body: data instanceof Blob ? data : JSON.stringify(data),
-      headers: {"X-Kshm": "1", "Content-Type": "application/octet-stream"},
-    });
-    return await answer.json();
-  } catch {
-    return {errors: [{what: "нет связи с сервером", hint: "повторите"}]};
-  }
-}
+export const ask = (path, data) => fetch(path, data && {
+  method: "POST", body: data instanceof Blob ? data : JSON.stringify(data),
+  headers: {"X-Kshm": "1", "Content-Type": "application/octet-stream"},
+}).then(answer => answer.json()).catch(() => ({errors: [{what: "нет связи с сервером", hint: "повторите"}]}));
 
 export async function send(path, data) { // an answer, or nothing and its errors on the page
   const {errors, ...answer} = await ask(path, data);
@@ -34,6 +27,8 @@ export const given = event => Object.fromEntries(new FormData(event.target));
 
 export const options = (list, chosen) => list.map(([value, label, title]) =>
   html`<option key=${value} value=${value} title=${title} selected=${value === chosen}>${label}</option>`);
+export const choice = (title, name, list, chosen, taken) => html`<label>${title}
+  <select id=${name} name=${name} onChange=${e => taken?.(e.target.value)}>${options(list, chosen)}</select></label>`;
 export const row = (cells, more) => html`
   <tr ...${more}>${cells.map(([text, name]) => html`<td class=${name}>${text}</td>`)}</tr>`;
 export const table = (caption, rows, head) => html`

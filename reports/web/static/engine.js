@@ -1,6 +1,6 @@
 // The page of an engine: a mapping of the file's values is all its state, the rest follows from it.
 import {between, figure} from "./charts.js";
-import {alerts, ask, given, html, list, options, picker, printed, row, send, set, state, symbol, table}
+import {alerts, ask, choice, given, html, list, picker, printed, row, send, set, state, symbol, table}
   from "./common.js";
 import {put, section} from "./fields.js";
 import {mechanism, star} from "./moving.js";
@@ -85,18 +85,15 @@ function compose(event) {
 }
 
 // --- the page ---
-const pick = (title, name, pairs, chosen) => html`
-  <label>${title} <select id=${name} name=${name}>${options(pairs, chosen)}</select></label>`;
-
 const ownForm = choices => html`
   <form onSubmit=${e => fresh(ask("api/new", given(e)))}>
-    ${pick("Образец", "sample", choices.samples.map(name => [name, name]), "gots-diesel")}
+    ${choice("Образец", "sample", choices.samples.map(name => [name, name]), "gots-diesel")}
     <button>Открыть</button></form>
   <form onSubmit=${compose}>
     <label>Цилиндров <input id="cylinders" name="cylinders" type="number" min="1" max="12" defaultValue="4" required /></label>
-    ${pick("Расположение", "layout", entries(choices.layouts))}
-    ${pick("Тактность", "strokes", entries(choices.strokes), "4")}
-    ${pick("Вид", "kind", entries(choices.kinds))}
+    ${choice("Расположение", "layout", entries(choices.layouts))}
+    ${choice("Тактность", "strokes", entries(choices.strokes), "4")}
+    ${choice("Вид", "kind", entries(choices.kinds))}
     <label>Мощность, кВт <input name="power" inputmode="decimal" /></label>
     <label>Частота, мин⁻¹ <input name="speed" inputmode="decimal" /></label>
     <button>Составить</button>
@@ -130,9 +127,9 @@ const data = () => html`
 
 const scene = ({moves}) => html`
   <div id="scene" class="cards">
-    <figure>${mechanism(moves, state.phi)}<figcaption><label>Механизм, цилиндр
-      <select id="cylinder" onChange=${e => asked({cylinder: Number(e.target.value)})}>
-        ${options(Array.from({length: moves.cylinders}, (_, i) => [i, i + 1]), moves.cylinder)}</select></label></figcaption></figure>
+    <figure>${mechanism(moves, state.phi)}<figcaption>${choice("Механизм, цилиндр", "cylinder",
+      Array.from({length: moves.cylinders}, (_, i) => [i, i + 1]), moves.cylinder,
+      value => asked({cylinder: Number(value)}))}</figcaption></figure>
     <div>
       <label for="phi">Угол φ: ${printed(state.phi)}°</label>
       <input id="phi" type="range" min="0" max=${moves.phi.at(-1)} step="1" value=${state.phi}
@@ -160,8 +157,8 @@ function results({last, second}) {
     <section id="results" aria-label="Результаты" tabindex="-1" class=${`margin:0 ${state.wrong.length ? "late" : ""}`}>
       <h2>${state.raw.engine?.name || "Двигатель"}</h2>
       ${scene(last)}
-      <p><label>Диаграммы листа <select id="sheet" onChange=${e => asked({sheet: e.target.value})}>
-        ${options(state.sheets.map(([id, title]) => [id, id || "Прочее", title]), state.sheet)}</select></label></p>
+      <p>${choice("Диаграммы листа", "sheet", state.sheets.map(([id, title]) => [id, id || "Прочее", title]),
+        state.sheet, sheet => asked({sheet}))}</p>
       <div id="charts" class="cards">${last.charts.map(own =>
         figure({own, other: second?.charts?.find(c => c.id === own.id), phi: state.phi, theme: state.theme}))}</div>
       <div id="files"><h3>Файлы</h3><p class="tool-bar">${entries(state.choices.files).map(([kind, title]) =>
@@ -182,8 +179,8 @@ const page = () => html`
   <header class="f-row flex-wrap:wrap align-items:baseline margin:0 padding-block:0"><h1>Кривошипно-шатунный механизм</h1>
     <nav aria-label="Страницы"><a href="teacher">Преподавателю</a></nav></header>
   <main>${data()}${state.last && results(state)}</main>
-  <nav id="places" class="f-row justify-content:space-around padding" aria-label="Части страницы"><a href="#data">Данные</a> <a href="#results">Диаграммы</a>
-    <a href="#files">Файлы</a></nav>`;
+  <nav id="places" class="f-row justify-content:space-around padding" aria-label="Части страницы">
+    <a href="#data">Данные</a> <a href="#results">Диаграммы</a> <a href="#files">Файлы</a></nav>`;
 
 set({
   past: [], groups: [], sheets: [], absent: {}, sheet: "П4.1", cylinder: 0, phi: 0, typed: {}, wrong: [],

@@ -11,9 +11,9 @@ export function put(raw, path, value) { // nothing takes the place away
   else part[last] = structuredClone(value);
 }
 
-const of = (problems, key) => problems.filter(p => p.where === key);
-const said = (problems, name) => problems.map(p => html`<div class=${name}>${words(p)}</div>`);
-const allSaid = key => [said(of(state.wrong, key), "error bad color"), said(of(state.last?.warnings ?? [], key), "warn color")];
+const isWrong = key => state.wrong.some(p => p.where === key);
+const said = key => [[state.wrong, "error bad color"], [state.last?.warnings ?? [], "warn color"]].map(([all, name]) =>
+  all.filter(p => p.where === key).map(p => html`<div class=${name}>${words(p)}</div>`));
 
 // What is typed: a number in the Russian or the English way, or words.
 function meant({number}, text) {
@@ -24,15 +24,14 @@ function meant({number}, text) {
 export function section({title, key, path, entries, blank, drawing, whole}, change) {
   const wanted = state.find.trim().toLowerCase(), all = entries.flat();
   const found = f => `${f.title} ${f.key} ${f.symbol}`.toLowerCase().includes(wanted);
-  const isWrong = [key, ...all.map(f => f.key)].some(each => of(state.wrong, each).length);
   const list = path?.reduce((part, each) => part?.[each], state.raw) ?? []; // it grows by its last entry
   const button = (label, at, value) => html`<button onClick=${() => change(key, at, value, true)}>${label}</button>`;
   const fields = entry => entry.filter(found).map(f => field(f, change));
   return html`
-    <details key=${key} data-key=${key} open=${wanted || isWrong || state.open.has(key)}
+    <details key=${key} data-key=${key} open=${wanted || [key, ...all.map(f => f.key)].some(isWrong) || state.open.has(key)}
       hidden=${wanted && !all.some(found)}
       onToggle=${e => wanted || state.open[e.target.open ? "add" : "delete"](key)}>
-      <summary>${title}</summary>${allSaid(key)}
+      <summary>${title}</summary>${said(key)}
       ${drawing && html`<img src=${`images/${drawing}.svg`} alt=${`${title}: что есть что`} loading="lazy" />`}
       ${entries.map((entry, i) => !path ? fields(entry) : html`<fieldset>
         <legend>${`№ ${i + 1} `}${button(`Убрать ${i + 1}`, [...path, i])}</legend>
@@ -46,20 +45,18 @@ export function section({title, key, path, entries, blank, drawing, whole}, chan
 function field(f, change) {
   const text = state.typed[f.key] ?? shown(f.value), id = `f-${f.key}`;
   const type = value => change(f.key, f.path, meant(f, state.typed[f.key] = value), Boolean(f.choices));
-  const told = {id, "aria-describedby": `h-${f.key} e-${f.key}`, "aria-invalid": of(state.wrong, f.key).length > 0};
+  const onInput = e => type(e.target.value);
+  const told = {id, onInput, "aria-describedby": `h-${f.key} e-${f.key}`, "aria-invalid": isWrong(f.key)};
   const range = f.number && `от ${printed(f.min, 9)} до ${printed(f.max, 9)} ${f.unit}`;
   const empty = f.optional || f.value === null ? [["", "—"]] : [];
   return html`
     <div key=${f.key} class=${f.number || f.choices ? "field" : "field wide"} data-key=${f.key}>
       <label for=${id}>${f.title}${f.symbol && ", "}${symbol(f.symbol)}</label>
-      ${f.choices
-        ? html`<select ...${told} onChange=${e => type(e.target.value)}>
-            ${options([...empty, ...Object.entries(f.choices)], text)}</select>`
-        : html`<input ...${told} value=${text} inputmode=${f.number && "decimal"} autocomplete="off"
-            maxlength="300" onInput=${e => type(e.target.value)} />`}
+      ${f.choices ? html`<select ...${told}>${options([...empty, ...Object.entries(f.choices)], text)}</select>`
+        : html`<input ...${told} value=${text} inputmode=${f.number && "decimal"} autocomplete="off" maxlength="300" />`}
       <span>${f.unit}</span>${slider(f, text, type)}
       <small id=${`h-${f.key}`}>${[range, f.optional && "можно не задавать", f.key].filter(Boolean).join(" · ")}</small>
-      <div id=${`e-${f.key}`}>${allSaid(f.key)}</div>
+      <div id=${`e-${f.key}`}>${said(f.key)}</div>
     </div>`;
 }
 

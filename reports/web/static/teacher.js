@@ -1,20 +1,21 @@
 // The instructor's page: a class issued, handed in, graded, decided, taken to Moodle.
-import {alerts, ask, given, html, list, options, picker, printed, row, send, set, state, table} from "./common.js";
+import {alerts, ask, choice, given, html, list, options, picker, printed, row, send, set, state, table} from "./common.js";
 
 const door = path => `api/teacher/${state.chosen}/${path}`;
 const isBusy = () => ["waiting", "running"].includes(state.own.state);
 
 let timer = 0;
-async function look(news = "") { // at the chosen class, again and again while something is done
+async function look(changes) { // at the chosen class, again and again while something is done
   clearTimeout(timer);
-  const {classes = [], errors} = await ask("api/teacher"), chosen = state.chosen || classes[0]?.name;
-  const own = chosen ? await send(`api/teacher/${chosen}`) : null;
-  set({inside: !errors, classes, chosen, own, news});
-  if (own && isBusy()) timer = setTimeout(look, 1000);
+  set({news: "", ...changes});
+  const {classes = [], errors} = await ask("api/teacher");
+  set({inside: !errors, classes, chosen: state.chosen || classes[0]?.name});
+  if (state.chosen) set({own: await send(`api/teacher/${state.chosen}`)});
+  if (state.own && isBusy()) timer = setTimeout(look, 1000);
 }
 
 async function act(path, data, news) {
-  if (await send(path, data)) await look(news);
+  if (await send(path, data)) await look({news});
 }
 
 // A list in Windows-1251 is a list as well.
@@ -29,8 +30,7 @@ async function issue(event) {
   const made = await send("api/teacher", data);
   if (!made) return;
   event.target.reset();
-  state.chosen = made.name;
-  await look();
+  await look({chosen: made.name, own: null});
 }
 
 function status({state: now, students, rows, graded}) {
@@ -101,8 +101,8 @@ const page = () => html`
       ${asked("Ключ преподавателя", "token", {type: "password", autocomplete: "current-password", required: true})}
       <button>Войти</button></form>`}
     ${state.inside && html`<div id="inside">${issuing()}
-      <p><label>Группа <select id="classes" onChange=${e => { set({chosen: e.target.value, own: null}); look(); }}>
-        ${options(state.classes.map(c => [c.name, `${c.title}, ${c.date.slice(0, 10)}`]), state.chosen)}</select></label></p>
+      <p>${choice("Группа", "classes", state.classes.map(c => [c.name, `${c.title}, ${c.date.slice(0, 10)}`]),
+        state.chosen, chosen => look({chosen, own: null}))}</p>
       ${state.own && html`<div id="class"><p role="status">${state.news} ${status(state.own)}</p>
         ${list(state.own.lines || [], state.own.state === "failed" ? "bad" : "warn")}
         ${state.own.students.length > 0 && issued(state.own)}</div>`}</div>`}

@@ -1,9 +1,8 @@
 // The page of an engine: a mapping of the file's values is all its state, the rest follows from it.
-import {between, figure} from "./charts.js";
 import {alerts, ask, choice, given, html, list, picker, printed, row, send, set, state, symbol, table}
   from "./common.js";
+import {between, figure, mechanism, star} from "./drawn.js";
 import {put, section} from "./fields.js";
-import {mechanism, star} from "./moving.js";
 
 const {entries} = Object;
 
@@ -11,7 +10,7 @@ const {entries} = Object;
 // An input that comes from somewhere takes the page; its fields and charts are asked for.
 async function fresh(coming, keep = true) {
   const {raw, errors} = await coming, {errors: wrong, ...shape} = raw ? await ask("api/start", {raw}) : {};
-  if (!shape.groups) return set({errors: errors ?? wrong});
+  if (!shape.groups) return set({errors: errors ?? wrong ?? []});
   if (keep && state.raw) Object.assign(state, {past: remembered(), isNew: false});
   if (!shape.sheets.length) delete shape.sheets;
   else if (!shape.sheets.some(([id]) => id === state.sheet)) [[shape.sheet]] = shape.sheets;
@@ -160,7 +159,7 @@ function results({last, second}) {
       <p>${choice("Диаграммы листа", "sheet", state.sheets.map(([id, title]) => [id, id || "Прочее", title]),
         state.sheet, sheet => asked({sheet}))}</p>
       <div id="charts" class="cards">${last.charts.map(own =>
-        figure({own, other: second?.charts?.find(c => c.id === own.id), phi: state.phi, theme: state.theme}))}</div>
+        figure({own, other: second?.charts?.find(c => c.id === own.id), phi: state.phi}))}</div>
       <div id="files"><h3>Файлы</h3><p class="tool-bar">${entries(state.choices.files).map(([kind, title]) =>
         html`<button data-kind=${kind} onClick=${() => order(kind, title)}>${title}</button>`)}</p>
         <ul id="jobs" aria-live="polite">${state.jobs.map(job)}</ul></div>

@@ -82,16 +82,6 @@ const issued = ({open, students, rows, files}) => html`
 
 const asked = (title, name, more) => html`<label>${title} <input id=${name.split(".")[0]} name=${name} ...${more} /></label>`;
 
-const issuing = () => html`
-  <details id="newClass" open=${!state.chosen}><summary>Выдать новой группе</summary>
-    <form id="issue" onSubmit=${issue}>
-      ${asked("Название", "title", {required: true, maxlength: 120})}
-      ${asked("Двигатель с [variants], .toml", "base.toml", {type: "file", accept: ".toml", required: true})}
-      ${asked("Список группы, .csv", "roster.csv", {type: "file", accept: ".csv,.txt", required: true})}
-      ${asked("Рубрика, .toml (можно без неё)", "rubric.toml", {type: "file", accept: ".toml"})}
-      ${asked("Зерно", "seed", {type: "number", defaultValue: 1, required: true})}
-      <button>Выдать</button></form></details>`;
-
 const page = () => html`
   <header class="f-row flex-wrap:wrap align-items:baseline margin:0 padding-block:0"><h1>Группы</h1>
     <nav aria-label="Страницы"><a href="./">Двигатель</a></nav></header>
@@ -100,7 +90,15 @@ const page = () => html`
     ${state.inside === false && html`<form id="login" onSubmit=${e => act("api/login", given(e))}>
       ${asked("Ключ преподавателя", "token", {type: "password", autocomplete: "current-password", required: true})}
       <button>Войти</button></form>`}
-    ${state.inside && html`<div id="inside">${issuing()}
+    ${state.inside && html`<div id="inside">
+      <details id="newClass" open=${!state.chosen}><summary>Выдать новой группе</summary>
+        <form id="issue" onSubmit=${issue}>
+          ${asked("Название", "title", {required: true, maxlength: 120})}
+          ${asked("Двигатель с [variants], .toml", "base.toml", {type: "file", accept: ".toml", required: true})}
+          ${asked("Список группы, .csv", "roster.csv", {type: "file", accept: ".csv,.txt", required: true})}
+          ${asked("Рубрика, .toml (можно без неё)", "rubric.toml", {type: "file", accept: ".toml"})}
+          ${asked("Зерно", "seed", {type: "number", defaultValue: 1, required: true})}
+          <button>Выдать</button></form></details>
       <p>${choice("Группа", "classes", state.classes.map(c => [c.name, `${c.title}, ${c.date.slice(0, 10)}`]),
         state.chosen, chosen => look({chosen, own: null}))}</p>
       ${state.own && html`<div id="class"><p role="status">${state.news} ${status(state.own)}</p>

@@ -27,8 +27,9 @@ export const given = event => Object.fromEntries(new FormData(event.target));
 
 export const options = (list, chosen) => list.map(([value, label, title]) =>
   html`<option key=${value} value=${value} title=${title} selected=${value === chosen}>${label}</option>`);
-export const choice = (title, name, list, chosen, taken) => html`<label>${title}
-  <select id=${name} name=${name} onChange=${e => taken?.(e.target.value)}>${options(list, chosen)}</select></label>`;
+export const choice = (title, name, list, chosen, taken) => html`
+  <label>${title} <select id=${name} name=${name} onChange=${e => taken?.(e.target.value)}>
+    ${options(list, chosen)}</select></label>`;
 export const row = (cells, more) => html`
   <tr ...${more}>${cells.map(([text, name]) => html`<td class=${name}>${text}</td>`)}</tr>`;
 export const table = (caption, rows, head) => html`

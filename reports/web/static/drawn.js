@@ -112,7 +112,7 @@ function arrows({forces, phi: over, axis, bore}, phi, pin, piston, turn) {
     const far = bore * between(over, forces[key].values, phi) / most, ink = COLOURS[colour];
     const beyond = far + Math.sign(far) * bore / 6;
     return Math.abs(far) > bore / 40 && html`
-      <path class="force" d=${`M${x} ${y}l${dx * far} ${dy * far}`} stroke=${ink} />
+      <path d=${`M${x} ${y}l${dx * far} ${dy * far}`} stroke=${ink} stroke-width="3" />
       <circle cx=${x + dx * far} cy=${y + dy * far} r=${bore / 28} fill=${ink} />
       ${upright([x + dx * beyond, y + dy * beyond], axis, bore / 5, name)}`;
   });

@@ -84,22 +84,6 @@ function compose(event) {
 }
 
 // --- the page ---
-const ownForm = choices => html`
-  <form onSubmit=${e => fresh(ask("api/new", given(e)))}>
-    ${choice("Образец", "sample", choices.samples.map(name => [name, name]), "gots-diesel")}
-    <button>Открыть</button></form>
-  <form onSubmit=${compose}>
-    <label>Цилиндров <input id="cylinders" name="cylinders" type="number" min="1" max="12" defaultValue="4" required /></label>
-    ${choice("Расположение", "layout", entries(choices.layouts))}
-    ${choice("Тактность", "strokes", entries(choices.strokes), "4")}
-    ${choice("Вид", "kind", entries(choices.kinds))}
-    <label>Мощность, кВт <input name="power" inputmode="decimal" /></label>
-    <label>Частота, мин⁻¹ <input name="speed" inputmode="decimal" /></label>
-    <button>Составить</button>
-    <button name="alike">Вариант этого двигателя</button>
-  </form>
-  <p>${picker("Открыть .toml или книгу .xlsx", ".toml,.xlsx", upload, "upload")}</p>`;
-
 function begun(id) { // a further regime begins as the main one
   const {regime, gas, regimes = []} = state.raw, number = regimes.length + 1;
   if (id !== "regimes") return [id, [id], {}];
@@ -109,7 +93,21 @@ function begun(id) { // a further regime begins as the main one
 const data = () => html`
   <section id="data" aria-label="Исходные данные">
     <details id="new" open=${state.isNew} onToggle=${e => { state.isNew = e.target.open; }}>
-      <summary>Новый двигатель</summary>${ownForm(state.choices)}</details>
+      <summary>Новый двигатель</summary>
+      <form onSubmit=${e => fresh(ask("api/new", given(e)))}>
+        ${choice("Образец", "sample", state.choices.samples.map(name => [name, name]), "gots-diesel")}
+        <button>Открыть</button></form>
+      <form onSubmit=${compose}>
+        <label>Цилиндров <input id="cylinders" name="cylinders" type="number" min="1" max="12" defaultValue="4" required /></label>
+        ${choice("Расположение", "layout", entries(state.choices.layouts))}
+        ${choice("Тактность", "strokes", entries(state.choices.strokes), "4")}
+        ${choice("Вид", "kind", entries(state.choices.kinds))}
+        <label>Мощность, кВт <input name="power" inputmode="decimal" /></label>
+        <label>Частота, мин⁻¹ <input name="speed" inputmode="decimal" /></label>
+        <button>Составить</button>
+        <button name="alike">Вариант этого двигателя</button>
+      </form>
+      <p>${picker("Открыть .toml или книгу .xlsx", ".toml,.xlsx", upload, "upload")}</p></details>
     <p class="tool-bar">
       <button id="undo" disabled=${!state.past.length} onClick=${back}>Отменить</button>
       <button id="save" onClick=${save}>Скачать .toml</button>
@@ -150,28 +148,27 @@ const job = ({id, title, state: now, place, seconds, files = [], lines, errors})
 const verdict = ({ok, reason}) =>
   ok ? ["выполнена", "ok color"] : reason ? [`принято: ${reason}`, "warn color"] : ["не выполнена", "bad color"];
 
-function results({last, second}) {
-  const others = new Map((second?.results || []).flatMap(t => t.rows.map(r => [r.key, r.text])));
-  return html`
-    <section id="results" aria-label="Результаты" tabindex="-1" class=${`margin:0 ${state.wrong.length ? "late" : ""}`}>
-      <h2>${state.raw.engine?.name || "Двигатель"}</h2>
-      ${scene(last)}
-      <p>${choice("Диаграммы листа", "sheet", state.sheets.map(([id, title]) => [id, id || "Прочее", title]),
-        state.sheet, sheet => asked({sheet}))}</p>
-      <div id="charts" class="cards">${last.charts.map(own =>
-        figure({own, other: second?.charts?.find(c => c.id === own.id), phi: state.phi}))}</div>
-      <div id="files"><h3>Файлы</h3><p class="tool-bar">${entries(state.choices.files).map(([kind, title]) =>
-        html`<button data-kind=${kind} onClick=${() => order(kind, title)}>${title}</button>`)}</p>
-        <ul id="jobs" aria-live="polite">${state.jobs.map(job)}</ul></div>
-      <div id="checks">${state.checks.length > 0 && table("Проверки расчёта", state.checks.map(c =>
-        row([[c.title], [printed(c.value), "n"], verdict(c)])))}</div>
-      ${list([...last.warnings, ...state.remarks], "warn")}
-      <div id="summary">${last.results.map(({id, title, rows}) => html`
-        <details key=${id} open=${/^(summary_torque|geometry)/.test(id)}><summary>${title}</summary>
-          ${table(title, rows.map(r => row([[r.title], [symbol(r.symbol), "s"], [r.text, "n"],
-            [others.get(r.key) ?? "", "n"], [r.unit, "s"]], {"data-key": r.key})))}</details>`)}</div>
-    </section>`;
-}
+const results = ({last, second}) => html`
+  <section id="results" aria-label="Результаты" tabindex="-1" class="margin:0"
+    style=${state.wrong.length ? "opacity: .55" : ""}>
+    <h2>${state.raw.engine?.name || "Двигатель"}</h2>
+    ${scene(last)}
+    <p>${choice("Диаграммы листа", "sheet", state.sheets.map(([id, title]) => [id, id || "Прочее", title]),
+      state.sheet, sheet => asked({sheet}))}</p>
+    <div id="charts" class="cards">${last.charts.map(own =>
+      figure({own, other: second?.charts?.find(c => c.id === own.id), phi: state.phi}))}</div>
+    <div id="files"><h3>Файлы</h3><p class="tool-bar">${entries(state.choices.files).map(([kind, title]) =>
+      html`<button data-kind=${kind} onClick=${() => order(kind, title)}>${title}</button>`)}</p>
+      <ul id="jobs" aria-live="polite">${state.jobs.map(job)}</ul></div>
+    <div id="checks">${state.checks.length > 0 && table("Проверки расчёта", state.checks.map(c =>
+      row([[c.title], [printed(c.value), "n"], verdict(c)])))}</div>
+    ${list([...last.warnings, ...state.remarks], "warn")}
+    <div id="summary">${last.results.map(({id, title, rows}) => html`
+      <details key=${id} open=${/^(summary_torque|geometry)/.test(id)}><summary>${title}</summary>
+        ${table(title, rows.map(r => row([[r.title], [symbol(r.symbol), "s"], [r.text, "n"],
+          [second?.results?.find(t => t.id === id)?.rows.find(o => o.key === r.key)?.text, "n"],
+          [r.unit, "s"]], {"data-key": r.key})))}</details>`)}</div>
+  </section>`;
 
 const page = () => html`
   <a class="skip" href="#results">К результатам</a>

@@ -4,29 +4,26 @@ import {alerts, ask, choice, given, html, list, options, picker, printed, row, s
 const door = path => `api/teacher/${state.chosen}/${path}`;
 const isBusy = () => ["waiting", "running"].includes(state.own.state);
 
-let timer = 0;
 async function look(changes) { // at the chosen class, again and again while something is done
-  clearTimeout(timer);
+  clearTimeout(state.later);
   set({news: "", ...changes});
   const {classes = [], errors} = await ask("api/teacher");
   set({inside: !errors, classes, chosen: state.chosen || classes[0]?.name});
   if (state.chosen) set({own: await send(`api/teacher/${state.chosen}`)});
-  if (state.own && isBusy()) timer = setTimeout(look, 1000);
+  if (state.own && isBusy()) state.later = setTimeout(look, 1000);
 }
 
 async function act(path, data, news) {
   if (await send(path, data)) await look({news});
 }
 
-// A list in Windows-1251 is a list as well.
-async function text(file) {
-  const bytes = await file.arrayBuffer(), plain = new TextDecoder().decode(bytes);
-  return plain.includes("\ufffd") ? new TextDecoder("windows-1251").decode(bytes) : plain;
-}
-
 async function issue(event) {
   const data = given(event);
-  for (const key of ["base.toml", "roster.csv", "rubric.toml"]) data[key] = await text(data[key]);
+  for (const key of ["base.toml", "roster.csv", "rubric.toml"]) {
+    const bytes = await data[key].arrayBuffer(), text = new TextDecoder().decode(bytes);
+    // A list in Windows-1251 is a list as well.
+    data[key] = text.includes("\ufffd") ? new TextDecoder("windows-1251").decode(bytes) : text;
+  }
   const made = await send("api/teacher", data);
   if (!made) return;
   event.target.reset();

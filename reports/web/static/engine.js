@@ -4,8 +4,6 @@ import {alerts, ask, choice, given, html, list, picker, printed, row, send, set,
 import {between, figure, mechanism, star} from "./drawn.js";
 import {put, section} from "./fields.js";
 
-const {entries} = Object;
-
 // --- what is asked of the server ---
 // An input that comes from somewhere takes the page; its fields and charts are asked for.
 async function fresh(coming, keep = true) {
@@ -99,9 +97,9 @@ const data = () => html`
         <button>Открыть</button></form>
       <form onSubmit=${compose}>
         <label>Цилиндров <input id="cylinders" name="cylinders" type="number" min="1" max="12" defaultValue="4" required /></label>
-        ${choice("Расположение", "layout", entries(state.choices.layouts))}
-        ${choice("Тактность", "strokes", entries(state.choices.strokes), "4")}
-        ${choice("Вид", "kind", entries(state.choices.kinds))}
+        ${choice("Расположение", "layout", Object.entries(state.choices.layouts))}
+        ${choice("Тактность", "strokes", Object.entries(state.choices.strokes), "4")}
+        ${choice("Вид", "kind", Object.entries(state.choices.kinds))}
         <label>Мощность, кВт <input name="power" inputmode="decimal" /></label>
         <label>Частота, мин⁻¹ <input name="speed" inputmode="decimal" /></label>
         <button>Составить</button>
@@ -118,7 +116,7 @@ const data = () => html`
     <p><label>Найти поле <input id="find" type="search" autocomplete="off" value=${state.find}
       onInput=${e => set({find: e.target.value})} /></label></p>
     <div id="fields">${state.groups.map(group => section(group, change))}</div>
-    <p class="tool-bar">Добавить раздел: ${entries(state.absent).map(([id, title]) =>
+    <p class="tool-bar">Добавить раздел: ${Object.entries(state.absent).map(([id, title]) =>
       html`<button onClick=${() => change(...begun(id), true)}>${title}</button>`)}</p>
   </section>`;
 
@@ -157,7 +155,7 @@ const results = ({last, second}) => html`
       state.sheet, sheet => asked({sheet}))}</p>
     <div id="charts" class="cards">${last.charts.map(own =>
       figure({own, other: second?.charts?.find(c => c.id === own.id), phi: state.phi}))}</div>
-    <div id="files"><h3>Файлы</h3><p class="tool-bar">${entries(state.choices.files).map(([kind, title]) =>
+    <div id="files"><h3>Файлы</h3><p class="tool-bar">${Object.entries(state.choices.files).map(([kind, title]) =>
       html`<button data-kind=${kind} onClick=${() => order(kind, title)}>${title}</button>`)}</p>
       <ul id="jobs" aria-live="polite">${state.jobs.map(job)}</ul></div>
     <div id="checks">${state.checks.length > 0 && table("Проверки расчёта", state.checks.map(c =>

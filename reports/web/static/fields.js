@@ -7,8 +7,7 @@ export function put(raw, path, value) { // nothing takes the place away
   const last = path.at(-1), isEntry = typeof last === "number";
   const part = path.slice(0, -1).reduce((part, key, i) => part[key] ??= Number.isInteger(path[i + 1]) ? [] : {}, raw);
   if (value === undefined && isEntry) part.splice(last, 1);
-  else if (value === undefined || value === "" && !isEntry) delete part[last];
-  else part[last] = structuredClone(value);
+  else part[last] = value === "" && !isEntry ? undefined : structuredClone(value);
 }
 
 const isWrong = key => state.wrong.some(p => p.where === key);

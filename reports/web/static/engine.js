@@ -1,87 +1,59 @@
 // The page of an engine: a mapping of the file's values is all its state, the rest follows from it.
-import {between, figure} from "./charts.js";
-import {alerts, ask, given, html, list, options, picker, printed, row, send, set, show, state, symbol, table}
+import {alerts, ask, choice, given, html, list, picker, printed, row, send, set, state, symbol, table}
   from "./common.js";
-import {add, put, section} from "./fields.js";
-import {mechanism, star} from "./moving.js";
-
-const copy = structuredClone, entries = Object.entries;
+import {between, figure, mechanism, star} from "./drawn.js";
+import {put, section} from "./fields.js";
 
 // --- what is asked of the server ---
-async function open(raw, keep = true) {
-  const {errors, ...shape} = await ask("api/start", {raw});
-  if (!shape.groups) return set({errors});
-  if (keep && state.raw) remember();
+// An input that comes from somewhere takes the page; its fields and charts are asked for.
+async function fresh(coming, keep = true) {
+  const {raw, errors} = await coming, {errors: wrong, ...shape} = raw ? await ask("api/start", {raw}) : {};
+  if (!shape.groups) return set({errors: errors ?? wrong ?? []});
+  if (keep && state.raw) Object.assign(state, {past: remembered(), isNew: false});
   if (!shape.sheets.length) delete shape.sheets;
   else if (!shape.sheets.some(([id]) => id === state.sheet)) [[shape.sheet]] = shape.sheets;
-  set({...shape, typed: {}, touched: null});
+  set({...shape, typed: {}, touched: null, errors: []});
   document.title = `${state.raw.engine?.name || "Двигатель"} — КШМ`;
   await solve();
 }
 
-let again = false, later = 0;
 async function solve() {
-  again = true;
-  if (state.running) return set({}); // at most one question on its way
-  while (again) {
-    again = false;
-    set({running: true});
-    const {raw, other, sheet, cylinder} = state, put = raw => raw && ask("api/solve", {raw, sheet, cylinder});
-    try { localStorage.setItem("kshm", JSON.stringify({raw, other})); } catch { /* private window */ }
-    const [last, second] = await Promise.all([put(raw), put(other)]);
-    const phi = last.errors ? 0 : Math.min(state.phi, last.moves.phi.at(-1)); // of a cycle that may be shorter
-    set(last.errors ? {wrong: last.errors} : {wrong: [], warnings: last.warnings, last, second, phi});
-  }
-  set({running: false});
-  clearTimeout(later);
-  later = setTimeout(check, 400);
-}
-
-async function check() {
-  const {checks, remarks, errors} = await ask("api/checks", {raw: state.raw});
-  if (!errors) set({checks, warnings: [...state.last.warnings, ...remarks]});
+  if (state.running) return set({again: true}); // at most one question on its way
+  clearTimeout(state.later);
+  set({running: true, again: false});
+  const {raw, other, sheet, cylinder} = state, answer = raw => raw && ask("api/solve", {raw, sheet, cylinder});
+  try { localStorage.kshm = JSON.stringify({raw, other}); } catch { /* private window */ }
+  const [last, second] = await Promise.all([answer(raw), answer(other)]);
+  const phi = last.errors ? 0 : Math.min(state.phi, last.moves.phi.at(-1)); // of a cycle that may be shorter
+  set({running: false, ...last.errors ? {wrong: last.errors} : {wrong: [], last, second, phi}});
+  if (state.again) return solve();
+  // The checks take longer: they wait until nothing has changed for a while.
+  if (!last.errors) state.later = setTimeout(async () => set(await send("api/checks", {raw})), 400);
 }
 
 async function order(kind, title) {
-  const job = {title, ...await send("api/files", {raw: state.raw, other: state.other, kind})};
-  if (!job.id || state.jobs.some(({id, lines}) => id === job.id && !lines)) return;
-  state.jobs.unshift(job);
-  while (!job.lines && !job.errors) {
+  const {raw, other} = state, job = {title, ...await send("api/files", {raw, other, kind})};
+  if (job.id) state.jobs = [job, ...state.jobs.filter(({id}) => id !== job.id)];
+  for (; job.id && !job.lines && !job.errors; await new Promise(done => setTimeout(done, 700))) {
     Object.assign(job, await ask(`api/files/${job.id}`));
     set({});
-    await new Promise(done => setTimeout(done, job.lines ? 0 : 700));
   }
 }
 
 // --- what a person does ---
-function remember() {
-  const text = JSON.stringify(state.raw);
-  if (state.past.at(-1) !== text) state.past = [...state.past, text].slice(-200);
-}
+const remembered = () => [...state.past, JSON.stringify(state.raw)].slice(-200);
+const back = () => fresh({raw: JSON.parse(state.past.pop())}, false);
 
-function change(f, value, shape = false) {
-  if (state.touched !== f.key || shape) remember(); // one step of undo for one field
-  state.touched = f.key;
-  const plain = value.trim().replace(",", ".").replace("−", "-");
-  put(state.raw, f.path, f.number && /^-?\d+(\.\d+)?$/.test(plain) ? Number(plain) : value.trim());
-  state.typed[f.key] = value;
-  if (shape) open(state.raw, false);
-  else solve();
-}
-
-async function edited(what, key) { // a change that alters the shape
-  const raw = copy(state.raw), before = new Set(state.groups.map(g => g.key));
-  what(raw);
-  await open(raw);
-  for (const {key} of state.groups) if (!before.has(key)) state.open.add(key);
-  set({});
+// A value at a place; other fields may come and go with it.
+async function change(key, path, value, reshapes) {
+  if (state.touched !== key || reshapes) state.past = remembered(); // one step of undo for one field
+  state.touched = key;
+  const raw = reshapes ? structuredClone(state.raw) : state.raw;
+  put(raw, path, value);
+  if (!reshapes) return solve();
+  state.open.add(key);
+  await fresh({raw}, false);
   if (document.activeElement === document.body) document.querySelector(`[data-key="${key}"] summary`)?.focus();
-}
-
-async function fresh(answering) {
-  const {raw, errors = []} = await answering;
-  set({errors, isNew: state.isNew && !raw});
-  if (raw) await open(raw);
 }
 
 const turn = phi => set({phi: Number(phi)});
@@ -103,61 +75,56 @@ async function link() {
 const asked = changes => { Object.assign(state, changes); solve(); };
 const upload = async file => fresh(/\.xlsx$/i.test(file.name)
   ? ask("api/book", file) : ask("api/read", {text: await file.text()}));
-const back = () => open(JSON.parse(state.past.pop()), false);
 
 function compose(event) {
-  const {cylinders, layout, ...more} = given(event);
-  const own = event.submitter.name === "alike" ? {raw: state.raw} : more;
-  fresh(ask("api/new", {cylinders: Number(cylinders), layout, ...own}));
+  const {cylinders, layout, ...own} = given(event), more = event.submitter.name ? {raw: state.raw} : own;
+  fresh(ask("api/new", {cylinders: Number(cylinders), layout, ...more}));
 }
 
 // --- the page ---
-const pick = (title, name, pairs, chosen) => html`
-  <label>${title} <select id=${name} name=${name}>${options(pairs, chosen)}</select></label>`;
-
-const ownForm = choices => html`
-  <form onSubmit=${e => fresh(ask("api/new", given(e)))}>
-    ${pick("Образец", "sample", choices.samples.map(name => [name, name]), "gots-diesel")}
-    <button>Открыть</button></form>
-  <form onSubmit=${compose}>
-    <label>Цилиндров <input id="cylinders" name="cylinders" type="number" min="1" max="12" defaultValue="4" required /></label>
-    ${pick("Расположение", "layout", entries(choices.layouts))}
-    ${pick("Тактность", "strokes", entries(choices.strokes), "4")}
-    ${pick("Вид", "kind", entries(choices.kinds))}
-    <label>Мощность, кВт <input name="power" inputmode="decimal" /></label>
-    <label>Частота, мин⁻¹ <input name="speed" inputmode="decimal" /></label>
-    <button>Составить</button>
-    <button name="alike">Вариант этого двигателя</button>
-  </form>
-  <p>${picker("Открыть .toml или книгу .xlsx", ".toml,.xlsx", upload, "upload")}</p>`;
-
-function data() {
-  const places = new Set(state.groups.flatMap(g => [g.key, ...g.entries.flat().map(f => f.key)]));
-  return html`
-    <section id="data" aria-label="Исходные данные">
-      <details id="new" open=${state.isNew} onToggle=${e => { state.isNew = e.target.open; }}>
-        <summary>Новый двигатель</summary>${ownForm(state.choices)}</details>
-      <p class="tool-bar">
-        <button id="undo" disabled=${!state.past.length} onClick=${back}>Отменить</button>
-        <button id="save" onClick=${save}>Скачать .toml</button>
-        <button id="link" onClick=${link}>${state.linked ? "Ссылка в адресе" : "Ссылка"}</button>
-        <button id="keep" onClick=${() => asked({other: copy(state.raw)})}>Сравнить с этим</button>
-        <button id="drop" hidden=${!state.other} onClick=${() => asked({other: null})}>Убрать второй</button></p>
-      ${alerts([...state.errors, ...state.wrong.filter(p => !places.has(p.where))])}
-      <p><label>Найти поле <input id="find" type="search" autocomplete="off" value=${state.find}
-        onInput=${e => set({find: e.target.value})} /></label></p>
-      <div id="fields">${state.groups.map(group => section(group, edited, change))}</div>
-      <p class="tool-bar">Добавить раздел: ${entries(state.absent).map(([id, title]) =>
-        html`<button onClick=${() => edited(raw => add(raw, id), id)}>${title}</button>`)}</p>
-    </section>`;
+function begun(id) { // a further regime begins as the main one
+  const {regime, gas, regimes = []} = state.raw, number = regimes.length + 1;
+  if (id !== "regimes") return [id, [id], {}];
+  return [`regimes[${number}]`, [id, number - 1], {...regime, gas, name: `Режим ${number + 1}`}];
 }
+
+const data = () => html`
+  <section id="data" aria-label="Исходные данные">
+    <details id="new" open=${state.isNew} onToggle=${e => { state.isNew = e.target.open; }}>
+      <summary>Новый двигатель</summary>
+      <form onSubmit=${e => fresh(ask("api/new", given(e)))}>
+        ${choice("Образец", "sample", state.choices.samples.map(name => [name, name]), "gots-diesel")}
+        <button>Открыть</button></form>
+      <form onSubmit=${compose}>
+        <label>Цилиндров <input id="cylinders" name="cylinders" type="number" min="1" max="12" defaultValue="4" required /></label>
+        ${choice("Расположение", "layout", Object.entries(state.choices.layouts))}
+        ${choice("Тактность", "strokes", Object.entries(state.choices.strokes), "4")}
+        ${choice("Вид", "kind", Object.entries(state.choices.kinds))}
+        <label>Мощность, кВт <input name="power" inputmode="decimal" /></label>
+        <label>Частота, мин⁻¹ <input name="speed" inputmode="decimal" /></label>
+        <button>Составить</button>
+        <button name="alike">Вариант этого двигателя</button>
+      </form>
+      <p>${picker("Открыть .toml или книгу .xlsx", ".toml,.xlsx", upload, "upload")}</p></details>
+    <p class="tool-bar">
+      <button id="undo" disabled=${!state.past.length} onClick=${back}>Отменить</button>
+      <button id="save" onClick=${save}>Скачать .toml</button>
+      <button id="link" onClick=${link}>${state.linked ? "Ссылка в адресе" : "Ссылка"}</button>
+      <button id="keep" onClick=${() => asked({other: structuredClone(state.raw)})}>Сравнить с этим</button>
+      <button id="drop" hidden=${!state.other} onClick=${() => asked({other: null})}>Убрать второй</button></p>
+    ${alerts([...state.errors, ...state.wrong])}
+    <p><label>Найти поле <input id="find" type="search" autocomplete="off" value=${state.find}
+      onInput=${e => set({find: e.target.value})} /></label></p>
+    <div id="fields">${state.groups.map(group => section(group, change))}</div>
+    <p class="tool-bar">Добавить раздел: ${Object.entries(state.absent).map(([id, title]) =>
+      html`<button onClick=${() => change(...begun(id), true)}>${title}</button>`)}</p>
+  </section>`;
 
 const scene = ({moves}) => html`
   <div id="scene" class="cards">
-    <figure>${mechanism(moves, state.phi)}<figcaption><label>Механизм, цилиндр
-      <select id="cylinder" onChange=${e => asked({cylinder: Number(e.target.value)})}>
-        ${options(Array.from({length: moves.cylinders}, (_, i) => [i, i + 1]), moves.cylinder)}</select></label></figcaption></figure>
-    <figure>${star(moves, state.phi)}<figcaption>Звезда кривошипов</figcaption></figure>
+    <figure>${mechanism(moves, state.phi)}<figcaption>${choice("Механизм, цилиндр", "cylinder",
+      Array.from({length: moves.cylinders}, (_, i) => [i, i + 1]), moves.cylinder,
+      value => asked({cylinder: Number(value)}))}</figcaption></figure>
     <div>
       <label for="phi">Угол φ: ${printed(state.phi)}°</label>
       <input id="phi" type="range" min="0" max=${moves.phi.at(-1)} step="1" value=${state.phi}
@@ -166,6 +133,7 @@ const scene = ({moves}) => html`
       ${table("Удельные силы при φ", Object.values(moves.forces).map(f =>
         row([[symbol(f.symbol)], [printed(between(moves.phi, f.values, state.phi)), "n"], [f.unit, "s"]])))}
     </div>
+    <figure>${star(moves, state.phi)}<figcaption>Звезда кривошипов</figcaption></figure>
   </div>`;
 
 const job = ({id, title, state: now, place, seconds, files = [], lines, errors}) => html`<li>${`${title}: `}
@@ -178,51 +146,49 @@ const job = ({id, title, state: now, place, seconds, files = [], lines, errors})
 const verdict = ({ok, reason}) =>
   ok ? ["выполнена", "ok color"] : reason ? [`принято: ${reason}`, "warn color"] : ["не выполнена", "bad color"];
 
-function results({last, second}) {
-  const others = new Map((second?.results || []).flatMap(t => t.rows.map(r => [r.key, r.text])));
-  return html`
-    <section id="results" aria-label="Результаты" tabindex="-1" class=${state.wrong.length ? "late" : ""}>
-      <h2>${state.raw.engine?.name || "Двигатель"}</h2>
-      ${scene(last)}
-      <p><label>Диаграммы листа <select id="sheet" onChange=${e => asked({sheet: e.target.value})}>
-        ${options(state.sheets.map(([id, title]) => [id, id || "Прочее", title]), state.sheet)}</select></label></p>
-      <div id="charts" class="cards">${last.charts.map(own =>
-        figure({own, other: second?.charts?.find(c => c.id === own.id), phi: state.phi, theme: state.theme}))}</div>
-      <div id="files"><h3>Файлы</h3><p class="tool-bar">${entries(state.choices.files).map(([kind, title]) =>
-        html`<button data-kind=${kind} onClick=${() => order(kind, title)}>${title}</button>`)}</p>
-        <ul id="jobs" aria-live="polite">${state.jobs.map(job)}</ul></div>
-      <div id="checks">${state.checks.length > 0 && table("Проверки расчёта", state.checks.map(c =>
-        row([[c.title], [printed(c.value), "n"], verdict(c)])))}</div>
-      ${list(state.warnings, "warn")}
-      <div id="summary">${last.results.map(({id, title, rows}) => html`
-        <details key=${id} open=${/^(summary_torque|geometry)/.test(id)}><summary>${title}</summary>
-          ${table(title, rows.map(r => row([[r.title], [symbol(r.symbol), "s"], [r.text, "n"],
-            [others.get(r.key) ?? "", "n"], [r.unit, "s"]], {"data-key": r.key})))}</details>`)}</div>
-    </section>`;
-}
+const results = ({last, second}) => html`
+  <section id="results" aria-label="Результаты" tabindex="-1" class="margin:0"
+    style=${state.wrong.length ? "opacity: .55" : ""}>
+    <h2>${state.raw.engine?.name || "Двигатель"}</h2>
+    ${scene(last)}
+    <p>${choice("Диаграммы листа", "sheet", state.sheets.map(([id, title]) => [id, id || "Прочее", title]),
+      state.sheet, sheet => asked({sheet}))}</p>
+    <div id="charts" class="cards">${last.charts.map(own =>
+      figure({own, other: second?.charts?.find(c => c.id === own.id), phi: state.phi}))}</div>
+    <div id="files"><h3>Файлы</h3><p class="tool-bar">${Object.entries(state.choices.files).map(([kind, title]) =>
+      html`<button data-kind=${kind} onClick=${() => order(kind, title)}>${title}</button>`)}</p>
+      <ul id="jobs" aria-live="polite">${state.jobs.map(job)}</ul></div>
+    <div id="checks">${state.checks.length > 0 && table("Проверки расчёта", state.checks.map(c =>
+      row([[c.title], [printed(c.value), "n"], verdict(c)])))}</div>
+    ${list([...last.warnings, ...state.remarks], "warn")}
+    <div id="summary">${last.results.map(({id, title, rows}) => html`
+      <details key=${id} open=${/^(summary_torque|geometry)/.test(id)}><summary>${title}</summary>
+        ${table(title, rows.map(r => row([[r.title], [symbol(r.symbol), "s"], [r.text, "n"],
+          [second?.results?.find(t => t.id === id)?.rows.find(o => o.key === r.key)?.text, "n"],
+          [r.unit, "s"]], {"data-key": r.key})))}</details>`)}</div>
+  </section>`;
 
-async function begin() {
-  Object.assign(state, {
-    raw: null, other: null, past: [], groups: [], sheets: [], absent: {}, sheet: "П4.1", cylinder: 0, phi: 0,
-    typed: {}, wrong: [], warnings: [], checks: [], jobs: [], find: "", isNew: true, theme: 0, last: null,
-    open: new Set(innerWidth > 900 ? ["engine", "geometry", "regime"] : []), choices: await ask("api/choices"),
-  });
-  show(() => html`
-    <a class="skip" href="#results">К результатам</a>
-    <header><h1>Кривошипно-шатунный механизм</h1>
-      <nav aria-label="Страницы"><a href="teacher">Преподавателю</a></nav></header>
-    <main>${data()}${state.last && results(state)}</main>
-    <nav id="places" aria-label="Части страницы"><a href="#data">Данные</a> <a href="#results">Диаграммы</a>
-      <a href="#files">Файлы</a></nav>`);
-  for (const media of ["(prefers-color-scheme: dark)", "print"]) // colours are drawn in
-    matchMedia(media).addEventListener("change", () => set({theme: state.theme + 1}));
-  try {
-    const hash = location.hash.slice(1), text = hash && LZString.decompressFromEncodedURIComponent(hash);
-    const {raw, other} = text ? {raw: JSON.parse(text)} : JSON.parse(localStorage.getItem("kshm"));
-    set({other, isNew: false});
-    await open(raw, false);
-  } catch { /* a damaged link or store is none */ }
-  if (!state.raw) await fresh(ask("api/new", {sample: "gots-diesel"})).then(() => set({isNew: true}));
-}
+const page = () => html`
+  <a class="skip" href="#results">К результатам</a>
+  <header class="f-row flex-wrap:wrap align-items:baseline margin:0 padding-block:0"><h1>Кривошипно-шатунный механизм</h1>
+    <nav aria-label="Страницы"><a href="teacher">Преподавателю</a></nav></header>
+  <main>${data()}${state.last && results(state)}</main>
+  <nav id="places" class="f-row justify-content:space-around padding" aria-label="Части страницы">
+    <a href="#data">Данные</a> <a href="#results">Диаграммы</a> <a href="#files">Файлы</a></nav>`;
+
+set({
+  past: [], groups: [], sheets: [], absent: {}, sheet: "П4.1", cylinder: 0, phi: 0, typed: {}, wrong: [],
+  checks: [], remarks: [], jobs: [], find: "", isNew: true, choices: await ask("api/choices"),
+  open: new Set(innerWidth > 900 ? ["engine", "geometry", "regime"] : []),
+}, page);
+for (const media of ["(prefers-color-scheme: dark)", "print"]) // colours are drawn in
+  matchMedia(media).addEventListener("change", () => set({}));
 Object.assign(window, {kshm: state, ask, fresh, turn}); // for a person's console and for the tests
-begin();
+try {
+  const hash = location.hash.slice(1), text = hash && LZString.decompressFromEncodedURIComponent(hash);
+  const {raw, other} = text ? {raw: JSON.parse(text)} : JSON.parse(localStorage.kshm);
+  set({other});
+  await fresh({raw}, false);
+  set({isNew: false});
+} catch { /* a damaged link or store is none */ }
+if (!state.raw) await fresh(ask("api/new", {sample: "gots-diesel"}));

@@ -1,77 +1,68 @@
 // The fields of an input in groups, each with its unit, range, slider and what is wrong with it.
 import {html, options, printed, state, symbol, words} from "./common.js";
 
-export const shown = value => typeof value === "number" ? String(value).replace(".", ",") : value ?? "";
-const inner = (raw, path) => path.reduce((part, key) => part[key] ??= {}, raw);
+const shown = value => typeof value === "number" ? String(value).replace(".", ",") : value ?? "";
 
 export function put(raw, path, value) { // nothing takes the place away
-  const part = inner(raw, path.slice(0, -1)), last = path.at(-1), isList = Array.isArray(part);
-  if (value === undefined && isList) part.splice(last, 1);
-  else if (value === undefined || value === "" && !isList) delete part[last];
-  else part[last] = value;
+  const last = path.at(-1), isEntry = typeof last === "number";
+  const part = path.slice(0, -1).reduce((part, key, i) => part[key] ??= Number.isInteger(path[i + 1]) ? [] : {}, raw);
+  if (value === undefined && isEntry) part.splice(last, 1);
+  else part[last] = value === "" && !isEntry ? undefined : structuredClone(value);
 }
 
-function repeat(raw, path, blank) { // a list grows by its last entry
-  const list = inner(raw, path.slice(0, -1))[path.at(-1)] ??= [];
-  list.push(structuredClone(list.at(-1) ?? blank));
+const isWrong = key => state.wrong.some(p => p.where === key);
+const said = key => [[state.wrong, "error bad color"], [state.last?.warnings ?? [], "warn color"]].map(([all, name]) =>
+  all.filter(p => p.where === key).map(p => html`<div class=${name}>${words(p)}</div>`));
+
+// What is typed: a number in the Russian or the English way, or words.
+function meant({number}, text) {
+  const plain = text.trim().replace(",", ".").replace("−", "-");
+  return number && /^-?\d+(\.\d+)?$/.test(plain) ? Number(plain) : text.trim();
 }
 
-export function add(raw, id) { // a section, or a regime that begins as the main one
-  if (id !== "regimes") return put(raw, [id], {});
-  const {regime, gas, regimes = []} = structuredClone(raw);
-  raw.regimes = [...regimes, {...regime, name: `Режим ${regimes.length + 2}`, gas}];
-}
-
-const of = (problems, key) => problems.filter(p => p.where === key);
-const said = (problems, name) => problems.map(p => html`<div class=${name}>${words(p)}</div>`);
-const allSaid = key => [said(of(state.wrong, key), "error bad color"), said(of(state.warnings, key), "warn color")];
-
-// A group; `edited` changes the shape of the input, `change` a value.
-export function section({title, key, path, entries, blank, drawing, whole}, edited, change) {
+export function section({title, key, path, entries, blank, drawing, whole}, change) {
   const wanted = state.find.trim().toLowerCase(), all = entries.flat();
   const found = f => `${f.title} ${f.key} ${f.symbol}`.toLowerCase().includes(wanted);
-  const isWrong = [key, ...all.map(f => f.key)].some(each => of(state.wrong, each).length);
-  const button = (label, what) => html`<button onClick=${() => edited(what, key)}>${label}</button>`;
+  const list = path?.reduce((part, each) => part?.[each], state.raw) ?? []; // it grows by its last entry
+  const button = (label, at, value) => html`<button onClick=${() => change(key, at, value, true)}>${label}</button>`;
   const fields = entry => entry.filter(found).map(f => field(f, change));
   return html`
-    <details key=${key} data-key=${key} open=${wanted || isWrong || state.open.has(key)}
+    <details key=${key} data-key=${key} open=${wanted || [key, ...all.map(f => f.key)].some(isWrong) || state.open.has(key)}
       hidden=${wanted && !all.some(found)}
       onToggle=${e => wanted || state.open[e.target.open ? "add" : "delete"](key)}>
-      <summary>${title}</summary>${allSaid(key)}
+      <summary>${title}</summary>${said(key)}
       ${drawing && html`<img src=${`images/${drawing}.svg`} alt=${`${title}: что есть что`} loading="lazy" />`}
       ${entries.map((entry, i) => !path ? fields(entry) : html`<fieldset>
-        <legend>${`№ ${i + 1} `}${button(`Убрать ${i + 1}`, raw => put(raw, [...path, i]))}</legend>
+        <legend>${`№ ${i + 1} `}${button(`Убрать ${i + 1}`, [...path, i])}</legend>
         ${fields(entry)}
       </fieldset>`)}
-      <p class="tool-bar">${path && button("Добавить", raw => repeat(raw, path, blank))}
-        ${whole && button("Убрать раздел", raw => put(raw, whole))}</p>
+      <p class="tool-bar">${path && button("Добавить", [...path, list.length], list.at(-1) ?? blank)}
+        ${whole && button("Убрать раздел", whole)}</p>
     </details>`;
 }
 
 function field(f, change) {
   const text = state.typed[f.key] ?? shown(f.value), id = `f-${f.key}`;
-  const told = {id, "aria-describedby": `h-${f.key} e-${f.key}`, "aria-invalid": of(state.wrong, f.key).length > 0};
-  const range = f.number && f.min !== null && `от ${printed(f.min, 9)} до ${printed(f.max, 9)} ${f.unit}`;
+  const type = value => change(f.key, f.path, meant(f, state.typed[f.key] = value), Boolean(f.choices));
+  const onInput = e => type(e.target.value);
+  const told = {id, onInput, "aria-describedby": `h-${f.key} e-${f.key}`, "aria-invalid": isWrong(f.key)};
+  const range = f.number && `от ${printed(f.min, 9)} до ${printed(f.max, 9)} ${f.unit}`;
   const empty = f.optional || f.value === null ? [["", "—"]] : [];
   return html`
     <div key=${f.key} class=${f.number || f.choices ? "field" : "field wide"} data-key=${f.key}>
       <label for=${id}>${f.title}${f.symbol && ", "}${symbol(f.symbol)}</label>
-      ${f.choices
-        ? html`<select ...${told} onChange=${e => change(f, e.target.value, true)}>
-            ${options([...empty, ...Object.entries(f.choices)], text)}</select>`
-        : html`<input ...${told} value=${text} inputmode=${f.number && "decimal"} autocomplete="off"
-            maxlength="300" onInput=${e => change(f, e.target.value)} />`}
-      <span>${f.unit}</span>${slider(f, text, change)}
+      ${f.choices ? html`<select ...${told}>${options([...empty, ...Object.entries(f.choices)], text)}</select>`
+        : html`<input ...${told} value=${text} inputmode=${f.number && "decimal"} autocomplete="off" maxlength="300" />`}
+      <span>${f.unit}</span>${slider(f, text, type)}
       <small id=${`h-${f.key}`}>${[range, f.optional && "можно не задавать", f.key].filter(Boolean).join(" · ")}</small>
-      <div id=${`e-${f.key}`}>${allSaid(f.key)}</div>
+      <div id=${`e-${f.key}`}>${said(f.key)}</div>
     </div>`;
 }
 
-function slider(f, text, change) {
+function slider(f, text, type) { // two figures of its ends are round enough for its step
   if (!f.number || typeof f.value !== "number" || !f.value || f.key.includes("[")) return null;
-  const span = Math.abs(f.value) * .4, step = 10 ** Math.floor(Math.log10(span / 50));
-  const tidy = value => Math.round(value / step) * step;
-  return html`<input type="range" aria-label=${`${f.title}: подвинуть`} step=${step}
-    min=${tidy(Math.max(f.min ?? -Infinity, f.value - span))} max=${tidy(Math.min(f.max ?? Infinity, f.value + span))}
-    value=${text.replace(",", ".")} onInput=${e => change(f, shown(Number(Number(e.target.value).toPrecision(8))))} />`;
+  const span = Math.abs(f.value) * .4;
+  return html`<input type="range" aria-label=${`${f.title}: подвинуть`} step=${10 ** Math.floor(Math.log10(span / 50))}
+    min=${Math.max(f.min, f.value - span).toPrecision(2)} max=${Math.min(f.max, f.value + span)}
+    value=${text.replace(",", ".")} onInput=${e => type(shown(Number(e.target.value)))} />`;
 }

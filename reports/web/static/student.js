@@ -1,11 +1,8 @@
 // A student's page: the own book taken and handed in, and its page once it is open.
-import {alerts, ask, html, picker, printed, send, set, show, state} from "./common.js";
+import {alerts, ask, html, picker, printed, send, set, state} from "./common.js";
 
 const door = `../../api/student/${location.pathname.split("/").filter(Boolean).at(-1)}`;
-
-async function hand(file) {
-  if (await send(`${door}/work`, file)) set(await ask(door));
-}
+const hand = async file => set(await send(`${door}/work`, file) && await ask(door));
 
 function own({student, title, handed, status, points, file, open}) {
   const words = [handed ? "работа сдана" : "работа ещё не сдана", status, points !== null && `баллы: ${printed(points)}`];
@@ -18,5 +15,5 @@ function own({student, title, handed, status, points, file, open}) {
       <a id="page" class="<button>" href=${`${door}/page`} hidden=${!open}>Страница проверки</a></p>`;
 }
 
-Object.assign(state, await ask(door));
-show(() => html`<main class="single">${alerts(state.errors)}${state.student ? own(state) : html`<h1>Моя работа</h1>`}</main>`);
+set(await ask(door), () => html`
+  <main>${alerts(state.errors)}${state.student ? own(state) : html`<h1>Моя работа</h1>`}</main>`);

@@ -1,70 +1,45 @@
 // The instructor's page: a class issued, handed in, graded, decided, taken to Moodle.
-import {alerts, ask, given, html, list, options, picker, printed, row, send, set, show, state, table} from "./common.js";
+import {alerts, ask, choice, given, html, list, options, picker, printed, row, send, set, state, table} from "./common.js";
 
 const door = path => `api/teacher/${state.chosen}/${path}`;
 const isBusy = () => ["waiting", "running"].includes(state.own.state);
 
-async function enter() {
+async function look(changes) { // at the chosen class, again and again while something is done
+  clearTimeout(state.later);
+  set({news: "", ...changes});
   const {classes = [], errors} = await ask("api/teacher");
-  set({inside: !errors, classes, chosen: state.chosen || classes[0]?.name || ""});
-  await look();
-}
-
-let timer = 0;
-async function look(news = "") {
-  clearTimeout(timer);
-  const own = state.chosen && await send(`api/teacher/${state.chosen}`);
-  if (own) set({own, news});
-  if (own && isBusy()) timer = setTimeout(look, 1000);
+  set({inside: !errors, classes, chosen: state.chosen || classes[0]?.name});
+  if (state.chosen) set({own: await send(`api/teacher/${state.chosen}`)});
+  if (state.own && isBusy()) state.later = setTimeout(look, 1000);
 }
 
 async function act(path, data, news) {
-  if (await send(door(path), data)) await look(news);
-}
-
-async function login(data) {
-  if (await send("api/login", data)) await enter();
-}
-
-// A list in Windows-1251 is a list as well.
-async function text(file) {
-  const bytes = await file.arrayBuffer();
-  try { return new TextDecoder("utf-8", {fatal: true}).decode(bytes); } catch {
-    return new TextDecoder("windows-1251").decode(bytes);
-  }
+  if (await send(path, data)) await look({news});
 }
 
 async function issue(event) {
-  const form = event.target, data = given(event);
-  for (const [key, value] of Object.entries(data)) if (value instanceof File) data[key] = await text(value);
+  const data = given(event);
+  for (const key of ["base.toml", "roster.csv", "rubric.toml"]) {
+    const bytes = await data[key].arrayBuffer(), text = new TextDecoder().decode(bytes);
+    // A list in Windows-1251 is a list as well.
+    data[key] = text.includes("\ufffd") ? new TextDecoder("windows-1251").decode(bytes) : text;
+  }
   const made = await send("api/teacher", data);
   if (!made) return;
-  form.reset();
-  set({chosen: made.name});
-  await enter();
+  event.target.reset();
+  await look({chosen: made.name, own: null});
 }
 
 function status({state: now, students, rows, graded}) {
   if (isBusy()) return students.length ? `Проверка идёт… готово файлов: ${graded}` : "Выдача идёт…";
   if (now !== "done") return "";
-  if (!rows.length) return "Варианты выданы.";
-  return rows.some(each => each.manual) ? "Проверено; есть работы, которые ждут вашего решения." : "Проверено.";
+  return rows.length ? "Проверено." : "Варианты выданы."; // how many wait for a person, its lines say
 }
 
-const loaded = name => file => act(`file/${name}`, file, `${file.name}: загружено`);
+const loaded = name => file => act(door(`file/${name}`), file, `${file.name}: загружено`);
 const link = (path, title, more) => html`<a href=${door(`file/${path}`)} ...${more}>${title}</a>`;
 
-const tools = own => html`
-  <p class="tool-bar">
-    ${link("issued.zip", "Рабочие книги .zip", {class: "<button>", download: "issued.zip"})}
-    ${picker("Загрузить архив работ .zip", ".zip", loaded("moodle.zip"))}
-    ${picker("Ведомость Moodle .csv", ".csv", loaded("worksheet.csv"))}
-    <button id="grade" disabled=${isBusy()} onClick=${() => act("grade", {})}>Проверить</button>
-    <label><input id="open" type="checkbox" checked=${own.open}
-      onChange=${e => act("open", {open: e.target.checked})} /> студенты видят свои страницы</label>
-  </p>`;
-
-const gradebook = own => table("Ведомость", own.rows.map(each => {
+const gradebook = rows => table("Ведомость", rows.map(each => {
   const points = each.points ?? each.provisional, judged = each.number && each.page;
   const shown = each.points === null && points !== null ? `(${printed(points)})` : printed(points);
   return row([[judged ? link(each.page, each.student, {target: "_blank"}) : each.student], [each.status],
@@ -74,64 +49,61 @@ const gradebook = own => table("Ведомость", own.rows.map(each => {
   html`<th scope="col">${title}</th>`)}</tr></thead>`);
 
 // What waits for a person stands open; the rest is a click away.
-function decision({number, student, manual, unknown}) {
-  const decide = event => {
-    act("grade", {who: String(number), ...given(event)}, "Решение принято.");
-    event.target.reset();
-  };
-  return html`
-    <details open=${manual}><summary aria-label=${`Решить: ${student}`}>Решить</summary>
-      <form onSubmit=${decide}>
-        <select name="what" aria-label=${`Что решить: ${student}`}>
-          ${options([["всё", "вся работа"], ...unknown.map(item => [item, item])])}</select>
-        <input name="points" aria-label=${`Баллы: ${student}`} size="12" placeholder="баллы, + или -" required />
-        <input name="remark" aria-label=${`Примечание: ${student}`} placeholder="примечание" maxlength="300" />
-        <button>Решить</button>
-      </form></details>`;
-}
+const decision = ({number, student, manual, unknown}) => html`
+  <details open=${manual}><summary aria-label=${`Решить: ${student}`}>Решить</summary>
+    <form onSubmit=${e => {
+      act(door("grade"), {who: String(number), ...given(e)}, "Решение принято.");
+      e.target.reset();
+    }}>
+      <select name="what" aria-label=${`Что решить: ${student}`}>
+        ${options([["всё", "вся работа"], ...unknown.map(item => [item, item])])}</select>
+      <input name="points" aria-label=${`Баллы: ${student}`} size="12" placeholder="баллы, + или -" required />
+      <input name="remark" aria-label=${`Примечание: ${student}`} placeholder="примечание" maxlength="300" />
+      <button>Решить</button></form></details>`;
 
-const room = own => html`
-  <div id="class">
-    <p role="status" class=${own.state === "failed" ? "bad color" : ""}>${state.news} ${status(own)}</p>
-    ${list(own.lines || [], own.state === "failed" ? "bad" : "warn")}
-    ${own.students.length > 0 && tools(own)}
-    <p id="results" class="tool-bar">${own.files.map(name => link(name, name,
-      name.endsWith(".html") ? {target: "_blank"} : {download: name}))}</p>
-    ${own.rows.length > 0 && gradebook(own)}
-    ${own.students.length > 0 && html`<details id="links" open><summary>Ссылки студентов</summary><ul>
-      ${own.students.map(each => html`<li><a href=${`s/${each.link}/`}>${each.name}</a>${each.group && `, ${each.group}`}
-        ${each.handed && " — сдал здесь"}</li>`)}</ul></details>`}
-  </div>`;
+const issued = ({open, students, rows, files}) => html`
+  <p class="tool-bar">
+    ${link("issued.zip", "Рабочие книги .zip", {class: "<button>", download: "issued.zip"})}
+    ${picker("Загрузить архив работ .zip", ".zip", loaded("moodle.zip"))}
+    ${picker("Ведомость Moodle .csv", ".csv", loaded("worksheet.csv"))}
+    <button id="grade" disabled=${isBusy()} onClick=${() => act(door("grade"), {})}>Проверить</button>
+    <label><input id="open" type="checkbox" checked=${open}
+      onChange=${e => act(door("open"), {open: e.target.checked})} /> студенты видят свои страницы</label></p>
+  <p id="results" class="tool-bar">${files.map(name => link(name, name,
+    name.endsWith(".html") ? {target: "_blank"} : {download: name}))}</p>
+  ${rows.length > 0 && gradebook(rows)}
+  <details id="links" open><summary>Ссылки студентов</summary>
+    <ul>${students.map(each => html`<li><a href=${`s/${each.link}/`}>${each.name}</a>
+      ${each.group && `, ${each.group}`}${each.handed && " — сдал здесь"}</li>`)}</ul></details>`;
 
 const asked = (title, name, more) => html`<label>${title} <input id=${name.split(".")[0]} name=${name} ...${more} /></label>`;
 
-const issuing = () => html`
-  <details id="newClass" open=${!state.chosen}><summary>Выдать новой группе</summary>
-    <form id="issue" onSubmit=${issue}>
-      ${asked("Название", "title", {required: true, maxlength: 120})}
-      ${asked("Двигатель с [variants], .toml", "base.toml", {type: "file", accept: ".toml", required: true})}
-      ${asked("Список группы, .csv", "roster.csv", {type: "file", accept: ".csv,.txt", required: true})}
-      ${asked("Рубрика, .toml (можно без неё)", "rubric.toml", {type: "file", accept: ".toml"})}
-      ${asked("Зерно", "seed", {type: "number", defaultValue: 1, required: true})}
-      <button>Выдать</button>
-    </form></details>`;
-
 const page = () => html`
-  <header><h1>Группы</h1><nav aria-label="Страницы"><a href="./">Двигатель</a></nav></header>
-  <main class="single">
+  <header class="f-row flex-wrap:wrap align-items:baseline margin:0 padding-block:0"><h1>Группы</h1>
+    <nav aria-label="Страницы"><a href="./">Двигатель</a></nav></header>
+  <main>
     ${alerts(state.errors)}
-    ${state.inside === false && html`<form id="login" onSubmit=${e => login(given(e))}>
+    ${state.inside === false && html`<form id="login" onSubmit=${e => act("api/login", given(e))}>
       ${asked("Ключ преподавателя", "token", {type: "password", autocomplete: "current-password", required: true})}
       <button>Войти</button></form>`}
-    ${state.inside && html`<div id="inside">${issuing()}
-      <p><label>Группа <select id="classes" onChange=${e => { set({chosen: e.target.value, own: null}); look(); }}>
-        ${options(state.classes.map(c => [c.name, `${c.title}, ${c.date.slice(0, 10)}`]), state.chosen)}</select></label></p>
-      ${state.own && room(state.own)}</div>`}
+    ${state.inside && html`<div id="inside">
+      <details id="newClass" open=${!state.chosen}><summary>Выдать новой группе</summary>
+        <form id="issue" onSubmit=${issue}>
+          ${asked("Название", "title", {required: true, maxlength: 120})}
+          ${asked("Двигатель с [variants], .toml", "base.toml", {type: "file", accept: ".toml", required: true})}
+          ${asked("Список группы, .csv", "roster.csv", {type: "file", accept: ".csv,.txt", required: true})}
+          ${asked("Рубрика, .toml (можно без неё)", "rubric.toml", {type: "file", accept: ".toml"})}
+          ${asked("Зерно", "seed", {type: "number", defaultValue: 1, required: true})}
+          <button>Выдать</button></form></details>
+      <p>${choice("Группа", "classes", state.classes.map(c => [c.name, `${c.title}, ${c.date.slice(0, 10)}`]),
+        state.chosen, chosen => look({chosen, own: null}))}</p>
+      ${state.own && html`<div id="class"><p role="status">${state.news} ${status(state.own)}</p>
+        ${list(state.own.lines || [], state.own.state === "failed" ? "bad" : "warn")}
+        ${state.own.students.length > 0 && issued(state.own)}</div>`}</div>`}
   </main>`;
 
-Object.assign(state, {classes: [], chosen: "", own: null, news: ""});
-show(page);
+set({chosen: "", own: null}, page);
 const token = decodeURIComponent(location.hash.slice(1)); // the printed address: the key goes to no log
 history.replaceState(null, "", location.pathname);
-if (token) await login({token});
-await enter();
+if (token) await send("api/login", {token});
+await look();

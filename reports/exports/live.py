@@ -11,7 +11,9 @@ from typing import Any
 import numpy as np
 
 from kshm import quantity
+from kshm.nomenclature.quantity import Quantity
 from kshm.results.solution import Solution
+from reports.document.text.symbols import indexed
 from reports.inputs.checks.grid import grid_remark
 from reports.inputs.units import MM
 from reports.shared.russian import written
@@ -36,7 +38,7 @@ def results(model: Model, solution: Solution) -> Iterator[Data]:
                      if each.key in quick)  # fmt: skip
             rows = [
                 {"key": each.key, "title": each.note or each.quantity.title,
-                 "symbol": each.quantity.symbol, "unit": each.quantity.unit_label,
+                 "symbol": _symbol(each.quantity), "unit": each.quantity.unit_label,
                  "value": value, "text": written(value, each.quantity.digits)}
                 for each, value in found
             ]  # fmt: skip
@@ -59,7 +61,7 @@ def _chart(chart: ChartSpec, solution: Solution, formulas: Evaluation) -> Data:
         except KeyError:
             return np.asarray(formulas.value(key), dtype=float)
 
-    curves = [(each.name or _symbol(each.y), numbers(each.x), numbers(each.y))
+    curves = [(each.name or _name(each.y), numbers(each.x), numbers(each.y))
               for each in chart.drawn_by("report")]  # fmt: skip
     x = y = np.empty(0)
     if chart.kind == "polar":
@@ -76,9 +78,13 @@ def _chart(chart: ChartSpec, solution: Solution, formulas: Evaluation) -> Data:
     }
 
 
-def _symbol(key: str) -> str:
+def _symbol(each: Quantity) -> str:
+    return indexed(each.tex, each.symbol)
+
+
+def _name(key: str) -> str:
     try:
-        return quantity(key.rpartition(".")[2]).symbol
+        return _symbol(quantity(key.rpartition(".")[2]))
     except KeyError:
         return ""
 
@@ -118,7 +124,7 @@ def moving(solution: Solution, cylinder: int = 0) -> Data:
         "joints": [[plain_numbers(x * 1000) for x in joint]
                    for joint in solution.joints(number)],
         "forces": {
-            key: {"symbol": quantity(key).symbol, "unit": quantity(key).unit_label,
+            key: {"symbol": _symbol(quantity(key)), "unit": quantity(key).unit_label,
                   **_lists(values=solution.column(table, key))}
             for key in forces
         },

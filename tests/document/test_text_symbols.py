@@ -1,6 +1,10 @@
+import re
+from html import unescape
+
 import pytest
 
-from reports.document.text.symbols import SymbolError, inline_html, titled_html
+from reports.document.text.symbols import SymbolError, indexed, inline_html, titled_html
+from tests.workbook.made import coarse_model
 
 NB = "\u00a0"
 
@@ -58,3 +62,31 @@ def test_markup_cannot_pass():
 )
 def test_symbols_in_titles(title, html):
     assert titled_html(title) == html
+
+
+@pytest.mark.parametrize("name", ["gots-diesel", "yamz-236", "mwm-6"])
+def test_symbols_as_text_keep_every_letter(name):
+    seen = 0
+    for node in coarse_model(name).nodes.values():
+        tex, plain = node.quantity.tex, node.quantity.symbol
+        text = indexed(tex, plain)
+        if text != plain:
+            html = inline_html(tex)
+            assert text.replace("_", "") == unescape(re.sub("<[^>]+>", "", html))
+            assert text.count("_") == html.count("<sub>")
+            seen += 1
+    assert seen > 50
+
+
+@pytest.mark.parametrize(
+    ("tex", "plain", "text"),
+    [
+        (r"R'_{\mathrm{ш.ш}}", "", "R′_ш.ш"),
+        ("s_{(2)}", "", "s_(2)"),
+        (r"\frac{a}{b}", "a/b", "a/b"),
+        (r"\omega^2", "ω²", "ω²"),
+        (r"\bar{R}", "R̄", "R̄"),
+    ],
+)
+def test_what_text_cannot_show_stays_as_it_is(tex, plain, text):
+    assert indexed(tex, plain) == text

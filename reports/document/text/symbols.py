@@ -52,6 +52,20 @@ def inline_html(symbol_tex: str) -> Markup:
         raise SymbolError(str(error)) from error
 
 
+_MARKUP = re.compile(r"(<sub>)|<[^>]+>")
+_NO_TEXT = ("<sup>", "<span")  # raised, with a bar
+
+
+def indexed(symbol_tex: str, plain: str) -> str:
+    """A symbol as text with «_» before its index, «R_ш.ш»; ``plain`` where it is no simple one."""
+    try:
+        html = inline_html(symbol_tex)
+    except SymbolError:
+        return plain
+    text = Markup(_MARKUP.sub(lambda match: "_" if match[1] else "", html)).unescape()
+    return plain if any(each in html for each in _NO_TEXT) else text
+
+
 @functools.lru_cache(maxsize=4096)
 def titled_html(title: str) -> Markup:
     """A title with its symbols as symbols: «давление pa» gives *p* with the index *a*."""

@@ -25,7 +25,7 @@ _BENDING = (
 
 def bearings(chapter: Chapter) -> Markup:
     """Loads on the bearings and what the strength of the shaft needs."""
-    terms = chapter.terms
+    terms, first = chapter.terms, " 1" if chapter.shape.throws > 1 else ""
     schemes, shown = None, []
     if "continuous" in terms.model.tables:
         build = partial(grid_table, terms, chapter.grid("schemes"))
@@ -36,7 +36,7 @@ def bearings(chapter: Chapter) -> Markup:
         several=len(chapter.shape.pins[0]) > 1,
         worst=chapter.worst("worst_main_load"),
         given=chapter.input.crankshaft.oil_hole_deg is not None,
-        bending=chapter.scalars("Изгиб шатунной шейки", _BENDING, keep=True),
+        bending=chapter.scalars(f"Изгиб шатунной шейки{first}", _BENDING, keep=True),
         schemes=schemes,
         shown=shown,
         three_moments=_THREE_MOMENTS,

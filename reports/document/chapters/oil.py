@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -13,7 +14,8 @@ from reports.document.page.writer import TablePlan
 from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms
 from reports.inputs.sections.bearings import MATERIALS
-from reports.shared.russian import fixed
+from reports.shared.russian import NBSP, capital, fixed
+from reports.spec.blocks import Grid
 from reports.spec.parts import Scope
 from reports.tables.oil.film import Case, cases_of
 
@@ -66,7 +68,9 @@ def oil(chapter: Chapter) -> Markup:
         film=_FILM, numbers=_NUMBERS, safety_tex=_SAFETY,
         steady=TablePlan(partial(_steady, terms, cases), "Плёнка при средней нагрузке", keep=True),
         orbits=TablePlan(partial(_orbits, terms, cases), "Плёнка за цикл по орбитам", keep=True),
-        safety=chapter.scalars("Запасы прочности шеек", _SAFE, keep=True),
+        mains=_safety(chapter, "safe_main", _SAFE_MAINS, "Запасы прочности коренных шеек"),
+        pins=_safety(chapter, "safe_pins", _SAFE_PINS, "Запасы прочности шатунных шеек"),
+        several=chapter.shape.throws > 1,
         worst=steady,
         enough=steady.value >= section.reserve_allowed,
         thin=thin, under=fixed(under, 1), touches=thin.value < critical,
@@ -77,7 +81,8 @@ def oil(chapter: Chapter) -> Markup:
         holes=terms.has("oil_load_deg"),
         bent=terms.has("safe_class_Q"),
         strong=min(pin, main) >= section.safety_allowed,
-        weakest="шатунной" if pin <= main else "коренной",
+        weakest=_weakest(chapter),
+        least=fixed(min(pin, main), 2),
         class_ok=terms.has("safe_class_Q")
         and min(terms.value("safe_class_Q"), terms.value("safe_class_Q_hole")) >= CLASS_RULE,
     )  # fmt: skip
@@ -92,11 +97,11 @@ def concluded(chapter: Chapter) -> Markup:
     thin = _worst(cases_of(Scope(chapter.input))[int(gaps.argmin())], float(gaps.min()))
     side = "меньше" if thin.value < terms.value("oil_hcr_um") else "не меньше"
     pin, main = terms.value("safe_n_pin"), terms.value("safe_n_main")
-    part = "шатунной" if pin <= main else "коренной"
+    part = _weakest(chapter)
     enough = "не меньше" if min(pin, main) >= section.safety_allowed else "меньше"
     line = (
         "самая тонкая масляная плёнка {} мкм — у {}, она {} критической {}; наименьший запас "
-        "прочности {} — у {} шейки, он {} допускаемого {}"
+        "прочности {} — у {}, он {} допускаемого {}"
     )
     return Markup(line).format(
         thin.text, thin.words, side, terms.val("oil_hcr_um"), fixed(min(pin, main), 2), part,
@@ -105,11 +110,11 @@ def concluded(chapter: Chapter) -> Markup:
 
 
 _CLOSED = 1e-3
-_SAFE = (
-    "worst_main_torque", "safe_n_main", "safe_sigma_a_MPa", "safe_sigma_m_MPa", "safe_n_bend_hole",
-    "safe_n_turn_hole", "safe_n_hole", "safe_n_bend_fillet", "safe_n_turn_fillet",
-    "safe_n_fillet", "safe_n_pin", "safe_class_MPa", "safe_equal_MPa", "safe_class_Q",
-    "safe_class_Q_hole",
+_SAFE_MAINS = ("safe_tau_a2_MPa", "safe_tau_m2_MPa", "safe_fillet2", "safe_hole2", "safe_n2")
+_SAFE_PINS = (
+    "safe_pin_bend_a1_MPa", "safe_pin_bend_m1_MPa", "safe_pin_a1_MPa", "safe_pin_m1_MPa",
+    "safe_pin_bend_hole1", "safe_pin_turn_hole1", "safe_pin_hole1", "safe_pin_bend_fillet1",
+    "safe_pin_turn_fillet1", "safe_pin_fillet1", "safe_pin_n1", "safe_Q_fillet1", "safe_Q_hole1",
 )  # fmt: skip
 
 
@@ -117,6 +122,38 @@ def _worst(case: Case, value: float) -> Worst:
     name = f"коренного подшипника {case.bearing}" if case.bearing else "шатунного подшипника"
     gap = "наибольшем" if case.which == 2 else "наименьшем"
     return Worst(f"{name} при {gap} зазоре", value, fixed(value, 2))
+
+
+def _weakest(chapter: Chapter) -> str:
+    """The journal or crankpin with the least safety, in words and with its number."""
+    terms = chapter.terms
+    part, name = "шатунной", "pin"
+    if terms.value("safe_n_main") < terms.value("safe_n_pin"):
+        part, name = "коренной", "main"
+    several = name == "main" or chapter.shape.throws > 1
+    number = f"{NBSP}{round(terms.value(f'safe_{name}_weakest'))}" if several else ""
+    return f"{part} шейки{number}"
+
+
+def _safety(chapter: Chapter, grid: str, keys: Sequence[str], caption: str) -> TablePlan:
+    """Stresses and safety of all journals of a kind side by side."""
+    shown = chapter.grid(grid)
+    build = partial(_beside, chapter.terms, shown, keys)
+    return TablePlan(build, caption, keep=True, size="dense" if len(shown.labels) > 5 else "")
+
+
+def _beside(terms: Terms, grid: Grid, keys: Sequence[str]) -> TableBlock:
+    """Titles of a grid's quantities with units; a column of values for each journal."""
+    by_key = {row.of: row for row in grid.rows}
+    rows = []
+    for row in (by_key[key] for key in keys if key in by_key):
+        q = row.quantity
+        head = Markup("{}{}").format(
+            symbol_head(f"{q.tex}", q.unit_label), Markup(" — {}").format(titled_html(q.title))
+        )
+        rows.append([head, *(terms.num(cell.key) for cell in row.cells if cell is not None)])
+    columns = [Column("Величина", 5.0, text=True), *(Column(capital(n)) for n in grid.labels)]
+    return table_block(columns, rows)
 
 
 def _steady(terms: Terms, cases: list[Case]) -> TableBlock:

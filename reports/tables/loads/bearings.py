@@ -28,12 +28,13 @@ def bearings(scope: Scope) -> Part:
                   caption="Полярная диаграмма нагрузки на шатунный подшипник")
         )  # fmt: skip
     if not shape.split:
+        first = " 1" if shape.throws > 1 else ""
         given = scope.input.crankshaft.oil_hole_deg is not None
         blocks += [_bending(shape, rows), *_bending_results(given=given)]
         charts.append(
             over_phi("pin_bending", BENDING, "Момент, изгибающий шейку в плоскости отверстия",
                      "M, Н·м", "pin_bending.Malpha_Nm", figure="31",
-                     caption="Момент, изгибающий шатунную шейку в плоскости масляного отверстия")
+                     caption=f"Момент, изгибающий шатунную шейку{first} в плоскости масляного отверстия")
         )  # fmt: skip
     charts += [
         polar(f"main_bearing_{k}", f"П4.3 ({k})", f"Нагрузка на коренной подшипник {k}",

@@ -29,6 +29,14 @@ def polar_box(table: str, name: str, sheet: str) -> Grid:
     return corners(f"{table}_box", title, sheet, f"{name}_box", f"{name}_max")
 
 
+def throw_pull(throw: int) -> str:
+    """Specific centrifugal force of a throw's own mass, that of its counterweights left out."""
+    if throw == 1:
+        return "K_r_throw"
+    webs = f"web_{2 * throw - 1}_mass_kg + web_{2 * throw}_mass_kg"
+    return f"to_MPa((crankshaft_pin_mass_kg + {webs})*r_crank*omega**2/F_piston)"
+
+
 def _centrifugal(shape: Shape, number: int) -> str:
     """Specific centrifugal force of the rods that turn with a crankpin."""
     rods = sum(not shape.is_hung(cylinder) for cylinder in shape.pins[number - 1])
@@ -56,8 +64,8 @@ def _crankpin(shape: Shape, number: int, rows: tuple[float, ...]) -> TableSpec:
     """)
     if shape.single_rods:
         title = "Удельные нагрузки на шатунную шейку и колено"
-        columns += column_list("""
-            Ksum_MPa = Krod_MPa - K_r_throw | Гоц (42)
+        columns += column_list(f"""
+            Ksum_MPa = Krod_MPa - {throw_pull(number)} | Гоц (42)
             Rthrow_MPa = sqrt(Ksum_MPa**2 + T_MPa**2) | Гоц (42)
         """)
     return TableSpec(
@@ -174,7 +182,7 @@ def _pin_charts(shape: Shape) -> tuple[ChartSpec, ...]:
 def _poles(shape: Shape, number: int) -> tuple[tuple[str, str], ...]:
     """From where the loads on the crankpin and on a throw of one rod are measured."""
     rod = _centrifugal(shape, number)
-    poles = ((r"O_{\mathrm{ш}}", rod), (r"O_{\mathrm{к}}", f"{rod} + K_r_throw"))
+    poles = ((r"O_{\mathrm{ш}}", rod), (r"O_{\mathrm{к}}", f"{rod} + {throw_pull(number)}"))
     return poles if shape.single_rods else poles[:1]
 
 

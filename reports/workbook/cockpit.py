@@ -42,6 +42,9 @@ _OF_PINS = {
 }  # fmt: skip
 CHARTS = ("p_phi", "fig49", "fig50", "fig52")
 _PIN_CHARTS = {"fig50", "fig52"}
+_WORST_PIN = (
+    ("шатунную шейку", "наиболее нагруженную"), ("шатунной шейки", "наиболее нагруженной"),
+)  # fmt: skip
 _WIDTHS = {"A": 60, "B": 11, "C": 11, "D": 7, "E": 1.5}
 _TOP = 3
 
@@ -140,10 +143,8 @@ def known(
             formula, value = _of_worst_pin(writer, key)
             title = capital(quantity.title)
             if formula != f"={key}":
-                for end in ("ую шейку", "ой шейки"):
-                    title = title.replace(
-                        f"шатунн{end}", f"наиболее нагруженн{end[:2]} шатунн{end}"
-                    )
+                for words, more in _WORST_PIN:
+                    title = title.replace(words, f"{more} {words}")
             yield title, quantity.symbol, formula, value, quantity.unit_label, look
 
 

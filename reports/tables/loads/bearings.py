@@ -34,7 +34,8 @@ def bearings(scope: Scope) -> Part:
         charts.append(
             over_phi("pin_bending", BENDING, "Момент, изгибающий шейку в плоскости отверстия",
                      "M, Н·м", "pin_bending.Malpha_Nm", figure="31",
-                     caption=f"Момент, изгибающий шатунную шейку{first} в плоскости масляного отверстия")
+                     caption=f"Момент, изгибающий шатунную шейку{first} в плоскости масляного"
+                             " отверстия")
         )  # fmt: skip
     charts += [
         polar(f"main_bearing_{k}", f"П4.3 ({k})", f"Нагрузка на коренной подшипник {k}",

@@ -13,9 +13,9 @@ from reports.document.text.terms import Terms
 
 _MOST_SHOWN = 3
 _THREE_MOMENTS = (
-    r"M_{k-1} l_{k-1} + 2 M_k (l_{k-1} + l_k) + M_{k+1} l_k ="
-    r" -\sum P \dfrac{a\,(l_{k-1}^2 - a^2)}{l_{k-1}}"
-    r" - \sum P \dfrac{b\,(l_k^2 - b^2)}{l_k}"
+    r"X_{k-1} l_{k-1} + 2 X_k (l_{k-1} + l_k) + X_{k+1} l_k ="
+    r" -\sum P \dfrac{u\,(l_{k-1}^2 - u^2)}{l_{k-1}}"
+    r" - \sum P \dfrac{w\,(l_k^2 - w^2)}{l_k}"
 )
 _BENDING = (
     "alpha_oil_deg", "Ralpha_max", "Ralpha_min", "Malpha_max", "Malpha_min", "Malpha_swing",

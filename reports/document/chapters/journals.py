@@ -108,7 +108,7 @@ def journals(chapter: Chapter) -> Markup:
     numbers = range(1, throws + 2)
     k = chapter.worst("worst_main_load")
     drawn = numbers if chapter.whole else [k]
-    neighbours = [("a", k - 1, "правой"), ("b", k, "левой")]
+    neighbours = [("a", k - 1, "правой", "i"), ("b", k, "левой", "i + 1")]
     size = "" if throws <= 5 else "dense" if throws <= 7 else "tiny"
     loads = partial(
         _loads, terms, [f"main{n}" for n in numbers], (*_MOST, *_LEAST, *_MEAN), 0.8
@@ -137,7 +137,7 @@ def journals(chapter: Chapter) -> Markup:
         worst=k,
         pin_wear=pin_figure("fig52", facts.worst_pin(terms)),
         leaders=facts.leaders(terms, [f"Rmain{n}_max" for n in numbers]),
-        sides=[(side, i, word) for side, i, word in neighbours if 1 <= i <= throws],
+        sides=[each for each in neighbours if 1 <= each[1] <= throws],
         forced=chapter.input.crankshaft.force_offsets_deg is not None,
     )
 
@@ -183,7 +183,7 @@ def _sums(terms: Terms, numbers: Sequence[int], rays: int) -> TablePlan:
 
 def _ray_sums(terms: Terms, names: list[str], heads: list[str], rays: int) -> TableBlock:
     """Sums of the forces by rays, a column for each surface."""
-    columns = [Column("Луч"), Column(symbol_head(r"\delta", "°"))]
+    columns = [Column("Луч"), Column(symbol_head(r"\alpha_{\mathrm{л}}", "°"))]
     columns += [Column(symbol_head(head, "МПа")) for head in heads]
     rows = []
     for i in range(1, rays + 1):

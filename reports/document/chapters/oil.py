@@ -20,17 +20,19 @@ from reports.spec.parts import Scope
 from reports.tables.oil.film import Case, cases_of
 
 _FILM = (
-    r"F\cos(\gamma - \delta) = F_D\cos\beta + F_V, \qquad "
-    r"F\sin(\gamma - \delta) = -F_D\sin\beta\,\mathrm{sgn}\,\bar\omega"
+    r"F\cos(\gamma_F - \delta_F) = F_D\cos\beta_F + F_V, \qquad "
+    r"F\sin(\gamma_F - \delta_F) = -F_D\sin\beta_F\,\mathrm{sgn}\,\bar\omega"
 )
 _NUMBERS = (
-    r"So_D = \dfrac{F_D\,\psi^2}{B\,D\,\eta\,|\bar\omega|}, \qquad "
-    r"So_V = \dfrac{F_V\,\psi^2}{B\,D\,\eta\,\varepsilon'}, \qquad "
-    r"\bar\omega = \omega_{\mathrm{ш}} + \omega_{\mathrm{в}} - 2\delta'"
+    r"So_D = \dfrac{F_D\,\psi_{\Delta}^2}"
+    r"{b_{\mathrm{п}}\,d_{\mathrm{п}}\,\mu\,|\bar\omega|}, \qquad "
+    r"So_V = \dfrac{F_V\,\psi_{\Delta}^2}{b_{\mathrm{п}}\,d_{\mathrm{п}}\,\mu\,\chi'}, \qquad "
+    r"\bar\omega = \omega_{\mathrm{ш}} + \omega_{\mathrm{в}} - 2\delta_F'"
 )
 _SAFETY = (
-    r"n_{\sigma} = \dfrac{\sigma_{-1}}{k_{\sigma}\sigma_a/\varepsilon + \psi_{\sigma}\sigma_m}, "
-    r"\qquad n = \dfrac{n_{\sigma} n_{\tau}}{\sqrt{n_{\sigma}^2 + n_{\tau}^2}}"
+    r"n_{\sigma} = "
+    r"\dfrac{\sigma_{-1}}{k_{\sigma}\sigma_a/\varepsilon_{\sigma} + \psi_{\sigma}\sigma_m}, "
+    r"\qquad n_{\mathrm{о,\,г}} = \dfrac{n_{\sigma} n_{\tau}}{\sqrt{n_{\sigma}^2 + n_{\tau}^2}}"
 )
 CLASS_RULE = 1.15  # what the rule asks of its ratio
 
@@ -158,11 +160,11 @@ def _beside(terms: Terms, grid: Grid, keys: Sequence[str]) -> TableBlock:
 
 def _steady(terms: Terms, cases: list[Case]) -> TableBlock:
     heads = [
-        Column("Подшипник", 3.2, text=True), Column(symbol_head("k", "МПа")),
+        Column("Подшипник", 3.2, text=True), Column(symbol_head(r"k_{\mathrm{ср}}", "МПа")),
         Column(symbol_head(r"\chi", "")), Column(symbol_head(r"t_{\mathrm{м}}", "°C")),
         Column(symbol_head(r"\mu", "мПа·с")), Column(symbol_head(r"h_{\min}", "мкм")),
-        Column(symbol_head("K", "")), Column(symbol_head(r"N_{\mathrm{тр}}", "Вт")),
-        Column(symbol_head("Q", "л/мин")),
+        Column(symbol_head("K_h", "")), Column(symbol_head(r"N_{\mathrm{тр}}", "Вт")),
+        Column(symbol_head(r"Q_{\mathrm{м}}", "л/мин")),
     ]  # fmt: skip
     keys = (
         "oil_k{}_MPa", "oil_chi{}", "oil_temp{}_C", "oil_visc{}_mPas", "oil_hmin{}_um", "oil_K{}",
@@ -181,7 +183,8 @@ def _orbits(terms: Terms, cases: list[Case]) -> TableBlock:
         Column(symbol_head(r"h_{\min}", "мкм")), Column(symbol_head(r"\varphi", "°")),
         Column(symbol_head(r"\delta_{\mathrm{в}}", "°")),
         Column(symbol_head(r"\delta_{\mathrm{ш}}", "°")), Column(symbol_head(r"\nu", "%")),
-        Column(symbol_head(r"N_{\mathrm{тр}}", "Вт")), Column(symbol_head("Q", "л/мин")),
+        Column(symbol_head(r"N_{\mathrm{тр}}", "Вт")),
+        Column(symbol_head(r"Q_{\mathrm{м}}", "л/мин")),
     ]  # fmt: skip
     keys = (
         ("oil_eps_max", 4), ("oil_orb_h_um", 2), ("oil_orb_phi_deg", 0), ("oil_shell_deg", 0),

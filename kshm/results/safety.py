@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kshm.arrays import Array, Columns, Results, Scalars
+from kshm.arrays import Array, Columns, Results, Scalars, Tables
 from kshm.engine.bearings import Bearings
 from kshm.mechanics import pin_bearing
 from kshm.mechanics.fatigue import (
@@ -45,8 +45,9 @@ def safety_results(case: Case, asked: Bearings) -> Results:
             ("safe_kh_bend", s.hole_bending), ("safe_kh_turn", s.hole_torsion),
         )
     }  # fmt: skip
+    tables: Tables = {}
     if any(place.pin_angle for place in case.engine.arrangement):
-        turned, tables = _turned_pins(case, asked, factors), {}
+        turned = _turned_pins(case, asked, factors)
         pins = turned.rows | _least(turned.fillet, turned.hole)
     else:
         pins, tables = _bent_pins(case, asked, factors)
@@ -124,9 +125,7 @@ def _turned_pins(case: Case, asked: Bearings, factors: Scalars) -> _Turned:
     return _Turned(rows, swing, modulus, fillet, hole)
 
 
-def _bent_pins(
-    case: Case, asked: Bearings, factors: Scalars
-) -> tuple[dict[str, Array], dict[str, Columns]]:
+def _bent_pins(case: Case, asked: Bearings, factors: Scalars) -> tuple[dict[str, Array], Tables]:
     """Every crankpin bent in the planes of its oil hole and of its crank, and turned."""
     s, turned, phi = asked.strength, _turned_pins(case, asked, factors), case.raw.phi
     each = [bending_forces(case, k) for k in range(len(turned.modulus))]

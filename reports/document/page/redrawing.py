@@ -49,7 +49,7 @@ def smaller(draw: Callable[[], str], height: float) -> str | None:
     if key is None:
         return None
     size, margins = float(draw.keywords[key]), 0.0
-    svg = draw()
+    svg: str = draw()
     for _ in range(_TRIES):
         tall = _height(svg)
         if tall <= height:

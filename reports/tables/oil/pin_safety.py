@@ -72,8 +72,8 @@ def _bending() -> dict[str, tuple[str, str]]:
         for key, sign in (("a", "-"), ("m", "+")):
             text = f"(col_max({moment}) {sign} col_min({moment}))/2/(safe_pin_W{{k}}_cm3/2)"
             rows[f"safe_pin_{name}_{key}{{n}}_MPa"] = text, "Гоц, 2.6: Rl/4"
-        stresses = (f"safe_pin_{name}_{key}{{k}}_MPa" for key in "am")
-        text = safety_of(*stresses, f"safe_k{short}_bend", "bending")
+        swing, mean = (f"safe_pin_{name}_{key}{{k}}_MPa" for key in "am")
+        text = safety_of(swing, mean, f"safe_k{short}_bend", "bending")
         rows[f"safe_pin_bend_{where}{{n}}"] = text, SK
         each = (f"1/safe_pin_{way}_{where}{{k}}**2" for way in ("bend", "turn"))
         rows[f"safe_pin_{where}{{n}}"] = f"1/sqrt({' + '.join(each)})", SK

@@ -19,7 +19,7 @@ from kshm.mechanics.oil_orbit import Complex, FilmError, Orbits, orbits
 from kshm.mechanics.pin_bearing import rod_bearing
 from kshm.results.case import Case
 from kshm.results.extremes import least_loaded
-from kshm.results.safety import safety_scalars
+from kshm.results.safety import safety_results
 
 Number = TypeVar("Number", np.float64, np.complex128)
 CLEARANCES = 2  # the least and the largest
@@ -33,8 +33,9 @@ def bearing_results(case: Case) -> Results:
     if asked is None:
         return {}, {}
     study = Study(case, asked)
-    scalars = study.steady_scalars() | study.hole_scalars() | safety_scalars(case, asked)
-    return study.tables(scalars), scalars
+    tables, safe = safety_results(case, asked)
+    scalars = study.steady_scalars() | study.hole_scalars() | safe
+    return study.tables(scalars) | tables, scalars
 
 
 @dataclass(frozen=True)

@@ -93,7 +93,9 @@ def _crankpin(raw: ChainArrays, at: Index, pin: int) -> Columns:
     }
     if has_single_rods(engine):
         unit = batch.r[at, 0] * batch.omega[at, 0] ** 2
-        throw = batch.m_k[at, 0] * unit / batch.area[at, 0]
+        throws = batch.throws
+        own = (throws.pin_mass + throws.web_mass.sum(axis=-1))[at, pin, None]
+        throw = own * unit / batch.area[at, 0]
         columns |= {"Ksum_MPa": -up - throw, "Rthrow_MPa": raw.throw_load[at, pin]}
     return columns
 

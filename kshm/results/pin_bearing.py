@@ -10,6 +10,7 @@ from kshm.mechanics import pin_bearing
 from kshm.mechanics.kinematics import Position
 from kshm.results.case import Case
 from kshm.results.extremes import first_extreme, least_loaded
+from kshm.results.layout import shown_pins
 
 _MPA = 1e6  # extremes are told apart as the tables show them
 
@@ -43,8 +44,8 @@ def pin_bending(case: Case) -> Results:
     raw = case.raw
     if any(place.pin_angle for place in case.engine.arrangement):
         return {}, {}
-    inward, ahead, lever = bending_forces(case)
-    angle, angles = oil_hole(case), pin_bearing.plane_angles()
+    inward, ahead, lever = bending_forces(case, 0)
+    angle, angles = oil_hole(case, 0), pin_bearing.plane_angles()
     force = pin_bearing.on_plane(inward, ahead, angle)
     planes = [pin_bearing.on_plane(inward, ahead, plane) for plane in angles]
     moment = force * lever
@@ -66,18 +67,21 @@ def pin_bending(case: Case) -> Results:
     return {"pin_bending": table}, scalars
 
 
-def bending_forces(case: Case) -> tuple[Array, Array, float]:
-    """R_к of throw 1 inwards and ahead [Pa], shape (angles,); its bending lever [m³]."""
+def bending_forces(case: Case, number: int) -> tuple[Array, Array, float]:
+    """R_к of a throw, from 0, inwards and ahead [Pa], shape (angles,); its bending lever [m³]."""
     raw, engine, index = case.raw, case.engine, case.index
+    throw = engine.crankshaft.throws[number]
     unit = engine.geometry.crank_radius * engine.omega**2 / engine.geometry.piston_area
-    carried = raw.batch.pin_mass[index, list(throws(engine.arrangement)[0]), 0].sum()
-    inward: Array = raw.throw_K[index, 0] - (carried + raw.batch.m_k[index, 0, 0]) * unit
-    lever = engine.geometry.piston_area * engine.crankshaft.throws[0].length / 4
-    return inward, raw.throw_T[index, 0], lever
+    carried = raw.batch.pin_mass[index, list(throws(engine.arrangement)[number]), 0].sum()
+    own = throw.pin_mass + throw.left_web.mass + throw.right_web.mass
+    inward: Array = raw.throw_K[index, number] - (carried + own) * unit
+    lever = engine.geometry.piston_area * throw.length / 4
+    return inward, raw.throw_T[index, number], lever
 
 
-def oil_hole(case: Case) -> float:
-    """Angle of the oil hole from the crank against rotation [rad]: given, or by the wear."""
+def oil_hole(case: Case, pin: int) -> float:
+    """Angle of a pin's oil hole from the crank against rotation [rad]: given, or by the wear."""
     if case.engine.oil_hole is not None:
         return case.engine.oil_hole
-    return float(least_loaded(case.raw.pin_wear[case.index, 0])[1])
+    shown = min(pin, len(shown_pins(case.engine)) - 1)  # pins of one wear have one hole
+    return float(least_loaded(case.raw.pin_wear[case.index, shown])[1])

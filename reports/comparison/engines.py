@@ -15,6 +15,7 @@ from reports.inputs.to_si.engine import smallness_of
 from reports.shared.errors import InputError, Problem
 from reports.shared.russian import capital
 from reports.spec.charts import PHI
+from reports.spec.shape import pin_name, pin_table
 
 if TYPE_CHECKING:
     from kshm.results.solution import Solution
@@ -213,23 +214,29 @@ def results(engines: Sequence[Compared]) -> tuple[Row, ...]:
 
 
 def _result(engines: Sequence[Compared], group: str, entry: str | tuple[str, str]) -> Row | None:
-    pattern, title = (re.escape(entry), "") if isinstance(entry, str) else entry
+    pattern, title = (entry, "") if isinstance(entry, str) else entry
     values: list[float | None] = []
     known = ""
     for engine in engines:
         scalars = engine.solution.scalars
-        names = [name for name in scalars if re.fullmatch(pattern, name)]
+        # Of unequal crankpins the most loaded one is told, as in the report.
+        own = pattern.replace("pin_", f"pin{pin_name(_worst_pin(engine))}_")
+        names = [name for name in scalars if re.fullmatch(own, name)]
         known = known or (names[0] if names else "")
         largest = max((float(scalars[name]) for name in names), default=None)
         values.append(0.0 if largest is not None and abs(largest) < _ROUNDING else largest)
     if not known:
         return None
-    about = quantity(known)
+    about = quantity(entry if isinstance(entry, str) else known)
     smalls = tuple(smallness_of(engine.model) for engine in engines)
     symbol = "" if title else about.symbol
     key = entry if isinstance(entry, str) else pattern
     found = tuple(values)
     return Row(group, key, capital(title or about.title), symbol, about, found, smalls)
+
+
+def _worst_pin(engine: Compared) -> int:
+    return round(engine.solution.scalars.get("worst_pin_load", 1))
 
 
 def charts(engines: Sequence[Compared]) -> tuple[Chart, ...]:
@@ -239,7 +246,8 @@ def charts(engines: Sequence[Compared]) -> tuple[Chart, ...]:
         table, column = key.split(".")
         curves = []
         for number, engine in enumerate(engines):
-            columns = engine.solution.columns.get(table)
+            of = pin_table(_worst_pin(engine)) if table == pin_table(1) else table
+            columns = engine.solution.columns.get(of)
             if columns is None:
                 continue
             name = column or _widest(columns)

@@ -20,6 +20,7 @@ from reports.document.chapters import (
     companions,
     cycle,
     dynamics,
+    facts,
     front,
     journals,
     kinematics,
@@ -36,6 +37,7 @@ from reports.document.page import overrides
 from reports.document.page.blocks import DocumentInfo
 from reports.document.page.floating import arranged
 from reports.document.page.numbering import Draft, Name
+from reports.document.page.redrawing import redrawn
 from reports.document.page.render import AttachedFile, RenderError, environment, render_pdf
 from reports.document.page.style import USUAL, Style
 from reports.document.page.style import read as read_style
@@ -198,7 +200,8 @@ def _page(model: Model, values: Values, env: Environment, further: Further) -> s
     body = Markup(texts.unbroken(_write(chapter, names, further)))
     if env.globals["media"] == "print":
         sheets = style.framed if front.has_frame(chapter.input, style.frame) else style
-        body = Markup(arranged(body, sheets, run_on=_run_on(chapter, style)))
+        placed = arranged(body, sheets, run_on=_run_on(chapter, style))
+        body = Markup(redrawn(placed, chapter.writer.figures, env.filters["pictured"]))
     numbering.check()
     head, start, page = _whole(env, chapter, body).partition("<body>")
     return texts.spaces_inside(head + start + texts.unbroken(page))
@@ -251,7 +254,8 @@ def _whole(env: Environment, chapter: Chapter, body: Markup) -> str:
         exact=chapter.exact,
         chapter=chapter,
         load=chapter.worst("worst_main_load"),
-        pin=closing.worst_pin(chapter),
+        pin=facts.worst_pin(terms),
+        pins=facts.pin_stems(chapter.shape),
         verdict=closing.verdict(terms),
         toc=chapter.writer.contents(),
         content=body,

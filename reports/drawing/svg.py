@@ -12,6 +12,7 @@ from reports.drawing.primitives import Box, Circle, Item, Line, Words
 
 _FAMILY = "STIXGeneral"
 _GREY = "#9a9a9a"
+_PT = 72 / 25.4  # in a millimetre
 
 
 def svg_of(items: Sequence[Item], box: Box, *, shown_mm: float | None = None) -> str:
@@ -27,7 +28,7 @@ def svg_of(items: Sequence[Item], box: Box, *, shown_mm: float | None = None) ->
     body = "".join(_runs(items, left, high))
     return (
         f'<svg class="fig" xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {wide:.2f} {tall:.2f}" '
-        f'style="width:{shown_mm or wide:.1f}mm" data-size="{wide:.4g}/{tall:.4g}" '
+        f'style="width:{shown_mm or wide:.1f}mm" data-size="{_PT * wide:.4g}/{_PT * tall:.4g}" '
         f'font-family="{_FAMILY}" stroke-linejoin="round">{body}</svg>'
     )
 

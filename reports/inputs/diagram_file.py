@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from reports.inputs.source import read_text
+from reports.inputs.units import number_text
 from reports.shared.errors import InputError, Problem, one_line
 
 MOST_POINTS = 1500
@@ -183,22 +184,22 @@ def _closed(pairs: list[tuple[float, float]], period: float, place: _Place) -> l
     """Points over one cycle from 0 to its end, the ends being equal."""
     spread = max(a for a, _ in pairs) - min(a for a, _ in pairs)
     if spread > period + 1e-6:
-        what = f"углы занимают {spread:g}°, больше цикла {period:g}°"
+        what = f"углы занимают {number_text(spread)}°, больше цикла {number_text(period)}°"
         raise place.refused(what, "оставьте один цикл")
     points: dict[float, float] = {}
     highest = max(p for _, p in pairs)
     for angle, pressure in pairs:
         at = round(angle % period, 6) % period
         if at in points and abs(points[at] - pressure) > CLOSING * highest:
-            what = f"при {at:g}° два разных давления"
+            what = f"при {number_text(at)}° два разных давления"
             raise place.refused(what, "проверьте столбцы и угол ВМТ")
         points.setdefault(at, pressure)
     ordered = sorted(points.items())
     gaps = [b[0] - a[0] for a, b in pairwise(ordered)]
     gaps.append(ordered[0][0] + period - ordered[-1][0])
     if max(gaps) > WIDEST_GAP_DEG:
-        what = f"между точками {max(gaps):g}°, диаграмма не покрывает цикл"
-        raise place.refused(what, f"допустимо до {WIDEST_GAP_DEG:g}°")
+        what = f"между точками {number_text(max(gaps))}°, диаграмма не покрывает цикл"
+        raise place.refused(what, f"допустимо до {number_text(WIDEST_GAP_DEG)}°")
     if ordered[0][0] > 0:  # the seam of the cycle, on the straight line between its neighbours
         (first, p_first), (last, p_last) = ordered[0], ordered[-1]
         share = (period - last) / (first + period - last)

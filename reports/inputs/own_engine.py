@@ -19,7 +19,7 @@ from reports.inputs.own_phases import Phases, phases
 from reports.inputs.sections.input_file import LAYOUTS
 from reports.inputs.to_si.geometry import Sizes
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE
-from reports.inputs.units import number_text
+from reports.inputs.units import number_text, span_text
 from reports.shared.errors import InputError, Problem
 
 BORES_MM = (20.0, 1000.0)
@@ -158,7 +158,7 @@ def own_engine(
         "geometry.stroke_mm": f"обычное S/D = {number_text(usual.stroke_bore)}; впишите свой",
         "geometry.rod_length_mm": f"обычное λ = {number_text(usual.lam)}",
         "regime.mechanical_efficiency": "обычное",
-        "gas.max_pressure_mpa": f"диаграмма даёт p_e ≈ {usual.effective_mpa:g} МПа",
+        "gas.max_pressure_mpa": f"диаграмма даёт p_e ≈ {number_text(usual.effective_mpa)} МПа",
     }
     if speed_rpm is None:
         words = f"обычная: средняя скорость поршня {number_text(usual.piston_speed)} м/с"
@@ -281,7 +281,7 @@ def table_masses(
     taken = rotating * SHAFTS[layout, kind].counterweights
     larger = f" × {number_text(round(size.heavier, 2))} для такого D" if size.heavier > 1 else ""
     piston, rod, throw = (
-        f"таблица 4: от {low:g} до {high:g} кг/м², принято {value:.0f}{larger}"
+        f"таблица 4: {span_text(low, high)} кг/м², принято {value:.0f}{larger}"
         for (low, high), value in (
             (PISTON["aluminium", kind], near.piston),
             (ROD[kind], near.rod),

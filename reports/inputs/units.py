@@ -72,7 +72,12 @@ J_KG_K = Unit("j_kg_k", "Дж/(кг·К)")
 MPA_S_M = Unit("mpa_s_m", "МПа·с/м", times=1e6)
 
 
+def span_text(low: float, high: float) -> str:
+    """Both ends of a span as a sentence writes them: ``от 0,15 до 0,45``."""
+    return f"от {number_text(low)} до {number_text(high)}"
+
+
 def number_text(value: float) -> str:
-    """Return a number as an input file writes it (decimal point, no trailing zeros)."""
-    text = f"{value:.10g}"
+    """Return a number as a sentence writes it: decimal comma, no trailing zeros."""
+    text = f"{value:.10g}".replace(".", ",")
     return text.replace("-", "−") if value < 0 else text

@@ -14,7 +14,7 @@ from reports.inputs.sections.sheet import USUAL, SheetSection
 from reports.shared.errors import InputError, Problem
 from reports.sheet import diagrams, parts, schemes, stamp, tables
 from reports.sheet.cell import Room
-from reports.spec.shape import Shape, pin_name
+from reports.spec.shape import pin_figure
 
 SIZES = {"A1": (841.0, 594.0), "A2": (594.0, 420.0)}
 _GAP = 6.0
@@ -56,18 +56,17 @@ def blocks(terms: Terms, section: SheetSection) -> list[Draw]:
 
 def available(terms: Terms) -> dict[str, Draw]:
     """What can be drawn for an engine, by name."""
-    shape = Shape.of(terms.model.input)
-    pins = [f"R{_pin(n)}_max" for n in range(1, len(shape.pins) + 1)]
-    pin = facts.leaders(terms, pins)[0]
-    end = f"_{pin}" if pin > 1 else ""
+    pin = facts.worst_pin(terms)
     main = round(terms.value("worst_main_load"))
     folded = partial(diagrams.curves, closed=True)
     curves = partial(diagrams.curves, closed=False)
     charts: dict[str, tuple[str, Callable[..., None]]] = {
         "pv": ("pv", folded), "p_phi": ("p_phi", curves), "forces": ("fig46", curves),
         "side": ("fig47", curves), "crank": ("fig48", curves), "torque": ("fig49", curves),
-        "pin_polar": (f"fig50{end}", diagrams.path), "pin_load": (f"fig51{end}", curves),
-        "pin_wear": (f"fig52{end}", diagrams.wear), "main_polar": (f"fig53_{main}", diagrams.path),
+        "pin_polar": (pin_figure("fig50", pin), diagrams.path),
+        "pin_load": (pin_figure("fig51", pin), curves),
+        "pin_wear": (pin_figure("fig52", pin), diagrams.wear),
+        "main_polar": (f"fig53_{main}", diagrams.path),
         "main_load": (f"fig55_{main}", curves), "main_wear": (f"fig54_{main}", diagrams.wear),
     }  # fmt: skip
     known: dict[str, Draw] = {
@@ -78,10 +77,6 @@ def available(terms: Terms) -> dict[str, Draw]:
     return known | {"shaft": schemes.shaft, "balance": schemes.balance,
                     "running": tables.running, "results": tables.results,
                     "throw": parts.throw, "mechanism": parts.mechanism}  # fmt: skip
-
-
-def _pin(number: int) -> str:
-    return f"pin{pin_name(number)}"
 
 
 def cells(width: float, height: float, count: int, section: SheetSection) -> list[Room]:

@@ -12,7 +12,7 @@ from reports.drawing.lettering import fitted
 from reports.drawing.primitives import TABLES, THIN, Canvas
 from reports.shared.russian import capital, fixed
 from reports.sheet.cell import TEXT, Room, headed
-from reports.spec.shape import Shape, pin_name
+from reports.spec.shape import Shape
 
 ROW = 6.0  # mm
 _STEPS = (30.0, 60.0, 90.0, 120.0, 180.0)
@@ -64,10 +64,8 @@ def running(canvas: Canvas, room: Room, terms: Terms) -> None:
 
 def results(canvas: Canvas, room: Room, terms: Terms) -> None:
     """What the calculation found."""
-    shape = Shape.of(terms.model.input)
     room = headed(canvas, room, "Результаты расчёта")
-    pins = [f"pin{pin_name(n)}" for n in range(1, len(shape.pins) + 1)]
-    worst = pins[facts.leaders(terms, [f"R{name}_max" for name in pins])[0] - 1]
+    worst = facts.pin_stems(Shape.of(terms.model.input))[facts.worst_pin(terms) - 1]
     main = f"main{round(terms.value('worst_main_load'))}"
     keys = [*_RESULTS, f"R{worst}_max_kN", f"q_{worst}_mean", f"R{main}_max_kN", f"q_{main}_mean"]
     rows = [["Величина", "Значение", "Единица"]]

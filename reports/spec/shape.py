@@ -163,6 +163,21 @@ def central_volume_ratio(phi: str) -> str:
     return f"1 + (geometry_compression_ratio - 1)/2*{_central(phi)}"
 
 
+def pin_table(number: int) -> str:
+    """Name of the table of the loads on a crankpin, by its number."""
+    return "crankpin" if number == 1 else f"crankpin_{number}"
+
+
+def rays_table(number: int) -> str:
+    """Name of the table of a crankpin's forces by rays, by its number."""
+    return "table_14" if number == 1 else f"table_14_pin_{number}"
+
+
+def pin_figure(figure: str, number: int) -> str:
+    """Name of a crankpin's chart, by the textbook's figure and the pin's number."""
+    return figure if number == 1 else f"{figure}_{number}"
+
+
 def rods_table(throw: int) -> str:
     """Id of the table with the forces of both rods on a throw."""
     return f"rods_{throw}"

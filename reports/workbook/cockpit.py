@@ -12,6 +12,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.shared.russian import capital
 from reports.spec.blocks import Model
+from reports.spec.shape import Shape, pin_figure, pin_name
 from reports.tables.overview.left_out import left_out_note
 from reports.tables.overview.summary import NO, YES
 from reports.workbook import styles
@@ -31,10 +32,19 @@ DATA = (
 )  # fmt: skip
 RESULTS = (
     "M_mean", "M_e", "N_i_calc", "p_i_calc", "M_max", "phi_M_max_deg", "M_min", "c_m", "j_tdc",
-    "Rpin_mean", "Rpin_max", "q_pin_max", "hole_pin_deg", "worst_main_load", "worst_main_torque",
-    "delta_work", "I_flywheel",
+    "worst_pin_load", "Rpin_mean", "Rpin_max", "q_pin_max", "hole_pin_deg", "worst_main_load",
+    "worst_main_torque", "delta_work", "I_flywheel",
 )  # fmt: skip
+# Of the crankpins: where there are several, the most loaded one's.
+_OF_PINS = {
+    "Rpin_mean": "Rpin{}_mean", "Rpin_max": "Rpin{}_max", "q_pin_max": "q_pin{}_max",
+    "hole_pin_deg": "hole_pin{}_deg",
+}  # fmt: skip
 CHARTS = ("p_phi", "fig49", "fig50", "fig52")
+_PIN_CHARTS = {"fig50", "fig52"}
+_WORST_PIN = (
+    ("шатунную шейку", "наиболее нагруженную"), ("шатунной шейки", "наиболее нагруженной"),
+)  # fmt: skip
 _WIDTHS = {"A": 60, "B": 11, "C": 11, "D": 7, "E": 1.5}
 _TOP = 3
 
@@ -100,12 +110,12 @@ def _verdict(sheet: Worksheet, model: Model, writer: Writer, row: int) -> int:
 def _values(sheet: Worksheet, writer: Writer, row: int, title: str, keys: Sequence[str]) -> int:
     """Values that stand elsewhere, with symbol and unit."""
     sheet.cell(row, 1, title).style = styles.SUBTITLE
-    for text, symbol, key, value, unit, look in known(writer, keys):
+    for text, symbol, formula, value, unit, look in known(writer, keys):
         row += 1
         raise_row(sheet, row, {text: _WIDTHS["A"]})
         for column, words in ((1, text), (2, symbol), (4, unit)):
             sheet.cell(row, column, words or None).style = styles.TEXT
-        writer.formula(sheet, row, 3, f"={key}", value)
+        writer.formula(sheet, row, 3, formula, value)
         sheet.cell(row, 3).style = styles.FORMULA
         sheet.cell(row, 3).number_format = look
     return row + 1
@@ -114,7 +124,7 @@ def _values(sheet: Worksheet, writer: Writer, row: int, title: str, keys: Sequen
 def known(
     writer: Writer, keys: Sequence[str]
 ) -> Iterator[tuple[str, str, str, float | str, str, str]]:
-    """Title, symbol, name, value, unit and number format of what the book has."""
+    """Title, symbol, formula, value, unit and number format of what the book has."""
     model, values = writer.layout.model, writer.values.scalars
     for key in keys:
         if key in model.fields:
@@ -122,7 +132,7 @@ def known(
             yield (
                 field.title,
                 field.symbol.replace("_", ""),
-                key,
+                f"={key}",
                 shown(field),
                 field.unit,
                 "General",
@@ -130,8 +140,22 @@ def known(
         elif key in model.scalars and key in values and _finite(values[key]):
             quantity = model.scalars[key].quantity
             look = styles.excel_format(quantity)
+            formula, value = _of_worst_pin(writer, key)
             title = capital(quantity.title)
-            yield title, quantity.symbol, key, values[key], quantity.unit_label, look
+            if formula != f"={key}":
+                for words, more in _WORST_PIN:
+                    title = title.replace(words, f"{more} {words}")
+            yield title, quantity.symbol, formula, value, quantity.unit_label, look
+
+
+def _of_worst_pin(writer: Writer, key: str) -> tuple[str, float | str]:
+    """Formula and value of a scalar, of the most loaded pin where each has its own."""
+    values, worst = writer.values.scalars, "worst_pin_load"
+    if key not in _OF_PINS or worst not in values:
+        return f"={key}", values[key]
+    count = len(Shape.of(writer.layout.model.input).pins)
+    keys = [_OF_PINS[key].format(pin_name(number)) for number in range(1, count + 1)]
+    return f"=CHOOSE({worst},{','.join(keys)})", values[keys[round(float(values[worst])) - 1]]
 
 
 def _finite(value: float | str) -> bool:
@@ -140,7 +164,9 @@ def _finite(value: float | str) -> bool:
 
 def _charts(sheet: Worksheet, model: Model, writer: Writer) -> list[Box]:
     """The four that say most, two to a row and of one size."""
-    specs = [model.charts_by_id[chart] for chart in CHARTS if chart in model.charts_by_id]
+    worst = round(float(writer.values.scalars.get("worst_pin_load", 1)))
+    charts = [pin_figure(chart, worst) if chart in _PIN_CHARTS else chart for chart in CHARTS]
+    specs = [model.charts_by_id[chart] for chart in charts if chart in model.charts_by_id]
     left = sum(round(width * 7) for width in _WIDTHS.values()) + GAP
     boxes = flow([(WIDE, HIGH)] * len(specs), left, top_of(sheet, _TOP), left + 2 * WIDE + GAP)
     for spec, box in zip(specs, boxes, strict=True):

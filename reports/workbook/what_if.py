@@ -52,7 +52,7 @@ def _part(
 ) -> int:
     """Lines of some values; the row behind them."""
     sheet.cell(row, 1, title).style = styles.SUBTITLE
-    for text, symbol, key, value, unit, look in known(writer, keys):
+    for text, symbol, formula, value, unit, look in known(writer, keys):
         if isinstance(value, str):
             continue
         row += 1
@@ -61,7 +61,7 @@ def _part(
             sheet.cell(row, column, words or None).style = styles.TEXT
         was, now = (Cell(SHEET, row, column).coordinate for column in (3, 4))
         sheet.cell(row, 3, value)
-        writer.formula(sheet, row, 4, f"={key}", value)
+        writer.formula(sheet, row, 4, formula, value)
         # Noise of the last digits is no change.
         difference = f"=IF({was}=0,0,ROUND(({now}/{was}-1)*100,6))"
         writer.formula(sheet, row, 5, difference, 0.0)

@@ -4,8 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from kshm import solve
+from reports.inputs.fields import to_mapping
+from reports.inputs.load import load_mapping
+from reports.inputs.sections.crankshaft import CrankshaftSection
+from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.spec.blocks import TableSpec
 from reports.spec.evaluation import Evaluation
@@ -36,6 +42,65 @@ def test_everything_given(maker: str) -> None:
 
 def test_the_tractor_diesel() -> None:
     assert_agree(tractor())
+
+
+def unlike_throws(maker: str, **bearings: object) -> InputFile:
+    """Pins of sizes of their own between webs of masses of their own."""
+    data = to_mapping(laid_out(maker, bearings, step_deg=30))
+    shaft = data["crankshaft"]
+    diameter = shaft.pop("pin_diameter_mm")
+    count = len(shaft["webs"]) // 2
+    shaft["pin_diameters_mm"] = [diameter * (1 - 0.04 * (k % 2)) for k in range(count)]
+    for number, web in enumerate(shaft["webs"]):
+        web["mass_kg"] *= 1 + 0.1 * number
+    return load_mapping(data, source=maker).model
+
+
+@pytest.mark.parametrize("maker", ["basic", "four", "v_six", "articulated", "split", "two_stroke"])
+def test_pins_and_webs_that_are_not_alike(maker: str) -> None:
+    assert_agree(unlike_throws(maker))
+
+
+def polar_modulus(shaft: CrankshaftSection, k: int) -> float:
+    return float(np.pi / 16 * (shaft.pin_diameters_mm[k - 1] / 10) ** 3)
+
+
+@settings(max_examples=10)
+@given(
+    maker=st.sampled_from(["basic", "four", "v_six", "articulated"]),
+    diameters=st.lists(st.floats(0.85, 1.1), min_size=6, max_size=6),
+    webs=st.lists(st.floats(0.5, 2.0), min_size=12, max_size=12),
+    hole=st.sampled_from([None, 0.0, 60.0]),
+)
+def test_every_pin_is_bent_and_turned_by_its_own_moments(
+    maker: str, diameters: list[float], webs: list[float], hole: float | None
+) -> None:
+    data = to_mapping(unlike_throws(maker))
+    shaft = data["crankshaft"]
+    whole = max(shaft["pin_diameters_mm"])
+    count = len(shaft["pin_diameters_mm"])
+    shaft["pin_diameters_mm"] = [round(whole * share, 2) for share in diameters[:count]]
+    shaft["oil_hole_deg"] = hole
+    for web, share in zip(shaft["webs"], webs, strict=False):
+        web["mass_kg"] *= share
+    model = load_mapping(data, source=maker).model
+    assert_agree(model)
+    found = solve(*engine_and_cycle(model))
+    numbers = range(1, count + 1)
+    for k in numbers:
+        bent = np.ptp(found.columns["throw_bending"][f"Mbend{k}_Nm"]) / 2
+        turned = np.ptp(found.columns["P4_5"][f"Mpin{k}_Nm"]) / 2
+        modulus = polar_modulus(model.crankshaft, k)
+        assert found.scalars[f"safe_pin_bend_a{k}_MPa"] == pytest.approx(2 * bent / modulus)
+        assert found.scalars[f"safe_pin_a{k}_MPa"] == pytest.approx(turned / modulus)
+        for where in ("hole", "fillet"):
+            parts = [found.scalars[f"safe_pin_{way}_{where}{k}"] for way in ("bend", "turn")]
+            both = 1 / np.hypot(*(1 / n for n in parts))
+            assert found.scalars[f"safe_pin_{where}{k}"] == pytest.approx(both)
+    least = {k: found.scalars[f"safe_pin_n{k}"] for k in numbers}
+    weakest = round(found.scalars["safe_pin_weakest"])
+    assert found.scalars["safe_n_pin"] == least[weakest] == min(least.values())
+    assert found.scalars["safe_n_bend_hole"] == found.scalars[f"safe_pin_bend_hole{weakest}"]
 
 
 def test_a_groove_with_the_heat_balance() -> None:

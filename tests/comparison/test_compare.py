@@ -18,10 +18,12 @@ from reports.comparison.book import CURVES, DATA, FIGURES, RESULTS, book_bytes
 from reports.comparison.conclusions import conclusions, spread
 from reports.comparison.engines import Row, charts, differences, labels, read_engines, results
 from reports.comparison.page import comparison_page, results_block
-from reports.inputs.load import load_text, load_toml
+from reports.inputs.fields import to_mapping
+from reports.inputs.load import load_mapping, load_text, load_toml
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.resources import samples_dir
 from reports.shared.russian import capital
+from tests.conftest import sample
 from tests.referee.compare import differences_from_caches, errors_in
 from tests.workbook.lint import chart_problems
 from tools.referees.by_formualizer import Formualizer
@@ -53,6 +55,22 @@ def test_values_are_those_of_each_engine_alone():
         mains = [value for key, value in scalars.items()
                  if key.startswith("Rmain") and key.endswith("_max_kN")]  # fmt: skip
         assert rows[r"Rmain\d+_max_kN"].values[number] == max(mains)
+
+
+def test_of_unequal_crankpins_the_most_loaded_is_compared():
+    raw = to_mapping(load_toml(samples_dir() / "yamz-238.toml").model)
+    raw["crankshaft"] |= {
+        "firing_order": "1-2-6-3-7-5-4-8", "throw_angles_deg": [0, 270, 90, 180],
+        "firing_offsets_deg": [0, 90, 270, 540, 450, 180, 360, 630],
+    }  # fmt: skip
+    light = load_mapping(raw, source="light.toml").model
+    both = read_engines(sources(("yamz-238", "yamz-236")), [light, sample("yamz-236")])
+    scalars, columns = both[0].solution.scalars, both[0].solution.columns
+    assert scalars["Rpin_max"] < scalars["Rpin2_max"]
+    rows = {row.key: row for row in results(both)}
+    assert rows["Rpin_max_kN"].values[0] == max(scalars[f"Rpin{n}_max_kN"] for n in ("", 2, 3, 4))
+    curve = next(chart for chart in charts(both) if chart.key == "crankpin.Rpin_MPa").curves[0]
+    assert curve[2] == [float(v) for v in columns["crankpin_2"]["Rpin_MPa"]]
 
 
 def test_the_workbook_recalculated_by_formualizer():

@@ -156,5 +156,5 @@ def test_units_there_and_back(unit):
 
 def test_unit_text():
     assert units.DEG.text(15) == "15°"
-    assert units.MM.text(-0.5) == "−0.5 мм"
-    assert units.NONE.text(0.317) == "0.317"
+    assert units.MM.text(-0.5) == "−0,5 мм"
+    assert units.NONE.text(0.317) == "0,317"

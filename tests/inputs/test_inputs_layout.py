@@ -122,7 +122,7 @@ REFUSED = {
     "short articulated rod": (
         "articulated", "articulated.rod_length_mm", 40.0,
         "articulated.rod_length_mm: прицепной шатун 40 мм не достаёт до оси своего цилиндра: "
-        "его палец отходит от неё на 49.84 мм; "
+        "его палец отходит от неё на 49,84 мм; "
         "удлините шатун или поставьте палец ближе к углу развала",
     ),
     "articulated pin beyond the master rod": (
@@ -206,7 +206,7 @@ def test_two_stroke_regime_needs_its_scavenging(raw, refused):
 def test_unusual_offset_is_a_warning(raw):
     raw["geometry"]["crank_offset_mm"] = 20.0
     (warning,) = load_mapping(raw, source="f.toml").warnings
-    assert "k = e/r = 0.4255 необычно" in warning.line()
+    assert "k = e/r = 0,4255 необычно" in warning.line()
 
 
 def test_a_cycle_knows_no_offset():

@@ -47,7 +47,7 @@ CASES = {
     ),
     "half a cylinder": (
         {"engine.cylinders": 3.5},
-        "engine.cylinders: нужно целое число, а задано: число 3.5; допустимо от 1 до 24",
+        "engine.cylinders: нужно целое число, а задано: число 3,5; допустимо от 1 до 24",
     ),
     "no cylinder": (
         {"engine.cylinders": 0},
@@ -117,16 +117,16 @@ CASES = {
     ),
     "rod shorter than crank": (
         {"geometry.rod_length_mm": 40},
-        "geometry.rod_length_mm: λ = r/L = 1.175: шатун не длиннее кривошипа, "
-        "механизм не провернётся; допустимо λ от 0.01 до 0.99",
+        "geometry.rod_length_mm: λ = r/L = 1,175: шатун не длиннее кривошипа, "
+        "механизм не провернётся; допустимо λ от 0,01 до 0,99",
     ),
     "lambda above one": (
         {"geometry.rod_length_mm": GONE, "geometry.lambda": 1.2},
-        "geometry.lambda: значение 1.2 вне допустимых пределов; допустимо от 0.01 до 0.99",
+        "geometry.lambda: значение 1,2 вне допустимых пределов; допустимо от 0,01 до 0,99",
     ),
     "three that disagree": (
         {"geometry.lambda": 0.32},
-        "geometry.lambda: λ = 0.32 не согласуется с r/L = 0.317568; оставьте любые два из r, L, λ",
+        "geometry.lambda: λ = 0,32 не согласуется с r/L = 0,317568; оставьте любые два из r, L, λ",
     ),
     "stroke that disagrees": (
         {"geometry.stroke_mm": 95},
@@ -179,12 +179,12 @@ CASES = {
     ),
     "p_z below compression": (
         {"gas.max_pressure_mpa": 8.0},
-        "gas.max_pressure_mpa: p_z = 8 МПа ниже давления конца сжатия 8.427 МПа (при 357°); "
+        "gas.max_pressure_mpa: p_z = 8 МПа ниже давления конца сжатия 8,427 МПа (при 357°); "
         "увеличьте p_z или уменьшите p_a, ε, n_1",
     ),
     "rho below one": (
         {"gas.preexpansion_ratio": 0.9},
-        "gas.preexpansion_ratio: значение 0.9 вне допустимых пределов; допустимо от 1 до 6",
+        "gas.preexpansion_ratio: значение 0,9 вне допустимых пределов; допустимо от 1 до 6",
     ),
     "rho above compression ratio": (
         {"geometry.compression_ratio": 2, "gas.preexpansion_ratio": 3},
@@ -285,7 +285,7 @@ TABLES = {
     ),
     "open": (
         [[0, 0.1], [180, 0.1], [720, 0.2]],
-        "gas.points[3]: давление при 720° 0.2 МПа не равно давлению при 0° 0.1 МПа; "
+        "gas.points[3]: давление при 720° 0,2 МПа не равно давлению при 0° 0,1 МПа; "
         "цикл должен замыкаться",
     ),
     "two points": (
@@ -295,7 +295,7 @@ TABLES = {
     "one number": (
         [[0, 0.1], [5], [720, 0.1]],
         "gas.points[2][2]: обязательный ключ не задан (Точка 2: давление); "
-        "допустимо от 0.001 до 60 МПа",
+        "допустимо от 0,001 до 60 МПа",
     ),
     "three numbers": (
         [[0, 0.1], [5, 1, 2], [720, 0.1]],
@@ -303,7 +303,7 @@ TABLES = {
     ),
     "text": (
         [[0, 0.1], [5, "x"], [720, 0.1]],
-        "gas.points[2][2]: нужно число, а задано: строка «x»; допустимо от 0.001 до 60 МПа",
+        "gas.points[2][2]: нужно число, а задано: строка «x»; допустимо от 0,001 до 60 МПа",
     ),
     "no list": (5, "gas.points: нужен список, а задано: число 5; запишите в квадратных скобках"),
 }

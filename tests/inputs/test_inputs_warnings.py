@@ -1,17 +1,24 @@
 """What is odd but allowed is a warning, and the input is still read."""
 
-import pytest
+import re
 
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
+from reports.shared.errors import InputError
+from tests.conftest import sample
 
 CASES = {
     "long rod": (
         ("geometry", "rod_length_mm", 400),
-        "geometry.rod_length_mm: λ = 0.1175 необычно; обычно от 0.15 до 0.45",
+        "geometry.rod_length_mm: λ = 0,1175 необычно; обычно от 0,15 до 0,45",
     ),
     "short rod": (
         ("geometry", "rod_length_mm", 100),
-        "geometry.rod_length_mm: λ = 0.47 необычно; обычно от 0.15 до 0.45",
+        "geometry.rod_length_mm: λ = 0,47 необычно; обычно от 0,15 до 0,45",
     ),
     "force offsets": (
         ("crankshaft", "force_offsets_deg", [0, 480, 240]),
@@ -20,18 +27,18 @@ CASES = {
     ),
     "low residual pressure": (
         ("gas", "residual_pressure_mpa", 0.05),
-        "gas.residual_pressure_mpa: давление остаточных газов 0.05 МПа необычно; "
-        "обычно от 0.1 до 0.2475 МПа",
+        "gas.residual_pressure_mpa: давление остаточных газов 0,05 МПа необычно; "
+        "обычно от 0,1 до 0,2475 МПа",
     ),
     "low intake pressure": (
         ("gas", "intake_pressure_mpa", 0.025),
-        "gas.intake_pressure_mpa: p_a = 0.025 МПа необычно; обычно от 0.05 до 0.49 МПа "
+        "gas.intake_pressure_mpa: p_a = 0,025 МПа необычно; обычно от 0,05 до 0,49 МПа "
         "(по памяти); проверьте единицу и запятую",
     ),
     "pz below pure compression": (
         ("gas", "max_pressure_mpa", 8.5),
-        "gas.max_pressure_mpa: p_z = 8.5 МПа ниже давления чистого сжатия в ВМТ; "
-        "оно равно 8.604 МПа",
+        "gas.max_pressure_mpa: p_z = 8,5 МПа ниже давления чистого сжатия в ВМТ; "
+        "оно равно 8,604 МПа",
     ),
 }
 
@@ -63,3 +70,32 @@ def test_markup_and_slashes_in_a_name_are_text(raw):
 def test_three_that_agree(raw, lam):
     raw["geometry"] |= {"lambda": lam, "stroke_mm": 94}
     assert load_mapping(raw, source="f").warnings == ()
+
+
+# What stands to the left of a number that is quoted as it is typed.
+TYPED = re.compile(r"[a-z_]+ = |с точкой: |\[[\d., ]*")
+CHANGES = (
+    "geometry.bore_mm", "geometry.stroke_mm", "geometry.rod_length_mm", "regime.speed_rpm",
+    "gas.max_pressure_mpa", "gas.residual_pressure_mpa", "gas.compression_exponent",
+    "masses.piston_group_kg", "masses.rod_kg", "crankshaft.pin_diameter_mm",
+    "crankshaft.pin_length_mm", "masses.rod_small_end_share",
+)  # fmt: skip
+
+
+@settings(max_examples=40)
+@given(st.dictionaries(st.sampled_from(CHANGES), st.floats(0.03, 30), min_size=1, max_size=4))
+def test_numbers_in_sentences_have_a_decimal_comma(changes):
+    """Refusals and warnings of random files; only what is typed into the file keeps a point."""
+    raw = to_mapping(sample("gots-diesel"))
+    for path, times in changes.items():
+        section, key = path.split(".")
+        if isinstance(raw[section].get(key), int | float):
+            raw[section][key] *= times
+    try:
+        lines = [problem.line() for problem in load_mapping(raw, source="f").warnings]
+    except InputError as error:
+        lines = [problem.line() for problem in error.problems]
+    for line in lines:
+        for found in re.finditer(r"\d+\.\d+(?![\d.]|\w)", line):
+            before = line[: found.start()]
+            assert re.search(f"(?:{TYPED.pattern})$", before) or "п." in before[-4:], line

@@ -227,7 +227,7 @@ def test_every_sample_has_an_alternative_that_passes(path):
     assert "таблица 4: от " in masses
 
 
-@pytest.mark.parametrize(("cylinders", "words"), [(1, "принято 0.95 D"), (12, "принято 0.3 D")])
+@pytest.mark.parametrize(("cylinders", "words"), [(1, "принято 0,95 D"), (12, "принято 0,3 D")])
 def test_journals_of_an_alternative_stay_within_their_bounds(cylinders, words):
     """Journals by ½ and the bore by ⅓: from 1 to 12 cylinders the rule alone leaves d = 0.275 D."""
     base = made(12) if cylinders == 1 else load_toml(samples_dir() / "two-stroke.toml")

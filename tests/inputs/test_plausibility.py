@@ -146,7 +146,7 @@ def test_the_key_itself_is_named(case, raw):
 def test_a_wrong_bore_is_one_line(raw):
     raw["geometry"]["bore_mm"] = 880.0
     (warning,) = load_mapping(raw, source="f").warnings
-    assert "D = 880 мм не вяжется с другими данными: S/D = 0.1068" in warning.line()
+    assert "D = 880 мм не вяжется с другими данными: S/D = 0,1068" in warning.line()
 
 
 def test_poor_use_of_heat_is_named():

@@ -134,7 +134,7 @@ def test_a_stroke_with_an_offset_is_told_to_be_twice_the_radius() -> None:
     (warning,) = load_mapping(raw, source="f").warnings
     assert warning.line() == (
         "f: geometry.stroke_mm: при смещении stroke_mm понимается как 2r, действительный ход "
-        "поршня 125.046 мм; задайте радиус кривошипа crank_radius_mm"
+        "поршня 125,046 мм; задайте радиус кривошипа crank_radius_mm"
     )
 
 

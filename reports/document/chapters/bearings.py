@@ -13,9 +13,9 @@ from reports.document.text.terms import Terms
 
 _MOST_SHOWN = 3
 _THREE_MOMENTS = (
-    r"M_{k-1} l_{k-1} + 2 M_k (l_{k-1} + l_k) + M_{k+1} l_k ="
-    r" -\sum P \dfrac{a\,(l_{k-1}^2 - a^2)}{l_{k-1}}"
-    r" - \sum P \dfrac{b\,(l_k^2 - b^2)}{l_k}"
+    r"X_{k-1} l_{k-1} + 2 X_k (l_{k-1} + l_k) + X_{k+1} l_k ="
+    r" -\sum P \dfrac{u\,(l_{k-1}^2 - u^2)}{l_{k-1}}"
+    r" - \sum P \dfrac{w\,(l_k^2 - w^2)}{l_k}"
 )
 _BENDING = (
     "alpha_oil_deg", "Ralpha_max", "Ralpha_min", "Malpha_max", "Malpha_min", "Malpha_swing",
@@ -25,7 +25,7 @@ _BENDING = (
 
 def bearings(chapter: Chapter) -> Markup:
     """Loads on the bearings and what the strength of the shaft needs."""
-    terms = chapter.terms
+    terms, first = chapter.terms, " 1" if chapter.shape.throws > 1 else ""
     schemes, shown = None, []
     if "continuous" in terms.model.tables:
         build = partial(grid_table, terms, chapter.grid("schemes"))
@@ -36,7 +36,7 @@ def bearings(chapter: Chapter) -> Markup:
         several=len(chapter.shape.pins[0]) > 1,
         worst=chapter.worst("worst_main_load"),
         given=chapter.input.crankshaft.oil_hole_deg is not None,
-        bending=chapter.scalars("Изгиб шатунной шейки", _BENDING, keep=True),
+        bending=chapter.scalars(f"Изгиб шатунной шейки{first}", _BENDING, keep=True),
         schemes=schemes,
         shown=shown,
         three_moments=_THREE_MOMENTS,

@@ -20,7 +20,7 @@ from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms
 from reports.inputs.checks.grid import remark_on
 from reports.shared.russian import NBSP, capital, fixed
-from reports.spec.shape import Shape, pin_name, rods_table
+from reports.spec.shape import Shape, pin_table, rays_table, rods_table
 from reports.tables.overview.summary import NO, YES
 from reports.tables.overview.verdicts import reasons_of
 
@@ -160,8 +160,7 @@ def conclusion(chapter: Chapter) -> Markup:
     terms, throws = chapter.terms, chapter.shape.throws
     pressure = terms.column("gas.p_MPa")
     row = int(pressure.argmax())
-    names = [f"pin{pin_name(n)}" for n in range(1, len(chapter.shape.pins) + 1)]
-    worst = facts.leaders(terms, [f"R{name}_max" for name in names])
+    names, pin = facts.pin_stems(chapter.shape), facts.worst_pin(terms)
     mains, pins = facts.worst_running(terms, throws)
     return chapter.page(
         "conclusion",
@@ -174,9 +173,12 @@ def conclusion(chapter: Chapter) -> Markup:
         mains=mains,
         pins=pins,
         pins_count=len(names),
-        worst_pins=worst,
-        pin=worst_pin(chapter),
-        ray=least_ray(terms),
+        worst_pins=facts.leaders(terms, [f"R{name}_max" for name in names]),
+        pressed=facts.leaders(terms, [f"q_{name}_max" for name in names]),
+        names_of_pins=names,
+        pin_number=pin,
+        pin=names[pin - 1],
+        ray=least_ray(terms, names[pin - 1]),
         has_power=terms.has("T_ref"),
         further=_further(chapter),
         step=chapter.input.calculation.step_deg,
@@ -191,12 +193,6 @@ def _further(chapter: Chapter) -> list[Markup]:
     names = chosen(chapter.input.report)
     lines = {"torsion": torsion.concluded, "oil": oil.concluded}
     return [line for name, of in lines.items() if name in names and (line := of(chapter))]
-
-
-def worst_pin(chapter: Chapter) -> str:
-    """Stem of the keys of the crankpin with the greatest load: ``pin``, ``pin_2``."""
-    names = [f"pin{pin_name(n)}" for n in range(1, len(chapter.shape.pins) + 1)]
-    return names[facts.leaders(chapter.terms, [f"R{name}_max" for name in names])[0] - 1]
 
 
 def verdict(terms: Terms) -> str:
@@ -232,7 +228,7 @@ def appendices(chapter: Chapter) -> Markup:
         *((key, None, "") for key in _loads(shape)),
         *((f"P4_3_{k}", reactions, "") for k in range(1, shape.throws + 2)),
         *((key, _moments(terms, key), wide) for key in ("P4_4", "P4_5", "P4_5s")),
-        ("table_14", None, "dense"),
+        (rays_table(facts.worst_pin(terms)), None, "dense"),
     ]
     return chapter.page("appendices", kinematic=_plans(chapter, "А", kinematic),
                         forces=_plans(chapter, "Б", forces))  # fmt: skip
@@ -240,7 +236,7 @@ def appendices(chapter: Chapter) -> Markup:
 
 def _loads(shape: Shape) -> list[str]:
     """Tables of the forces on throws and crankpins."""
-    pins = ["crankpin", *(f"crankpin_{n}" for n in range(2, len(shape.pins) + 1))]
+    pins = [pin_table(number) for number in range(1, len(shape.pins) + 1)]
     throws = [] if shape.single_rods else [rods_table(k) for k in range(1, shape.throws + 1)]
     return [*throws, *pins]
 

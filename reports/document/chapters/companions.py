@@ -29,9 +29,9 @@ _FORMULAS = {
     r" + I_{\mathrm{ш}}\dfrac{\omega_{\mathrm{ш}}^2}{\omega^2}"
     r" + m_{\mathrm{п}}\dfrac{v_{\mathrm{п}}^2}{\omega^2}",
     "harmonic": r"t_k = t_k^a \sin\left(k\varphi + \gamma_k\right)",
-    "series": r"\dfrac{s}{r} = 1 + k - \cos\varphi - p_2\cos 2\varphi + p_4\cos 4\varphi"
+    "series": r"\bar s = 1 + k_s - \cos\varphi - p_2\cos 2\varphi + p_4\cos 4\varphi"
     r" - p_6\cos 6\varphi + p_8\cos 8\varphi",
-    "exact": r"j = \dfrac{\cos(\varphi+\beta)}{\cos\beta}"
+    "exact": r"\bar j = \dfrac{\cos(\varphi+\beta)}{\cos\beta}"
     r" + \lambda\dfrac{\cos^2\varphi}{\cos^3\beta}",
 }
 _LISTS = {

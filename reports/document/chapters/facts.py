@@ -8,6 +8,7 @@ import numpy as np
 from markupsafe import Markup
 
 from reports.document.text.terms import Terms
+from reports.spec.shape import Shape, pin_name
 
 _PEAK_MPA = 0.005  # half a unit of the last digit that the conclusion prints
 _NOTHING = 2e-3  # of what it is measured by: no table and no curve shows it
@@ -18,6 +19,16 @@ def leaders(terms: Terms, names: Sequence[str]) -> list[int]:
     values = [terms.value(name) for name in names]
     most = terms.num(names[int(np.argmax(values))])
     return [number for number, name in enumerate(names, 1) if terms.num(name) == most]
+
+
+def pin_stems(shape: Shape) -> list[str]:
+    """Stems of the keys of the crankpins, from the nose: ``pin``, ``pin2``."""
+    return [f"pin{pin_name(number)}" for number in range(1, len(shape.pins) + 1)]
+
+
+def worst_pin(terms: Terms) -> int:
+    """Number of the crankpin with the greatest load, as the workbook tells it."""
+    return round(terms.value("worst_pin_load")) if terms.has("worst_pin_load") else 1
 
 
 def missed_peak(terms: Terms) -> Markup | str:

@@ -18,7 +18,7 @@ from reports.document.page.spec_tables import grid_table
 from reports.document.page.writer import Figure, TablePlan
 from reports.document.text.terms import Terms
 from reports.shared.russian import capital, fixed, joined
-from reports.spec.shape import pin_name
+from reports.spec.shape import pin_figure, pin_table, rays_table
 
 _FORCES = ("C1", "C2", "C3", "C4", "C5", "C6", "C7", "C8", "C9", "C10", "C11", "C12", "C13",
            "C14", "C15", "C4x", "C5x")  # fmt: skip
@@ -43,16 +43,26 @@ def crankpin(chapter: Chapter) -> Markup:
     """Loads on the crankpins, wear and the best place of the oil hole."""
     terms, rays, pins = chapter.terms, chapter.input.calculation.wear_rays, chapter.shape.pins
     numbers = range(1, len(pins) + 1)
-    names = [f"pin{pin_name(number)}" for number in numbers]
+    names, worst = facts.pin_stems(chapter.shape), facts.worst_pin(terms)
+    others, name = [n for n in numbers if n != worst], names[worst - 1]
     loads = partial(_loads, terms, names, (*_MOST, *_MEAN), 1.0)
-    sums = partial(_ray_sums, terms, ["pin"], [r"\Sigma R'_{\mathrm{ш.ш}}"], rays)
+    number = f" {worst}" if others else ""
+    head = rf"\Sigma R'_{{\mathrm{{ш.ш}}{number.strip()}}}"
+    sums = partial(_ray_sums, terms, [name], [head], rays)
+    drawn = {figure: pin_figure(figure, worst) for figure in ("fig50", "fig51", "fig52")}
     return chapter.page(
         "crankpin",
-        several=pins[0] if len(pins[0]) > 1 else (),
-        others=numbers[1:],
-        tables=[_pin_table(n) for n in numbers[1:]],
-        diagrams=[f"{figure}_{n}" for n in numbers[1:] for figure in ("fig50", "fig52")],
-        same_curves=facts.are_alike(terms, [f"{_pin_table(n)}.Rpin_MPa" for n in numbers]),
+        several=pins[worst - 1] if len(pins[worst - 1]) > 1 else (),
+        pin=worst,
+        name=name,
+        own=pin_table(worst),
+        own_rays=rays_table(worst),
+        number=number,
+        drawn=drawn,
+        others=others,
+        tables=[pin_table(n) for n in others],
+        diagrams=[(pin_figure("fig50", n), pin_figure("fig52", n)) for n in others],
+        same_curves=facts.are_alike(terms, [f"{pin_table(n)}.Rpin_MPa" for n in numbers]),
         same_loads=all(
             len(facts.leaders(terms, [key.format(name) for name in names])) == len(names)
             for key, _, _ in (_MOST[0], *_MEAN)
@@ -60,15 +70,12 @@ def crankpin(chapter: Chapter) -> Markup:
         same_gaps=_have_equal_gaps(chapter),
         pin_loads=TablePlan(loads, "Нагрузки на шатунные шейки", size="dense"),
         worst_pins=facts.leaders(terms, [f"R{name}_max" for name in names]),
+        pressed=facts.leaders(terms, [f"q_{name}_max" for name in names]),
         rays=rays,
-        sums=TablePlan(sums, "Суммы удельных сил по лучам шатунной шейки", keep=True),
-        best=least_ray(terms),
-        ties=_least_rays(terms, rays),
+        sums=TablePlan(sums, f"Суммы удельных сил по лучам шатунной шейки{number}", keep=True),
+        best=least_ray(terms, name),
+        ties=_least_rays(terms, name, rays),
     )
-
-
-def _pin_table(number: int) -> str:
-    return "crankpin" if number == 1 else f"crankpin_{number}"
 
 
 def _have_equal_gaps(chapter: Chapter) -> bool:
@@ -83,15 +90,15 @@ def _have_equal_gaps(chapter: Chapter) -> bool:
     return all(len(other) == len(first) and np.allclose(other, first) for other in others)
 
 
-def least_ray(terms: Terms) -> str:
-    """Roman number of the crankpin's least loaded ray."""
-    return roman(round(terms.value("hole_pin_ray")))
+def least_ray(terms: Terms, pin: str) -> str:
+    """Roman number of a crankpin's least loaded ray."""
+    return roman(round(terms.value(f"hole_{pin}_ray")))
 
 
-def _least_rays(terms: Terms, rays: int) -> list[str]:
+def _least_rays(terms: Terms, pin: str, rays: int) -> list[str]:
     """Roman numbers of the rays whose sums are the least as printed."""
-    sums = [fixed(terms.value(f"pin_sum{i}"), _SUM_DIGITS) for i in range(1, rays + 1)]
-    least = sums[round(terms.value("hole_pin_ray")) - 1]
+    sums = [fixed(terms.value(f"{pin}_sum{i}"), _SUM_DIGITS) for i in range(1, rays + 1)]
+    least = sums[round(terms.value(f"hole_{pin}_ray")) - 1]
     return [roman(i) for i, shown in enumerate(sums, 1) if shown == least]
 
 
@@ -101,7 +108,7 @@ def journals(chapter: Chapter) -> Markup:
     numbers = range(1, throws + 2)
     k = chapter.worst("worst_main_load")
     drawn = numbers if chapter.whole else [k]
-    neighbours = [("a", k - 1, "правой"), ("b", k, "левой")]
+    neighbours = [("a", k - 1, "правой", "i"), ("b", k, "левой", "i + 1")]
     size = "" if throws <= 5 else "dense" if throws <= 7 else "tiny"
     loads = partial(
         _loads, terms, [f"main{n}" for n in numbers], (*_MOST, *_LEAST, *_MEAN), 0.8
@@ -128,8 +135,9 @@ def journals(chapter: Chapter) -> Markup:
             for start in range(0, len(numbers), _SUM_COLUMNS)
         ],
         worst=k,
+        pin_wear=pin_figure("fig52", facts.worst_pin(terms)),
         leaders=facts.leaders(terms, [f"Rmain{n}_max" for n in numbers]),
-        sides=[(side, i, word) for side, i, word in neighbours if 1 <= i <= throws],
+        sides=[each for each in neighbours if 1 <= each[1] <= throws],
         forced=chapter.input.crankshaft.force_offsets_deg is not None,
     )
 
@@ -175,7 +183,7 @@ def _sums(terms: Terms, numbers: Sequence[int], rays: int) -> TablePlan:
 
 def _ray_sums(terms: Terms, names: list[str], heads: list[str], rays: int) -> TableBlock:
     """Sums of the forces by rays, a column for each surface."""
-    columns = [Column("Луч"), Column(symbol_head(r"\delta", "°"))]
+    columns = [Column("Луч"), Column(symbol_head(r"\alpha_{\mathrm{л}}", "°"))]
     columns += [Column(symbol_head(head, "МПа")) for head in heads]
     rows = []
     for i in range(1, rays + 1):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -13,22 +14,25 @@ from reports.document.page.writer import TablePlan
 from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms
 from reports.inputs.sections.bearings import MATERIALS
-from reports.shared.russian import fixed
+from reports.shared.russian import NBSP, capital, fixed
+from reports.spec.blocks import Grid
 from reports.spec.parts import Scope
 from reports.tables.oil.film import Case, cases_of
 
 _FILM = (
-    r"F\cos(\gamma - \delta) = F_D\cos\beta + F_V, \qquad "
-    r"F\sin(\gamma - \delta) = -F_D\sin\beta\,\mathrm{sgn}\,\bar\omega"
+    r"F\cos(\gamma_F - \delta_F) = F_D\cos\beta_F + F_V, \qquad "
+    r"F\sin(\gamma_F - \delta_F) = -F_D\sin\beta_F\,\mathrm{sgn}\,\bar\omega"
 )
 _NUMBERS = (
-    r"So_D = \dfrac{F_D\,\psi^2}{B\,D\,\eta\,|\bar\omega|}, \qquad "
-    r"So_V = \dfrac{F_V\,\psi^2}{B\,D\,\eta\,\varepsilon'}, \qquad "
-    r"\bar\omega = \omega_{\mathrm{ш}} + \omega_{\mathrm{в}} - 2\delta'"
+    r"So_D = \dfrac{F_D\,\psi_{\Delta}^2}"
+    r"{b_{\mathrm{п}}\,d_{\mathrm{п}}\,\mu\,|\bar\omega|}, \qquad "
+    r"So_V = \dfrac{F_V\,\psi_{\Delta}^2}{b_{\mathrm{п}}\,d_{\mathrm{п}}\,\mu\,\chi'}, \qquad "
+    r"\bar\omega = \omega_{\mathrm{ш}} + \omega_{\mathrm{в}} - 2\delta_F'"
 )
 _SAFETY = (
-    r"n_{\sigma} = \dfrac{\sigma_{-1}}{k_{\sigma}\sigma_a/\varepsilon + \psi_{\sigma}\sigma_m}, "
-    r"\qquad n = \dfrac{n_{\sigma} n_{\tau}}{\sqrt{n_{\sigma}^2 + n_{\tau}^2}}"
+    r"n_{\sigma} = "
+    r"\dfrac{\sigma_{-1}}{k_{\sigma}\sigma_a/\varepsilon_{\sigma} + \psi_{\sigma}\sigma_m}, "
+    r"\qquad n_{\mathrm{о,\,г}} = \dfrac{n_{\sigma} n_{\tau}}{\sqrt{n_{\sigma}^2 + n_{\tau}^2}}"
 )
 CLASS_RULE = 1.15  # what the rule asks of its ratio
 
@@ -66,7 +70,9 @@ def oil(chapter: Chapter) -> Markup:
         film=_FILM, numbers=_NUMBERS, safety_tex=_SAFETY,
         steady=TablePlan(partial(_steady, terms, cases), "Плёнка при средней нагрузке", keep=True),
         orbits=TablePlan(partial(_orbits, terms, cases), "Плёнка за цикл по орбитам", keep=True),
-        safety=chapter.scalars("Запасы прочности шеек", _SAFE, keep=True),
+        mains=_safety(chapter, "safe_main", _SAFE_MAINS, "Запасы прочности коренных шеек"),
+        pins=_safety(chapter, "safe_pins", _SAFE_PINS, "Запасы прочности шатунных шеек"),
+        several=chapter.shape.throws > 1,
         worst=steady,
         enough=steady.value >= section.reserve_allowed,
         thin=thin, under=fixed(under, 1), touches=thin.value < critical,
@@ -77,7 +83,8 @@ def oil(chapter: Chapter) -> Markup:
         holes=terms.has("oil_load_deg"),
         bent=terms.has("safe_class_Q"),
         strong=min(pin, main) >= section.safety_allowed,
-        weakest="шатунной" if pin <= main else "коренной",
+        weakest=_weakest(chapter),
+        least=fixed(min(pin, main), 2),
         class_ok=terms.has("safe_class_Q")
         and min(terms.value("safe_class_Q"), terms.value("safe_class_Q_hole")) >= CLASS_RULE,
     )  # fmt: skip
@@ -92,11 +99,11 @@ def concluded(chapter: Chapter) -> Markup:
     thin = _worst(cases_of(Scope(chapter.input))[int(gaps.argmin())], float(gaps.min()))
     side = "меньше" if thin.value < terms.value("oil_hcr_um") else "не меньше"
     pin, main = terms.value("safe_n_pin"), terms.value("safe_n_main")
-    part = "шатунной" if pin <= main else "коренной"
+    part = _weakest(chapter)
     enough = "не меньше" if min(pin, main) >= section.safety_allowed else "меньше"
     line = (
         "самая тонкая масляная плёнка {} мкм — у {}, она {} критической {}; наименьший запас "
-        "прочности {} — у {} шейки, он {} допускаемого {}"
+        "прочности {} — у {}, он {} допускаемого {}"
     )
     return Markup(line).format(
         thin.text, thin.words, side, terms.val("oil_hcr_um"), fixed(min(pin, main), 2), part,
@@ -105,11 +112,11 @@ def concluded(chapter: Chapter) -> Markup:
 
 
 _CLOSED = 1e-3
-_SAFE = (
-    "worst_main_torque", "safe_n_main", "safe_sigma_a_MPa", "safe_sigma_m_MPa", "safe_n_bend_hole",
-    "safe_n_turn_hole", "safe_n_hole", "safe_n_bend_fillet", "safe_n_turn_fillet",
-    "safe_n_fillet", "safe_n_pin", "safe_class_MPa", "safe_equal_MPa", "safe_class_Q",
-    "safe_class_Q_hole",
+_SAFE_MAINS = ("safe_tau_a2_MPa", "safe_tau_m2_MPa", "safe_fillet2", "safe_hole2", "safe_n2")
+_SAFE_PINS = (
+    "safe_pin_bend_a1_MPa", "safe_pin_bend_m1_MPa", "safe_pin_a1_MPa", "safe_pin_m1_MPa",
+    "safe_pin_bend_hole1", "safe_pin_turn_hole1", "safe_pin_hole1", "safe_pin_bend_fillet1",
+    "safe_pin_turn_fillet1", "safe_pin_fillet1", "safe_pin_n1", "safe_Q_fillet1", "safe_Q_hole1",
 )  # fmt: skip
 
 
@@ -119,13 +126,45 @@ def _worst(case: Case, value: float) -> Worst:
     return Worst(f"{name} при {gap} зазоре", value, fixed(value, 2))
 
 
+def _weakest(chapter: Chapter) -> str:
+    """The journal or crankpin with the least safety, in words and with its number."""
+    terms = chapter.terms
+    part, name = "шатунной", "pin"
+    if terms.value("safe_n_main") < terms.value("safe_n_pin"):
+        part, name = "коренной", "main"
+    several = name == "main" or chapter.shape.throws > 1
+    number = f"{NBSP}{round(terms.value(f'safe_{name}_weakest'))}" if several else ""
+    return f"{part} шейки{number}"
+
+
+def _safety(chapter: Chapter, grid: str, keys: Sequence[str], caption: str) -> TablePlan:
+    """Stresses and safety of all journals of a kind side by side."""
+    shown = chapter.grid(grid)
+    build = partial(_beside, chapter.terms, shown, keys)
+    return TablePlan(build, caption, keep=True, size="dense" if len(shown.labels) > 5 else "")
+
+
+def _beside(terms: Terms, grid: Grid, keys: Sequence[str]) -> TableBlock:
+    """Titles of a grid's quantities with units; a column of values for each journal."""
+    by_key = {row.of: row for row in grid.rows}
+    rows = []
+    for row in (by_key[key] for key in keys if key in by_key):
+        q = row.quantity
+        head = Markup("{}{}").format(
+            symbol_head(f"{q.tex}", q.unit_label), Markup(" — {}").format(titled_html(q.title))
+        )
+        rows.append([head, *(terms.num(cell.key) for cell in row.cells if cell is not None)])
+    columns = [Column("Величина", 5.0, text=True), *(Column(capital(n)) for n in grid.labels)]
+    return table_block(columns, rows)
+
+
 def _steady(terms: Terms, cases: list[Case]) -> TableBlock:
     heads = [
-        Column("Подшипник", 3.2, text=True), Column(symbol_head("k", "МПа")),
+        Column("Подшипник", 3.2, text=True), Column(symbol_head(r"k_{\mathrm{ср}}", "МПа")),
         Column(symbol_head(r"\chi", "")), Column(symbol_head(r"t_{\mathrm{м}}", "°C")),
         Column(symbol_head(r"\mu", "мПа·с")), Column(symbol_head(r"h_{\min}", "мкм")),
-        Column(symbol_head("K", "")), Column(symbol_head(r"N_{\mathrm{тр}}", "Вт")),
-        Column(symbol_head("Q", "л/мин")),
+        Column(symbol_head("K_h", "")), Column(symbol_head(r"N_{\mathrm{тр}}", "Вт")),
+        Column(symbol_head(r"Q_{\mathrm{м}}", "л/мин")),
     ]  # fmt: skip
     keys = (
         "oil_k{}_MPa", "oil_chi{}", "oil_temp{}_C", "oil_visc{}_mPas", "oil_hmin{}_um", "oil_K{}",
@@ -144,7 +183,8 @@ def _orbits(terms: Terms, cases: list[Case]) -> TableBlock:
         Column(symbol_head(r"h_{\min}", "мкм")), Column(symbol_head(r"\varphi", "°")),
         Column(symbol_head(r"\delta_{\mathrm{в}}", "°")),
         Column(symbol_head(r"\delta_{\mathrm{ш}}", "°")), Column(symbol_head(r"\nu", "%")),
-        Column(symbol_head(r"N_{\mathrm{тр}}", "Вт")), Column(symbol_head("Q", "л/мин")),
+        Column(symbol_head(r"N_{\mathrm{тр}}", "Вт")),
+        Column(symbol_head(r"Q_{\mathrm{м}}", "л/мин")),
     ]  # fmt: skip
     keys = (
         ("oil_eps_max", 4), ("oil_orb_h_um", 2), ("oil_orb_phi_deg", 0), ("oil_shell_deg", 0),

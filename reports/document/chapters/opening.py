@@ -99,7 +99,7 @@ def input_data(chapter: Chapter) -> Markup:
         plans=plans,
         scheme=partial(scheme_text, chapter),
         sizes=Figure(
-            partial(sizes_figure, throw_of(chapter.terms), mechanism_of(chapter.terms)),
+            partial(sizes_figure, throw_of(chapter.terms), mechanism_of(chapter.terms), size=1.0),
             "Размеры, мм: а — колено вала; б — кривошипно-шатунный механизм",
         ),
         by_points=isinstance(model.gas, TableGasSection),

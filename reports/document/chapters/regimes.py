@@ -6,6 +6,7 @@ from functools import partial
 
 from markupsafe import Markup
 
+from reports.document.chapters import facts
 from reports.document.chapters.chapter import Chapter
 from reports.document.page.blocks import Column, TableBlock, table_block
 from reports.document.page.spec_tables import list_block, unit_cell
@@ -20,7 +21,6 @@ from reports.tables.loads.comparison import regime_titles
 _PARTS = (
     ("Ps_max", "поршень, палец и сжатие шатуна"),
     ("Ps_min", "растяжение шатуна"),
-    ("Rpin_max", "шатунная шейка и её подшипник"),
 )
 
 
@@ -73,8 +73,11 @@ def _loads(chapter: Chapter) -> TableBlock:
 def _governing(chapter: Chapter) -> list[tuple[str, str]]:
     """Parts of the mechanism with the regime that governs each."""
     main, pin = chapter.worst("worst_main_load"), chapter.worst("worst_pin_torque")
+    stems, worst = facts.pin_stems(chapter.shape), facts.worst_pin(chapter.terms)
+    number = f" {worst}" if len(stems) > 1 else ""
     parts = (
         *_PARTS,
+        (f"R{stems[worst - 1]}_max", f"шатунная шейка{number} и её подшипник"),
         (f"Rmain{main}_max", f"коренная шейка {main}"),
         (f"dM_pin{pin}", f"кручение шатунной шейки {pin}"),
     )

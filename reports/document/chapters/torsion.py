@@ -21,11 +21,11 @@ _HOLZER = (
 )
 _SUM = r"S_{\nu} = \left|\sum a_i\, e^{-i\nu\theta_i}\right|"
 _ENERGY = (
-    r"A = \dfrac{M_{\nu} S_{\nu}}{D}, \qquad D = \omega \sum b_k a_k^2 + "
+    r"A = \dfrac{M_{\nu} S_{\nu}}{D_{\nu}}, \qquad D_{\nu} = \omega \sum b_k a_k^2 + "
     r"\eta \sum c_k \left(a_{k+1} - a_k\right)^2"
 )
 _MOTION = (
-    r"\left(-\omega^2 J + i\omega B + K\,(1 + i\eta)\right)\theta_{\nu} = M_{\nu}, \qquad "
+    r"\left(-\omega^2 J + i\omega b + c\,(1 + i\eta)\right)\theta_{\nu} = M_{\nu}, \qquad "
     r"\omega = \nu\,\Omega"
 )
 _NEAR = 0.02  # of a stress: a difference that changes no conclusion
@@ -173,7 +173,7 @@ def _resonances(terms: Terms, modes: list[int]) -> list[tuple[int, int]]:
 def _resonance_table(terms: Terms, found: list[tuple[int, int]]) -> TableBlock:
     heads = [
         Column("Форма"), Column(symbol_head(r"\nu", "")),
-        Column(symbol_head(r"n_{\mathrm{кр}}", "мин⁻¹")), Column(symbol_head("S", "")),
+        Column(symbol_head(r"n_{\mathrm{кр}}", "мин⁻¹")), Column(symbol_head(r"S_{\nu}", "")),
         Column(symbol_head(r"M_{\nu}", "Н·м")), Column(symbol_head("A", "°")),
         Column(symbol_head(r"\tau", "МПа")),
     ]  # fmt: skip

@@ -47,12 +47,17 @@ def mechanism_of(terms: Terms) -> Mechanism:
     )
 
 
-def sizes_figure(throw: Throw, mechanism: Mechanism) -> str:
-    """A throw beside the mechanism, each to a scale of its own, as SVG for the report."""
-    parts = (
-        _fitted(partial(throw_drawing, throw, letters=_LETTERS), _THROW),
-        _fitted(partial(mechanism_drawing, mechanism, letters=_LETTERS), _MECHANISM),
-    )
+def sizes_figure(throw: Throw, mechanism: Mechanism, *, size: float = 1.0) -> str:
+    """A throw beside the mechanism, each to a scale of its own, as SVG for the report.
+
+    ``size`` makes the drawings smaller, but not their letters.
+    """
+    rooms = ((size * wide, size * tall) for wide, tall in (_THROW, _MECHANISM))
+    draws = (partial(throw_drawing, throw), partial(mechanism_drawing, mechanism))
+    parts = [
+        _fitted(partial(draw, letters=_LETTERS), room)
+        for draw, room in zip(draws, rooms, strict=True)
+    ]
     canvas = Canvas()
     place, ends = 0.0, []
     for items in parts:

@@ -55,6 +55,7 @@ class Writer:
     def __init__(self, environment: Environment, numbering: Numbering) -> None:
         self.n = numbering
         self.draft = isinstance(numbering, Draft)
+        self.figures: dict[str, Figure] = {}  # that were drawn, by their anchors
         self._macros: Any = environment.get_template("report/macros.html.j2").module
 
     def heading(
@@ -80,6 +81,7 @@ class Writer:
         label = self.n.place("figure", key)
         if self.draft or plan is None:
             return Markup("")
+        self.figures[label.anchor] = plan
         return Markup(self._macros.figure(Markup(drawn(plan)), label, plan.caption, plan.alt))
 
     def table(self, key: str, plan: TablePlan) -> Markup:

@@ -30,7 +30,7 @@ from reports.grading.judging.tolerances import close, tolerance
 from reports.grading.judging.verdicts import Judgement
 from reports.grading.reading.student import Student, known_values
 from reports.inputs.sections.input_file import METHODS
-from reports.shared.russian import fixed
+from reports.shared.russian import fixed, short
 from reports.spec.blocks import TableSpec
 from reports.spec.evaluation import Evaluation
 from reports.spec.graph import node_of
@@ -190,7 +190,7 @@ class Causes:
             words = (
                 "взято целое вместо половины" if value == 0.5
                 else "π·D² вместо π·D²/4" if item.nodes[0] == "F_piston"
-                else f"потеряно число {value:g}".replace(".", ",")
+                else f"потеряно число {short(value)}"
             )  # fmt: skip
             yield words, self._rewritten(item, run, WithoutNumber(value).visit)
 
@@ -321,7 +321,7 @@ class Causes:
                 tried.add((name, value))
                 run = expected.fork({**known, name: value})
                 title = self.titles.get(name, name)
-                words = f"{title} из варианта {other.number}: {value:g}"
+                words = f"{title} из варианта {other.number}: {short(value)}"
                 yield words, self._values(item, run)
         for other in self.others[:_OTHERS]:
             theirs = self.whole.get(other.number)
@@ -330,7 +330,7 @@ class Causes:
             if "lam" in inside:
                 lam = theirs.value("lam")
                 run = expected.fork({**known, "lam": lam})
-                yield f"λ из варианта {other.number}: {lam:.4g}", self._values(item, run)
+                yield f"λ из варианта {other.number}: {short(lam, 4)}", self._values(item, run)
             words = f"исходные данные варианта {other.number}, а не вашего"
             yield words, self._values(item, theirs)
 

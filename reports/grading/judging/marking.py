@@ -37,6 +37,7 @@ from reports.recalculation.grid import BadBook, Grid
 from reports.recalculation.language import UnknownFormula
 from reports.recalculation.read import read_grid
 from reports.shared.errors import InputError
+from reports.shared.russian import short
 from reports.spec.evaluation import Evaluation
 from reports.workbook.intake import check_data
 from reports.workbook.layout import Layout
@@ -285,7 +286,9 @@ def altered(student: Student, original: Grid | None) -> list[str]:
             for index in np.flatnonzero(off)[:3]:
                 where = address(run.first + int(index), place.column)
                 now, was = values[index], claims[index]
-                found.append(f"{place.sheet}!{where}: сохранено {was:g}, формула даёт {now:g}")
+                found.append(
+                    f"{place.sheet}!{where}: сохранено {short(was)}, формула даёт {short(now)}"
+                )
     return found
 
 
@@ -303,7 +306,7 @@ def _score(result: Result, rubric: Rubric, time: datetime | None) -> None:
     factor = late_factor(rubric, time)
     result["late"] = factor
     if factor < 1:
-        result["notes"].append(f"сдано после срока: баллы умножены на {factor:g}")
+        result["notes"].append(f"сдано после срока: баллы умножены на {short(factor)}")
     rescored(result)
 
 

@@ -12,6 +12,7 @@ from reports.grading.judging.similarity import signals, suspicions
 from reports.grading.judging.verdicts import CARRIED, EMPTY, RIGHT, TYPED
 from reports.grading.judging.works import Work
 from reports.grading.pages.pages import moment
+from reports.shared.russian import short
 
 _BAR = 160  # px of the longest bar
 _STEPS = 10
@@ -64,7 +65,7 @@ def table_rows(register: Register, results: Sequence[Work]) -> list[dict[str, An
             remarks = list(doubts)
         remarks = list(dict.fromkeys([*doubts, *remarks]))
         if doubts and points is not None:
-            remarks.append(f"баллы до решения преподавателя: {points:g}")
+            remarks.append(f"баллы до решения преподавателя: {short(points)}")
         rows.append(
             {
                 "number": book.number,

@@ -123,7 +123,7 @@ BANDS: tuple[Band, ...] = (
     _share("second_shafts_share", "ψ_2", 0.11, 1, zero=True),
     _share("suppression", "ψ", 0.11, 1.05, zero=True),
     Band("balance.shaft_radius_mm", "r", "e_б/r", 0.15, 1.45),
-    _share("irregularity", "δ", 0.0025, 0.024),
+    _share("irregularity", "[δх]", 0.0025, 0.024),
     _share("rod_small_end_share", "m_1/m_ш", 0.15, 0.4),
     _share("rod_mass_factor", "k_ш", 0.5, 1.3),
     _share("web_width_share", "b/D", 0.5, 2),

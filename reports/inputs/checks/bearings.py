@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from kshm.engine.bearings import LEAST_WIDTH, MOST_WIDTH
 from reports.inputs.findings import Finding, Values
 from reports.inputs.sections.bearings import OILS
-from reports.inputs.units import number_text
+from reports.inputs.units import number_text, span_text
 
 _WORDS = {"pin": "шатунного", "main": "коренного"}
 _RULES = (0.007, 0.014)  # of the root of the diameter, where a clearance is not given
@@ -73,7 +73,7 @@ def _widths(
             path = ("bearings", f"{part}_{'width' if given is not None else 'groove'}_mm")
             if given is None and not groove:
                 path = ("crankshaft", f"{part}_diameter_mm")
-            hint = f"нужно от {LEAST_WIDTH:g} до {MOST_WIDTH:g} и шире масляного отверстия"
+            hint = f"нужно {span_text(LEAST_WIDTH, MOST_WIDTH)} и шире масляного отверстия"
             yield Finding(path, what, hint)
             return
 

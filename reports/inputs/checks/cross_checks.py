@@ -18,7 +18,7 @@ from reports.inputs.checks.reference import check_reference
 from reports.inputs.checks.torsion import check_torsion
 from reports.inputs.findings import Finding, Path, Values, radius_and_rod
 from reports.inputs.sections.input_file import LAMBDA_MAX, LAMBDA_MIN
-from reports.inputs.units import number_text
+from reports.inputs.units import number_text, span_text
 
 LENGTH_TOLERANCE = 1e-3
 USUAL_LAMBDA = (0.15, 0.45)
@@ -70,13 +70,13 @@ def _ratio(ratio: float, path: Path) -> Iterator[Finding]:
     text = number_text(round(ratio, 6))
     if ratio >= 1:
         what = f"λ = r/L = {text}: шатун не длиннее кривошипа, механизм не провернётся"
-        yield Finding(path, what, f"допустимо λ от {LAMBDA_MIN} до {LAMBDA_MAX}")
+        yield Finding(path, what, f"допустимо λ {span_text(LAMBDA_MIN, LAMBDA_MAX)}")
     elif not LAMBDA_MIN <= ratio <= LAMBDA_MAX:
         what = f"λ = r/L = {text} вне допустимых пределов"
-        yield Finding(path, what, f"допустимо λ от {LAMBDA_MIN} до {LAMBDA_MAX}")
+        yield Finding(path, what, f"допустимо λ {span_text(LAMBDA_MIN, LAMBDA_MAX)}")
     elif not USUAL_LAMBDA[0] <= ratio <= USUAL_LAMBDA[1]:
         what = f"λ = {text} необычно"
-        hint = f"обычно от {USUAL_LAMBDA[0]} до {USUAL_LAMBDA[1]}"
+        hint = f"обычно {span_text(USUAL_LAMBDA[0], USUAL_LAMBDA[1])}"
         yield Finding(path, what, hint, warning=True)
 
 
@@ -86,6 +86,7 @@ def _arms(values: Values) -> Iterator[Finding]:
         left = arms.l1_mm + arms.l2_mm + arms.left_web_mm
         right = arms.l5_mm + arms.l6_mm + arms.right_web_mm
         if left <= 0 or right <= 0:
-            what = f"длина колена с одной стороны шатуна равна нулю (сумма плеч {sum(lengths):g})"
+            whole = number_text(sum(lengths))
+            what = f"длина колена с одной стороны шатуна равна нулю (сумма плеч {whole})"
             hint = "задайте l1, l2 и l5, l6 больше нуля"
             yield Finding(("crankshaft", "arms", index), what, hint)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from reports.inputs.findings import Finding, Values, radius_and_rod
 from reports.inputs.sections.masses import ESTIMATE_EXTRA, SWUNG, WEIGHED
-from reports.inputs.units import number_text
+from reports.inputs.units import number_text, span_text
 
 USUAL_SHARE = (0.2, 0.3)
 DIRECT = ("reciprocating_kg", "rod_big_end_kg")
@@ -151,7 +151,7 @@ def _centre(values: Values) -> Iterator[Finding]:
         share = 1 - place / pair[1]
     if share is not None and not USUAL_SHARE[0] <= share <= USUAL_SHARE[1]:
         what = f"доля массы шатуна у пальца {number_text(round(share, 4))} необычна"
-        hint = f"обычно от {USUAL_SHARE[0]} до {USUAL_SHARE[1]}"
+        hint = f"обычно {span_text(USUAL_SHARE[0], USUAL_SHARE[1])}"
         yield Finding(("masses", key), what, hint, warning=True)
 
 
@@ -182,7 +182,12 @@ def _swung(values: Values) -> Iterator[Finding]:
     if pair is not None and not USUAL_SHARE[0] <= 1 - centre / pair[1] <= USUAL_SHARE[1]:
         share = number_text(round(1 - centre / pair[1], 4))
         what = f"доля массы шатуна у пальца {share} необычна"
-        yield Finding(path, what, f"обычно от {USUAL_SHARE[0]} до {USUAL_SHARE[1]}", warning=True)
+        yield Finding(
+            path,
+            what,
+            f"обычно {span_text(USUAL_SHARE[0], USUAL_SHARE[1])}",
+            warning=True,
+        )
 
 
 def _inertia(values: Values) -> Iterator[Finding]:

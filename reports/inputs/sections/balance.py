@@ -24,7 +24,9 @@ class BalanceSection(Strictly):
     shaft_radius_mm: float = number(
         "Эксцентриситет грузов балансирных валов", "e_б", MM, 1, 1000, 20.0
     )
-    irregularity: float = number("Требуемая неравномерность хода", "δ", NONE, 0.0001, 0.5, 0.015)
+    irregularity: float = number(
+        "Требуемая неравномерность хода", "[δ_х]", NONE, 0.0001, 0.5, 0.015
+    )
     rod_small_end_share: float = number(
         "Доля массы шатуна у пальца, если масса шатуна не задана", "m_1/m_ш", NONE, 0.05, 0.8, 0.275
     )

@@ -104,7 +104,7 @@ class BearingsSection(Strictly):
     journal_roughness_um: float = number("Высота неровностей шейки", "h_1", UM, 0, 50, 0.8)
     shell_roughness_um: float = number("Высота неровностей вкладыша", "h_2", UM, 0, 50, 1.2)
     form_um: float = number("Изгиб вала и отклонение формы", "h_3", UM, 0, 100, 1.0)
-    reserve_allowed: float = number("Допускаемый запас плёнки", "[K]", NONE, 1, 20, 1.5)
+    reserve_allowed: float = number("Допускаемый запас плёнки", "[K_h]", NONE, 1, 20, 1.5)
     material: Literal["40h2n2ma", "40h", "45", "vch60", "sch35"] = choice(
         "Материал вала", MATERIAL_NAMES, "45"
     )

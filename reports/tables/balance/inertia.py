@@ -238,8 +238,8 @@ def _results(shape: Shape) -> ScalarTable:
                 W_range = col_max({t}.W_J) - col_min({t}.W_J) | избыточная работа
                 Wgas_range = col_max({t}.Wgas_J) - col_min({t}.Wgas_J) | избыточная работа
                 I_flywheel = max(0, W_range/(balance_irregularity*omega**2) - I_engine_mean)
-                    | δ = ΔA/(Iω²)
-                delta_work = W_range/({inertia}*omega**2) | δ = ΔA/(Iω²)
+                    | δх = ΔLизб/(Iω²)
+                delta_work = W_range/({inertia}*omega**2) | δх = ΔLизб/(Iω²)
                 omega_max = col_max({t}.omega_1_s) | закон кинетической энергии
                 omega_min = col_min({t}.omega_1_s) | закон кинетической энергии
                 delta_speed = (omega_max - omega_min)/col_mean({t}.omega_1_s)

@@ -24,21 +24,23 @@ def bearings(scope: Scope) -> Part:
         charts.append(
             polar("rod_bearing", BEARING, "Нагрузка на шатунный подшипник",
                   ("поперёк шатуна, МПа", "вдоль шатуна к поршню, МПа"), "rod_bearing_box.box",
-                  Series("rod_bearing.Bx_MPa", "rod_bearing.By_MPa", "B"),
+                  Series("rod_bearing.Bx_MPa", "rod_bearing.By_MPa", "R′ш.п"),
                   caption="Полярная диаграмма нагрузки на шатунный подшипник")
         )  # fmt: skip
     if not shape.split:
+        first = " 1" if shape.throws > 1 else ""
         given = scope.input.crankshaft.oil_hole_deg is not None
         blocks += [_bending(shape, rows), *_bending_results(given=given)]
         charts.append(
             over_phi("pin_bending", BENDING, "Момент, изгибающий шейку в плоскости отверстия",
                      "M, Н·м", "pin_bending.Malpha_Nm", figure="31",
-                     caption="Момент, изгибающий шатунную шейку в плоскости масляного отверстия")
+                     caption=f"Момент, изгибающий шатунную шейку{first} в плоскости масляного"
+                             " отверстия")
         )  # fmt: skip
     charts += [
         polar(f"main_bearing_{k}", f"П4.3 ({k})", f"Нагрузка на коренной подшипник {k}",
-              ("Qx, МПа (влево)", "Qy, МПа"), f"P4_3_{k}_box.box",
-              Series(f"P4_3_{k}.block_x_MPa", f"P4_3_{k}.block_y_MPa", "Q"), x_reversed=True,
+              ("R′к.п x, МПа (влево)", "R′к.п y, МПа"), f"P4_3_{k}_box.box",
+              Series(f"P4_3_{k}.block_x_MPa", f"P4_3_{k}.block_y_MPa", "R′к.п"), x_reversed=True,
               caption=f"Полярная диаграмма нагрузки на коренной подшипник {k}")
         for k in range(1, shape.throws + 2)
     ]  # fmt: skip

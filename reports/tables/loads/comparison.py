@@ -75,6 +75,8 @@ def _compared(keys: set[str]) -> list[tuple[str, bool]]:
         "Rpin_max", "Rpin_max_kN", "q_pin_mean", "q_pin_max",
     )  # fmt: skip
     chosen = [key for key in parts if key in keys]
+    for kind in ("Rpin{}_mean", "Rpin{}_max", "Rpin{}_max_kN", "q_pin{}_mean", "q_pin{}_max"):
+        chosen += [kind.format(n) for n in range(2, 9) if kind.format(n) in keys]
     for kind in ("Rmain{}_mean", "Rmain{}_max", "Rmain{}_max_kN", "q_main{}_mean", "q_main{}_max",
                  "dM_main{}", "dM_pin{}"):  # fmt: skip
         chosen += [kind.format(n) for n in range(1, 14) if kind.format(n) in keys]

@@ -7,7 +7,7 @@ from reports.spec.charts import ChartSpec, Series, columns_of, over_phi, polar
 from reports.spec.extremes import extreme_columns
 from reports.spec.listing import column_list, corners
 from reports.spec.parts import Part, Scope
-from reports.spec.shape import Shape, pin_name, rods_table
+from reports.spec.shape import Shape, pin_figure, pin_name, pin_table, rods_table
 from reports.tables.loads.cylinder import cylinder_table_id
 
 SPLIT = "rad(crankshaft_split_pin_deg)"
@@ -27,6 +27,14 @@ def polar_box(table: str, name: str, sheet: str) -> Grid:
     """Corners of the polar diagram of a load."""
     title = "Оси полярной диаграммы"
     return corners(f"{table}_box", title, sheet, f"{name}_box", f"{name}_max")
+
+
+def throw_pull(throw: int) -> str:
+    """Specific centrifugal force of a throw's own mass, that of its counterweights left out."""
+    if throw == 1:
+        return "K_r_throw"
+    webs = f"web_{2 * throw - 1}_mass_kg + web_{2 * throw}_mass_kg"
+    return f"to_MPa((crankshaft_pin_mass_kg + {webs})*r_crank*omega**2/F_piston)"
 
 
 def _centrifugal(shape: Shape, number: int) -> str:
@@ -56,12 +64,12 @@ def _crankpin(shape: Shape, number: int, rows: tuple[float, ...]) -> TableSpec:
     """)
     if shape.single_rods:
         title = "Удельные нагрузки на шатунную шейку и колено"
-        columns += column_list("""
-            Ksum_MPa = Krod_MPa - K_r_throw | Гоц (42)
+        columns += column_list(f"""
+            Ksum_MPa = Krod_MPa - {throw_pull(number)} | Гоц (42)
             Rthrow_MPa = sqrt(Ksum_MPa**2 + T_MPa**2) | Гоц (42)
         """)
     return TableSpec(
-        "crankpin" if number == 1 else f"crankpin_{number}",
+        pin_table(number),
         f"Ш{name}",
         title,
         sheet,
@@ -154,22 +162,19 @@ def _pin_charts(shape: Shape) -> tuple[ChartSpec, ...]:
     made = [] if shape.single_rods else list(_rods_charts(rods_table(1)))
     for number in range(1, len(shape.pins) + 1):
         n = pin_name(number)
-        end = f"_{n}" if n else ""
-        name, table = f" {number}" if len(shape.pins) > 1 else "", f"crankpin{end}"
+        name, table = f" {number}" if len(shape.pins) > 1 else "", pin_table(number)
         sheet = f"Шатунная шейка {n}".strip()
         of = f"на шатунную шейку{name}"
-        # The report's captions number only the further pins.
-        caption = f"на шатунную шейку {n}".strip()
         made += [
-            polar(f"fig50{end}", sheet, f"Полярная диаграмма нагрузки {of}",
+            polar(pin_figure("fig50", number), sheet, f"Полярная диаграмма нагрузки {of}",
                   ("T, МПа", "K − Kr ш, МПа (вниз — к оси вала)"), f"{table}_box.box",
                   Series(f"{table}.T_MPa", f"{table}.Krod_MPa", "R′ш.ш", only="workbook"),
                   Series(f"{table}.T_MPa", f"{table}.K_MPa", "R′ш.ш", only="report"),
                   figure="50", y_reversed=True, poles=_poles(shape, number),
-                  caption=f"Полярная диаграмма удельной нагрузки {caption}"),
-            over_phi(f"fig51{end}", sheet, f"Нагрузка {of}", "R, МПа", f"{table}.Rpin_MPa",
-                     figure="51", levels=(f"Rpin{n}_mean",), extremes=True,
-                     caption=f"Развёрнутая диаграмма нагрузки {caption}"),
+                  caption=f"Полярная диаграмма удельной нагрузки {of}"),
+            over_phi(pin_figure("fig51", number), sheet, f"Нагрузка {of}", "R, МПа",
+                     f"{table}.Rpin_MPa", figure="51", levels=(f"Rpin{n}_mean",), extremes=True,
+                     caption=f"Развёрнутая диаграмма нагрузки {of}"),
         ]  # fmt: skip
     return tuple(made)
 
@@ -177,7 +182,7 @@ def _pin_charts(shape: Shape) -> tuple[ChartSpec, ...]:
 def _poles(shape: Shape, number: int) -> tuple[tuple[str, str], ...]:
     """From where the loads on the crankpin and on a throw of one rod are measured."""
     rod = _centrifugal(shape, number)
-    poles = ((r"O_{\mathrm{ш}}", rod), (r"O_{\mathrm{к}}", f"{rod} + K_r_throw"))
+    poles = ((r"O_{\mathrm{ш}}", rod), (r"O_{\mathrm{к}}", f"{rod} + {throw_pull(number)}"))
     return poles if shape.single_rods else poles[:1]
 
 

@@ -8,7 +8,7 @@ from reports.spec.charts import ChartSpec, wear_chart
 from reports.spec.extremes import TIE
 from reports.spec.listing import grid_row, scalar_list
 from reports.spec.parts import Part, Scope
-from reports.spec.shape import Shape, pin_name
+from reports.spec.shape import Shape, pin_figure, pin_name, pin_table, rays_table
 
 
 def wear(scope: Scope) -> Part:
@@ -17,9 +17,9 @@ def wear(scope: Scope) -> Part:
     journals, pins = shape.throws + 1, len(shape.pins)
     blocks: list[Block] = []
     for n in range(1, pins + 1):
-        table, name = ("crankpin", "pin") if n == 1 else (f"crankpin_{n}", f"pin{n}")
+        table, name = pin_table(n), f"pin{pin_name(n)}"
         blocks += _surface(
-            "table_14" if n == 1 else f"table_14_pin_{n}", name,
+            rays_table(n), name,
             "14" if n == 1 else f"14.Ш{n}", "шатунную шейку" + (f" {n}" if pins > 1 else ""),
             "Износ ш.ш" if n == 1 else f"Износ ш.ш ({n})", rows, rays,
             size=f"{table}.Rpin_MPa", up=f"-{table}.Krod_MPa", against=f"-{table}.T_MPa",
@@ -113,7 +113,7 @@ def _sums(table_id: str, name: str, sheet: str, rays: int) -> Grid:
 def hole_scalars(name: str) -> tuple[Scalar, ...]:
     """Least loaded ray and the place of the oil hole opposite to it."""
     key, number = f"hole_{name}", name.removeprefix("pin")
-    table = f"table_14_pin_{number}" if number.isdigit() else "table_14"
+    table = rays_table(int(number)) if number.isdigit() else "table_14"
     if name.startswith("main"):
         table = f"table_14_main_{name.removeprefix('main')}"
     return scalar_list(f"""
@@ -128,13 +128,11 @@ def _charts(shape: Shape) -> tuple[ChartSpec, ...]:
     made = []
     for number in range(1, len(shape.pins) + 1):
         n = pin_name(number)
-        pin = f"crankpin_{n}" if n else "crankpin"
+        pin, journal = pin_table(number), f"шатунной шейки{f' {number}' if several else ''}"
         made.append(
-            wear_chart(f"fig52_{n}".rstrip("_"), f"Износ ш.ш ({n})" if n else "Износ ш.ш",
-                 f"Условная диаграмма износа шатунной шейки{f' {number}' if several else ''}",
-                 f"table_14_pin_{n}_sums" if n else "table_14_sums", f"hole_pin{n}_deg",
-                 (f"{pin}.T_MPa", f"{pin}.Krod_MPa"),
-                 figure="52", caption=f"Условная диаграмма износа шатунной шейки {n}".strip())
+            wear_chart(pin_figure("fig52", number), f"Износ ш.ш ({n})" if n else "Износ ш.ш",
+                 f"Условная диаграмма износа {journal}", f"{rays_table(number)}_sums",
+                 f"hole_pin{n}_deg", (f"{pin}.T_MPa", f"{pin}.Krod_MPa"), figure="52")
         )  # fmt: skip
     for k in range(1, shape.throws + 2):
         made.append(

@@ -6,9 +6,9 @@ from reports.inputs.sections.bearings import MATERIALS, BearingsSection
 from reports.spec.blocks import Block, Grid, ScalarTable
 from reports.spec.listing import grid_row, scalar_list
 from reports.spec.parts import Part, Scope
+from reports.tables.oil.pin_safety import SHEET, SK, modulus, pin_safety, safety_of
 
-MATERIAL, SHEET = "Материал вала", "Прочность шеек"
-SK, IACS = "Серенсен, Кинасошвили", "IACS UR M53, по памяти"
+MATERIAL = "Материал вала"
 _PARTS = ("tensile", "yield", "bending", "torsion")
 
 
@@ -21,7 +21,7 @@ def safety(scope: Scope) -> Part:
     blocks: list[Block] = [
         _list(scope),
         _journals(throws),
-        _pins(throws),
+        *pin_safety(scope, section),
         _material(section),
         _materials(),
     ]
@@ -73,9 +73,6 @@ def _material(section: BearingsSection) -> ScalarTable:
         for short, where in (("f", "fillet"), ("h", "hole"))
         for way, key in (("bend", "bending"), ("turn", "torsion"))
     )
-    fillet = "0.06*pin_diameter_1_mm | оценка: 0,06d, без источника"
-    if section.fillet_mm is not None:
-        fillet = "bearings_fillet_mm | задано"
     return ScalarTable(
         "material",
         "Материал вала и концентрация напряжений",
@@ -86,23 +83,12 @@ def _material(section: BearingsSection) -> ScalarTable:
             limit("mat_torsion_MPa", "torsion_limit_mpa"),
             f"mat_making = {_picked('mat_making')}",
             factors,
-            f"safe_fillet_mm = {fillet}",
         ),
         note=(
             "Концентрация, чувствительность, размер, поверхность — из исходных данных; значения по "
             "умолчанию — без источника."
         ),
     )
-
-
-def _safety(amplitude: str, mean: str, factor: str, way: str) -> str:
-    limit = f"mat_{way}_MPa"
-    return f"{limit}/({factor}*{amplitude} + bearings_mean_{way}*abs({mean}))"
-
-
-def _modulus(part: str, number: int) -> str:
-    d, hole = f"{part}_diameter_{number}_mm", f"bearings_{part}_bore_mm"
-    return f"pi/16*{d}**3*(1 - ({hole}/{d})**4)/1000"
 
 
 def _journals(throws: int) -> Grid:
@@ -114,19 +100,21 @@ def _journals(throws: int) -> Grid:
 
     turn = {
         where: [
-            _safety(f"safe_tau_a{k}_MPa", f"safe_tau_m{k}_MPa", f"safe_k{where}_turn", "torsion")
+            safety_of(f"safe_tau_a{k}_MPa", f"safe_tau_m{k}_MPa", f"safe_k{where}_turn", "torsion")
             for k in numbers
         ]
         for where in "fh"
     }
     rows = (
-        ("safe_W{n}_cm3", [_modulus("main", k) for k in numbers], "сопротивление материалов"),
+        ("safe_W{n}_cm3", [modulus("main", k) for k in numbers], "сопротивление материалов"),
         ("safe_tau_max{n}_MPa", each("col_max({t})/safe_W{k}_cm3"), "Гоц, П4.4"),
         ("safe_tau_min{n}_MPa", each("col_min({t})/safe_W{k}_cm3"), "Гоц, П4.4"),
         ("safe_tau_a{n}_MPa", each("(safe_tau_max{k}_MPa - safe_tau_min{k}_MPa)/2"), "амплитуда"),
         ("safe_tau_m{n}_MPa", each("(safe_tau_max{k}_MPa + safe_tau_min{k}_MPa)/2"), "среднее"),
         ("safe_fillet{n}", turn["f"], SK),
         ("safe_hole{n}", turn["h"], SK),
+        ("safe_n{n}", each("min(safe_fillet{k}, safe_hole{k})"), "наименьший из двух"),
+        ("safe_rank{n}", each("round(0 - safe_n{k}, 6)"), "округлено до шести знаков"),
     )
     return Grid(
         "safe_main",
@@ -138,102 +126,48 @@ def _journals(throws: int) -> Grid:
     )  # fmt: skip
 
 
-def _pins(throws: int) -> Grid:
-    numbers = range(1, throws + 1)
-    sums = {
-        sign: [f"(col_max({t}) {sign} col_min({t}))/2/safe_pin_W{k}_cm3" for k in numbers
-               for t in (f"P4_5.Mpin{k}_Nm",)]
-        for sign in "+-"
-    }  # fmt: skip
-    turn = {
-        where: [
-            _safety(f"safe_pin_a{k}_MPa", f"safe_pin_m{k}_MPa", f"safe_k{where}_turn", "torsion")
-            for k in numbers
-        ]
-        for where in "fh"
-    }
-    rows = (
-        ("safe_pin_W{n}_cm3", [_modulus("pin", k) for k in numbers], "сопротивление материалов"),
-        ("safe_pin_a{n}_MPa", sums["-"], "Гоц, П4.5"),
-        ("safe_pin_m{n}_MPa", sums["+"], "Гоц, П4.5"),
-        ("safe_pin_fillet{n}", turn["f"], SK),
-        ("safe_pin_hole{n}", turn["h"], SK),
-    )
-    return Grid(
-        "safe_pins",
-        "Кручение шатунных шеек набегающими моментами",
-        SHEET,
-        tuple(f"шейка {k}" for k in numbers),
-        tuple(grid_row(key.format(n=1), texts, source, key) for key, texts, source in rows),
-    )
-
-
 def _list(scope: Scope) -> ScalarTable:
-    throws = scope.shape.throws
-    at = "worst_main_torque - 1"
-    fillet, hole = (
-        f"min({', '.join(f'safe_pin_{where}{k}' for k in range(1, throws + 1))})"
-        for where in ("fillet", "hole")
-    )
+    def weakest(row: str) -> str:
+        return f"element(safe_pins.safe_pin_{row}1, safe_pin_weakest) | наименее прочная шейка"
+
     lines = [
-        f"safe_n_main = min(element(safe_main.safe_fillet2, {at}),"
-        f" element(safe_main.safe_hole2, {at})) | наименьший из двух",
-        f"safe_n_turn_fillet = {fillet} | наименьший по шейкам",
-        f"safe_n_turn_hole = {hole} | наименьший по шейкам",
+        "safe_main_weakest = first_largest(safe_main.safe_rank2) + 1 | наименьший запас",
+        "safe_n_main = element(safe_main.safe_n2, safe_main_weakest - 1) | наименее прочная шейка",
+        "safe_pin_weakest = first_largest(safe_pins.safe_pin_rank1) | наименьший запас",
+        f"safe_n_turn_fillet = {weakest('turn_fillet')}",
+        f"safe_n_turn_hole = {weakest('turn_hole')}",
     ]
-    if scope.shape.split:
-        lines.append("safe_n_pin = min(safe_n_turn_fillet, safe_n_turn_hole) | наименьший")
-    else:
-        lines += _bent(throws)
+    if not scope.shape.split:
+        lines += _bent()
+    lines.append(f"safe_n_pin = {weakest('n')}")
     return ScalarTable(
         "safety",
         "Запасы прочности шеек",
         SHEET,
         scalar_list(*lines),
         note=(
-            "Коренная шейка — кручение набегающим моментом с наибольшим размахом (П4.4). Шатунная "
-            "— изгиб первой шейки в плоскости масляного отверстия (у галтели — в плоскости колена) "
-            "и кручение самой нагруженной шейки (П4.5). Правило обществ — второе мнение."
+            "Коренные шейки — кручение набегающим моментом (П4.4). Шатунные — изгиб в плоскости "
+            "масляного отверстия (у галтели — в плоскости колена) и кручение (П4.5), оба одной и "
+            "той же шейки; здесь — шейка с наименьшим запасом, остальные в таблице рядом. Правило "
+            "обществ — второе мнение, наименьшее по шейкам."
         ),
     )
 
 
-def _bent(throws: int) -> list[str]:
-    half = "(safe_pin_W1_cm3/2)"
-    lever = "of_MPa(1)*F_piston*of_mm(throw1_length)/4/2"
-    turned = f"max({', '.join(f'safe_pin_a{k}_MPa' for k in range(1, throws + 1))})"
-    scale = "bearings_size_factor*bearings_surface_factor"
-
-    def equal(part: str, bend: str) -> str:
-        return (
-            f"{scale}*sqrt((safe_k{part}_bend*{bend})**2 + 3*(safe_k{part}_turn*{turned})**2)"
-            f" | {IACS}"
-        )
-
-    def strength(radius: str) -> str:
-        return (
-            "mat_making*(0.42*mat_tensile_MPa + 39.3)*(0.264 + 1.073*pin_diameter_1_mm**(0-0.2)"
-            f" + (785 - mat_tensile_MPa)/4900 + 196/mat_tensile_MPa*sqrt(1/{radius})) | {IACS}"
-        )
-
-    top, low = "col_max(pin_bending.plane1_MPa)", "col_min(pin_bending.plane1_MPa)"
-    joined = "1/sqrt(1/safe_n_bend_{w}**2 + 1/safe_n_turn_{w}**2) | " + SK
+def _bent() -> list[str]:
+    """The weakest pin's bending; the rule of the societies for the pin that it finds weakest."""
+    own = {
+        "safe_sigma_a_MPa": "bend_a1_MPa", "safe_sigma_m_MPa": "bend_m1_MPa",
+        "safe_crank_a_MPa": "crank_a1_MPa", "safe_crank_m_MPa": "crank_m1_MPa",
+        "safe_n_bend_hole": "bend_hole1", "safe_n_bend_fillet": "bend_fillet1",
+        "safe_n_hole": "hole1", "safe_n_fillet": "fillet1",
+    }  # fmt: skip
+    lines = [
+        f"{key} = element(safe_pins.safe_pin_{row}, safe_pin_weakest) | наименее прочная шейка"
+        for key, row in own.items()
+    ]
     return [
-        f"safe_sigma_a_MPa = Malpha_swing/{half} | Гоц, 2.6",
-        f"safe_sigma_m_MPa = Malpha_mean/{half} | Гоц, 2.6",
-        f"safe_crank_a_MPa = ({top} - {low})*{lever}/{half} | Гоц, 2.6",
-        f"safe_crank_m_MPa = ({top} + {low})*{lever}/{half} | Гоц, 2.6",
-        "safe_n_bend_hole = "
-        + _safety("safe_sigma_a_MPa", "safe_sigma_m_MPa", "safe_kh_bend", "bending") + f" | {SK}",
-        "safe_n_bend_fillet = "
-        + _safety("safe_crank_a_MPa", "safe_crank_m_MPa", "safe_kf_bend", "bending") + f" | {SK}",
-        "safe_n_hole = " + joined.format(w="hole"),
-        "safe_n_fillet = " + joined.format(w="fillet"),
-        "safe_n_pin = min(safe_n_hole, safe_n_fillet) | наименьший из двух",
-        f"safe_class_MPa = {strength('safe_fillet_mm')}",
-        f"safe_class_hole_MPa = {strength('(bearings_hole_mm/2)')}",
-        f"safe_equal_MPa = {equal('f', 'safe_crank_a_MPa')}",
-        f"safe_equal_hole_MPa = {equal('h', 'safe_sigma_a_MPa')}",
-        "safe_class_Q = safe_class_MPa/safe_equal_MPa | не меньше 1,15 по правилу",
-        "safe_class_Q_hole = safe_class_hole_MPa/safe_equal_hole_MPa | не меньше 1,15 по правилу",
-    ]  # fmt: skip
+        *lines,
+        "safe_class_Q = col_min(safe_pins.safe_Q_fillet1) | не меньше 1,15 по правилу",
+        "safe_class_Q_hole = col_min(safe_pins.safe_Q_hole1) | не меньше 1,15 по правилу",
+    ]

@@ -7,7 +7,7 @@ from reports.spec.blocks import Block, Grid, GridRow, Scalar, ScalarTable
 from reports.spec.extremes import extreme_scalars
 from reports.spec.listing import grid_row, scalar_list
 from reports.spec.parts import Part, Scope
-from reports.spec.shape import Shape, pin_name
+from reports.spec.shape import Shape, pin_name, pin_table
 from reports.tables.gas.cycle_names import section_of
 from reports.tables.gas.cycle_speed import cycle_checks
 from reports.tables.loads.wear import hole_scalars
@@ -81,7 +81,7 @@ def _pin(number: int, shape: Shape) -> ScalarTable:
     n, pins = pin_name(number), len(shape.pins)
     throw = shape.throw_of(shape.pins[number - 1][0])
     projected = f"(of_mm(pin_diameter_{throw}_mm)*of_mm(pin_length_{throw}_mm))"
-    name, table = f"Rpin{n}", "crankpin" if number == 1 else f"crankpin_{number}"
+    name, table = f"Rpin{n}", pin_table(number)
     return ScalarTable(
         f"summary_pin{n}",
         f"Шатунная шейка {number if pins > 1 else ''}".strip(),

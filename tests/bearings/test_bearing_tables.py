@@ -17,6 +17,7 @@ from reports.spec.blocks import TableSpec
 from reports.spec.evaluation import Evaluation
 from reports.tables.registry import build_model
 from tests.bearings.files import laid_out, tractor
+from tests.cover import examples
 from tests.layouts import MAKERS
 from tests.tables.test_two_statements import assert_agree, results_of
 
@@ -65,7 +66,7 @@ def polar_modulus(shaft: CrankshaftSection, k: int) -> float:
     return float(np.pi / 16 * (shaft.pin_diameters_mm[k - 1] / 10) ** 3)
 
 
-@settings(max_examples=10)
+@settings(max_examples=examples(5, 10))
 @given(
     maker=st.sampled_from(["basic", "four", "v_six", "articulated"]),
     diameters=st.lists(st.floats(0.85, 1.1), min_size=6, max_size=6),

@@ -19,7 +19,8 @@ from reports.inputs.load import load_mapping
 from reports.spec.evaluation import evaluate_model
 from reports.spec.shape import TIMING
 from reports.tables.registry import build_model
-from tests.conftest import sample, sample_names
+from tests.conftest import sample
+from tests.cover import quantities, samples_with
 
 Meanings = dict[str, set[str]]
 
@@ -92,7 +93,7 @@ def told(page: str) -> Meanings:
     return found
 
 
-@pytest.mark.parametrize("name", sample_names())
+@pytest.mark.parametrize("name", samples_with(quantities))
 def test_a_symbol_means_one_thing(name: str, meanings: Meanings) -> None:
     page = page_of(name)
     assert {tex: titles for tex, titles in meanings.items() if len(titles) > 1} == {}

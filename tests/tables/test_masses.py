@@ -130,7 +130,7 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     ),
     "centre outside the rod by swings": (
         {**PARTS, **SWINGS, "swings_small_end_per_min": 60.0},
-        "masses.swing_edges_mm: по качаниям l1 = 1392.08 мм, вне шатуна",
+        "masses.swing_edges_mm: по качаниям l1 = 1392,08 мм, вне шатуна",
     ),
     "centre outside the rod": (
         {**PARTS, "rod_centre_mm": 150.0},
@@ -139,8 +139,8 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     ),
     "scale shows more than the rod": (
         {**PARTS, "rod_weighed_small_end_kg": 1.8},
-        "masses.rod_weighed_small_end_kg: весы показали 1.8 кг, не меньше массы шатуна; "
-        "масса шатуна 1.752 кг",
+        "masses.rod_weighed_small_end_kg: весы показали 1,8 кг, не меньше массы шатуна; "
+        "масса шатуна 1,752 кг",
     ),
     "two ways": (
         {**PARTS, **SWINGS, "rod_centre_mm": 107.0},

@@ -22,10 +22,9 @@ MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 
 # All of Excel 2007 and before, none volatile, the same in LibreOffice and formualizer.
 ALLOWED = {
-    "ABS", "ACOS", "AND", "ASIN", "ATAN2", "AVERAGE", "COS", "COUNT", "COUNTIF", "DEGREES", "EXP",
-    "IF", "INDEX", "INT", "LN", "MATCH", "MAX", "MIN", "MOD", "NOT", "OR", "PI", "RADIANS",
-    "ROUND",
-    "SIN", "SQRT", "SUM", "SUMPRODUCT", "TAN",
+    "ABS", "ACOS", "AND", "ASIN", "ATAN2", "AVERAGE", "CHOOSE", "COS", "COUNT", "COUNTIF",
+    "DEGREES", "EXP", "IF", "INDEX", "INT", "LN", "MATCH", "MAX", "MIN", "MOD", "NOT", "OR", "PI",
+    "RADIANS", "ROUND", "SIN", "SQRT", "SUM", "SUMPRODUCT", "TAN",
 }  # fmt: skip
 VOLATILE = {"CELL", "INDIRECT", "INFO", "NOW", "OFFSET", "RAND", "RANDBETWEEN", "TODAY"}
 OF_RANGES = {

@@ -16,6 +16,7 @@ from typing import Any
 
 import openpyxl
 import xlsxwriter
+from openpyxl.worksheet.formula import ArrayFormula
 
 from reports.inputs.load import load_toml
 from reports.shared.resources import samples_dir
@@ -66,7 +67,9 @@ def theirs(sheets: dict[str, list[Written]]) -> bytes:
                 looks[look] = book.add_format(
                     {"num_format": look[1], "font_name": "Times New Roman", "border": 1}
                 )
-            if isinstance(value, str) and value.startswith("="):
+            if isinstance(value, ArrayFormula):
+                sheet.write_array_formula(value.ref, value.text, looks[look], cached)
+            elif isinstance(value, str) and value.startswith("="):
                 sheet.write_formula(row, column, value, looks[look], cached)
             elif isinstance(value, str):
                 sheet.write_string(row, column, value, looks[look])

@@ -89,6 +89,7 @@ SLOW = (
     "tests/grading/test_real_class.py",
     "tests/grading/test_selfcheck.py",
     "tests/grading/test_similarity.py::test_a_class_of_a_thousand",
+    "tests/house/test_house_bench.py::test_the_other",
     "tests/house/test_house_cover.py::test_nothing_is_left_out",
     "tests/house/test_house_readmes.py::test_the_workbook",
     "tests/house/test_house_run.py::test_the_noise_of_apt",

@@ -190,6 +190,6 @@ def forbid_the_world() -> None:
 
     def hook(event: str, _: tuple[Any, ...]) -> None:
         if event in _FORBIDDEN:
-            raise PermissionError(f"forbidden while grading: {event}")
+            raise PermissionError(f"forbidden in this process: {event}")
 
     sys.addaudithook(hook)

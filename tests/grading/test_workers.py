@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import socket
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -60,6 +61,13 @@ def test_a_loss_costs_one_answer() -> None:
     assert len({first, second, third, fourth}) == 4
     with pytest.raises(ProcessLookupError):
         os.kill(fourth, 0)
+
+
+def test_a_process_reaches_neither_network_nor_programs() -> None:
+    with Workers(1, calling) as workers:
+        for forbidden in ((socket.create_connection, ("127.0.0.1", 9)), (os.system, "true")):
+            with pytest.raises(RuntimeError, match="forbidden in this process"):
+                workers.ask(*forbidden, seconds=30).result()
 
 
 def test_seconds_of_an_answer_are_not_those_of_the_start() -> None:

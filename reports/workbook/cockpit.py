@@ -21,7 +21,9 @@ from reports.workbook.charts import HIGH, WIDE, make_chart, ranges_of
 from reports.workbook.inputs import shown
 from reports.workbook.layout import Cell, column_range
 from reports.workbook.links import link
-from reports.workbook.places import GAP, Box, anchor, flow, raise_row, top_of
+from reports.workbook.places import (
+    GAP, Box, anchor, flow, lines_of, raise_row, top_of, wrap_across,
+)  # fmt: skip
 from reports.workbook.sheets import Writer
 
 # Inputs and scalars that say which engine this is, and what came out; those that there are.
@@ -85,6 +87,9 @@ def _people(sheet: Worksheet, model: Model, row: int) -> int:
         if text:
             sheet.cell(row, 1, label).style = styles.TEXT
             styles.as_text(sheet.cell(row, 2, text)).style = styles.LINE
+            if lines_of(text, sum(_WIDTHS[letter] for letter in "BCD")) > 1:
+                wrap_across(sheet, row, 2, 4)  # the charts stand beside it
+                sheet.cell(row, 1).alignment = Alignment(vertical="top")
             row += 1
     return row
 
@@ -96,7 +101,7 @@ def _verdict(sheet: Worksheet, model: Model, writer: Writer, row: int) -> int:
     if not keys or any(values[key] not in (YES, NO) for key in keys):
         return row
     passed = sum(values[key] == YES for key in keys) == len(keys)
-    good, bad = "все выполнены", "есть невыполненные: лист «Проверки»"
+    good, bad = "все выполнены", "не все, см. «Проверки»"
     first, last = (writer.layout.cells[key] for key in (keys[0], keys[-1]))
     run = column_range(first.sheet, first.column, first.row, last.row)
     sheet.cell(row, 1, "Проверки расчёта").style = styles.TEXT

@@ -133,3 +133,19 @@ def test_no_title_of_a_table_is_cut_by_the_next(name: str) -> None:
             room = sum(column_px(sheet, i) for i in range(title.column, following.column)) / DIGIT
             lines = 1 if title.alignment.wrap_text is None else row_px(sheet, title.row) // 20
             assert 1.1 * len(title.value) < lines * room, (sheet.title, title.value)
+
+
+@pytest.mark.parametrize("name", samples_with(charts, quantities))
+def test_no_text_runs_under_a_chart(name: str) -> None:
+    covered = []
+    for sheet in coarse_opened(name).worksheets:
+        boxes = boxes_of(sheet)
+        for cell in itertools.chain(*sheet.iter_rows()):
+            if cell.data_type != "s" or cell.alignment.wrap_text or cell.alignment.textRotation:
+                continue
+            x = sum(column_px(sheet, i) for i in range(1, cell.column))
+            y = sum(row_px(sheet, i) for i in range(1, cell.row))
+            end = x + len(cell.value) * DIGIT * 0.93
+            if any(x < box.x < end and box.y <= y < box.bottom for box in boxes):
+                covered.append(f"{sheet.title}!{cell.coordinate}: {cell.value}")
+    assert covered == []

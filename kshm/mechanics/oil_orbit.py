@@ -63,11 +63,10 @@ def velocity(centre: Complex, load: Complex, half_speed: Array, film: Film) -> C
         half_speed: (ω_J + ω_B)/(2ω) in the axes of the load [-].
         film: the closed forms at the bearings' widths.
     """
-    e = np.abs(centre)
-    given: Complex = np.asarray(np.where(e > _MIDDLE, centre, 1.0), dtype=complex)
-    unit: Complex = given / np.abs(given)
-    e = np.maximum(e, _MIDDLE)
-    seen = load * np.conj(unit)
+    distance = np.abs(centre)
+    e = np.maximum(distance, _MIDDLE)
+    unit: Complex = np.where(distance > _MIDDLE, centre / e, 1.0)
+    seen = load * unit.conj()
     along, across = seen.real, seen.imag
     beta = film.attitude(e)
     sine = np.sin(beta)
@@ -124,7 +123,7 @@ class _Run:
         )
 
     def slope(self, at: Array, centre: Complex) -> Complex:
-        """Derivatives at the angle of each bearing; NaN outside the clearance circle."""
+        """Derivatives at angles of the bearings, the last axis; NaN outside the clearance circle."""
         place = (at - self.phi[0]) / self.pitch
         before = np.minimum(place.astype(int), len(self.phi) - 2)
         share, row = place - before, self.first + before
@@ -162,11 +161,10 @@ class _Run:
     ) -> tuple[Complex, Complex, Array]:
         """One step of every bearing: centre, slope there, error over the tolerance."""
         room = np.maximum(1 - np.abs(centre), 1e-6)
-        tiny = 1e-6 * room
-        by_x = (self.slope(at, centre + tiny) - slope) / tiny
-        by_y = (self.slope(at, centre + 1j * tiny) - slope) / tiny
-        nudge = 1e-4 * step + 1e-12
-        drift = step * _D * (self.slope(at + nudge, centre) - slope) / nudge
+        tiny, nudge = 1e-6 * room, 1e-4 * step + 1e-12
+        near = np.stack((centre + tiny, centre + 1j * tiny, centre))
+        in_x, in_y, in_time = self.slope(np.stack((at, at, at + nudge)), near) - slope
+        by_x, by_y, drift = in_x / tiny, in_y / tiny, step * _D * in_time / nudge
         reach = step * _D
         a, b = 1 - reach * by_x.real, -reach * by_y.real
         c, d = -reach * by_x.imag, 1 - reach * by_y.imag

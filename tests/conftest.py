@@ -218,6 +218,12 @@ def pytest_collection_finish() -> None:
     gc.set_threshold(200_000, 20, 20)
 
 
+def pytest_sessionfinish() -> None:
+    """pytest looks five times through all that was kept; once finds the same."""
+    gc.collect()
+    gc.freeze()
+
+
 @lru_cache(maxsize=32)
 def sample(name: str) -> InputFile:
     """A sample's checked input."""

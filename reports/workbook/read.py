@@ -22,6 +22,7 @@ from reports.workbook.intake import check_package
 from reports.workbook.layout import INPUT_SHEET, UNIT_COLUMN, VALUE_COLUMN, quoted
 
 if TYPE_CHECKING:  # openpyxl is loaded when a book is read
+    from openpyxl.cell import ReadOnlyCell
     from openpyxl.workbook import Workbook
 
 _ALWAYS = "engine_cylinders"  # every book has this input
@@ -88,11 +89,14 @@ def _plain(unit: str) -> str:
 def _input_cells(data: bytes, source: str) -> tuple[dict[str, Any], dict[str, str], dict[str, str]]:
     """Values of all named input cells, their places as ``лист!ячейка``, units beside them."""
     from openpyxl import load_workbook
+    from openpyxl.utils.cell import coordinate_to_tuple
 
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of parts that are not read
-            book = load_workbook(io.BytesIO(data), read_only=False, data_only=False)
+            book = load_workbook(io.BytesIO(data), read_only=True)  # charts take half of the time
+            title = _input_sheet(book)
+            sheet = _cells_of(book, title)
     except Exception as error:  # openpyxl raises anything on a damaged book
         what = "книга повреждена и не читается"
         problem = Problem(source, what, "сохраните её заново в Excel или LibreOffice")
@@ -101,7 +105,6 @@ def _input_cells(data: bytes, source: str) -> tuple[dict[str, Any], dict[str, st
     places: dict[str, str] = {}
     units: dict[str, str] = {}
     problems: list[Problem] = []
-    title = _input_sheet(book)
     for name, defined in book.defined_names.items():
         text = str(defined.attr_text or "")
         sheet_text, _, address = text.rpartition("!")
@@ -113,22 +116,33 @@ def _input_cells(data: bytes, source: str) -> tuple[dict[str, Any], dict[str, st
             problems.append(Problem(source, what, "восстановите лист исходных данных"))
             continue
         place = f"{title}!{match.group(1)}{match.group(2)}"
-        cell = book[title][match.group(1) + match.group(2)]
-        if cell.data_type == "f":
+        row, column = coordinate_to_tuple(match.group(1) + match.group(2))
+        cell = sheet.get((row, column))
+        if cell is not None and cell.data_type == "f":
             what = "в ячейке исходных данных стоит формула"
             problems.append(Problem(f"{source}, {place}", what, "впишите число"))
             continue
-        value = cell.value
+        value = None if cell is None else cell.value
         cells[name], places[name] = value, place
-        beside = cell.offset(0, UNIT_COLUMN - VALUE_COLUMN).value
-        if cell.column == VALUE_COLUMN and isinstance(value, int | float) and beside is not None:
-            units[name] = str(beside)
+        beside = sheet.get((row, UNIT_COLUMN))
+        if column == VALUE_COLUMN and isinstance(value, int | float) and beside is not None:
+            units[name] = str(beside.value)
     if problems:
         raise InputError(problems)
     if _ALWAYS not in cells:
         what = "это не книга, созданная командой kshm build"
         raise InputError(Problem(source, what, "укажите файл .toml или книгу kshm"))
     return cells, places, units
+
+
+def _cells_of(book: Workbook, title: str) -> dict[tuple[int, int], ReadOnlyCell]:
+    """Cells of a sheet that hold something by row and column; none where there is no such sheet."""
+    if title not in book.sheetnames:
+        return {}
+    sheet = book[title]
+    sheet.reset_dimensions()  # what a file says of its size may be wrong
+    return {(cell.row, cell.column): cell
+            for row in sheet.iter_rows() for cell in row if cell.value is not None}  # fmt: skip
 
 
 def _input_sheet(book: Workbook) -> str:

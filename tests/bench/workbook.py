@@ -12,6 +12,8 @@ from __future__ import annotations
 import io
 from collections.abc import Iterator
 from functools import lru_cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import openpyxl
@@ -23,6 +25,7 @@ from reports.shared.resources import samples_dir
 from reports.spec.blocks import Model
 from reports.spec.evaluation import Values, evaluate_model
 from reports.tables.registry import build_model
+from reports.workbook.read import load_workbook_input
 from reports.workbook.write import workbook_bytes
 from tests.bench._figure import Figure, interleaved, median, memory, ratio
 
@@ -91,4 +94,15 @@ def figures() -> Iterator[Figure]:
     yield Figure("XlsxWriter, те же ячейки без диаграмм", median(times["theirs"]), "с")
     yield Figure("книга / XlsxWriter", ratio(times, "ours", "theirs"), "раз", "цель 0,5")
     yield Figure("на ячейку", median(times["ours"]) / count * 1e6, "мкс")
+    with TemporaryDirectory() as folder:
+        path = Path(folder, "книга.xlsx")
+        path.write_bytes(ours())
+        reading = interleaved(
+            {
+                "inputs": lambda: load_workbook_input(path),
+                "all": lambda: openpyxl.load_workbook(path),
+            }
+        )
+    yield Figure("исходные данные из книги", median(reading["inputs"]), "с")
+    yield Figure("книга целиком / исходные данные", ratio(reading, "all", "inputs"), "раз")
     yield memory("книга", "from tests.bench.workbook import ours; ours()")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 import zipfile
 from functools import lru_cache
 from pathlib import Path
@@ -16,7 +17,7 @@ from reports.shared.errors import InputError
 from reports.workbook.layout import Layout
 from reports.workbook.read import load_workbook_input
 from tests.conftest import sample
-from tests.workbook.made import book, coarse_book, coarse_model
+from tests.workbook.made import book, coarse, coarse_book, coarse_model
 
 
 @lru_cache(maxsize=1)
@@ -115,6 +116,18 @@ def test_files_that_are_no_workbooks(tmp_path: Path, content: bytes, message: st
     path.write_bytes(content)
     with pytest.raises(InputError, match=message):
         load_workbook_input(path)
+
+
+def test_a_wrong_size_of_a_sheet_hides_nothing(tmp_path: Path) -> None:
+    """Some programs write a size of their own or none."""
+    path = tmp_path / "book.xlsx"
+    with zipfile.ZipFile(io.BytesIO(coarse_book())) as source, zipfile.ZipFile(path, "w") as target:
+        for name in source.namelist():
+            content = source.read(name)
+            target.writestr(
+                name, re.sub(rb'<dimension ref="[^"]*"', b'<dimension ref="A1"', content)
+            )
+    assert to_mapping(load_workbook_input(path).model) == to_mapping(coarse("gots-diesel"))
 
 
 def test_the_same_input_gives_the_same_bytes() -> None:

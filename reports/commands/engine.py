@@ -28,6 +28,7 @@ from reports.commands.words import RussianCommand
 from reports.shared.errors import KshmError
 
 if TYPE_CHECKING:
+    from reports.grading.reading.selfcheck import Finding
     from reports.inputs.load import Loaded
 
 
@@ -97,22 +98,14 @@ def check(source: Path, as_json: bool) -> int:
     """Проверить исходные данные, ничего не считая; рабочую книгу — перед сдачей."""
     import json
 
-    from reports.grading.reading.selfcheck import findings, is_work_book
-
-    if is_work_book(source):
-        found = findings(source)
-        if as_json:
-            data = {"ok": not found, "findings": [asdict(item) for item in found]}
-            click.echo(json.dumps(data, ensure_ascii=False, indent=1))
-        else:
-            for item in found:
-                click.echo(f"{item.where}: {item.what}")
-            click.echo(f"{source}: замечаний {len(found)}; верны ли значения, здесь не проверяется")
-        return LOOK if found else DONE
-
-    from reports.exports.build import load_input
+    from reports.exports.build import BOOKS, load_input
     from reports.shared.errors import InputError
 
+    if source.suffix.lower() in BOOKS:
+        from reports.grading.reading.selfcheck import findings, is_work_book
+
+        if is_work_book(source):
+            return _tell_findings(source, findings(source), as_json=as_json)
     try:
         loaded = _with_named(source, load_input(source))
         problems: tuple[Any, ...] = ()
@@ -144,6 +137,20 @@ def check(source: Path, as_json: bool) -> int:
 
 def _as_dict(problem: Any) -> dict[str, str]:  # noqa: ANN401
     return {"where": problem.where, "what": problem.what, "hint": problem.hint}
+
+
+def _tell_findings(source: Path, found: Sequence[Finding], *, as_json: bool) -> int:
+    """What a student is told of a work-book."""
+    import json
+
+    if as_json:
+        data = {"ok": not found, "findings": [asdict(item) for item in found]}
+        click.echo(json.dumps(data, ensure_ascii=False, indent=1))
+    else:
+        for item in found:
+            click.echo(f"{item.where}: {item.what}")
+        click.echo(f"{source}: замечаний {len(found)}; верны ли значения, здесь не проверяется")
+    return LOOK if found else DONE
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)

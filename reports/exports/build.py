@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 Kind = Format
 Further = Sequence[Callable[[Any], Any]]  # chapters, see `reports.document.report`
+BOOKS = (".xlsx", ".xlsm", ".xls", ".ods")
 # What the files of a kind are called behind the name of the input.
 ENDINGS: dict[Kind, tuple[str, ...]] = {
     "xlsx": (".xlsx",),
@@ -48,7 +49,7 @@ def load_input(path: Path) -> Loaded:
     Raises:
         InputError: everything that is wrong with it.
     """
-    if path.suffix.lower() in (".xlsx", ".xlsm", ".xls", ".ods"):
+    if path.suffix.lower() in BOOKS:
         from reports.workbook.read import load_workbook_input
 
         loaded = load_workbook_input(path)

@@ -22,8 +22,15 @@ from reports.workbook.inputs import shown
 from reports.workbook.layout import Cell, column_range
 from reports.workbook.links import link
 from reports.workbook.places import (
-    GAP, Box, anchor, flow, lines_of, raise_row, top_of, wrap_across,
-)  # fmt: skip
+    GAP,
+    Box,
+    anchor,
+    flow,
+    lines_of,
+    raise_row,
+    top_of,
+    wrap_across,
+)
 from reports.workbook.sheets import Writer
 
 # Inputs and scalars that say which engine this is, and what came out; those that there are.

@@ -21,7 +21,7 @@ from reports.inputs.described import Data
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.files import make_dir, read_json, write_json, write_text, write_zip
 from reports.web import engine
-from reports.web.doors import Rate, Shown, ask, body, caller, route, shown
+from reports.web.doors import Rate, Shown, ask, body, caller, get, post, shown
 from reports.web.jobs import Queue
 
 _TEXTS = ("base.toml", "roster.csv", "rubric.toml")
@@ -43,15 +43,16 @@ class Classes(Queue):
     def __init__(self, folder: Path, secret: bytes, dask: str | None) -> None:
         super().__init__(folder, secret, dask=dask)
         self.signer, self.tries = URLSafeSerializer(secret, "student"), Rate(10, 60)
+        self.token = token_of(secret).encode()
 
     def routes(self) -> list[Route]:
         """Doors of the instructor, all but the first behind the key, and of the students."""
         return [
-            route("/api/login", self._login, "POST"),
-            route("/api/teacher", self._listed),
-            route("/api/teacher", self._issue, "POST"),
-            route("/api/teacher/{name}/grade", self._grade, "POST"),
-            route("/api/teacher/{name}/open", self._open, "POST"),
+            post("/api/login", self._login),
+            get("/api/teacher", self._listed),
+            post("/api/teacher", self._issue),
+            post("/api/teacher/{name}/grade", self._grade),
+            post("/api/teacher/{name}/open", self._open),
             *shown("/api/teacher/{name}", self._whole, "/file/{file:path}"),
             *shown("/api/student/{link}", self._own),
         ]
@@ -60,9 +61,7 @@ class Classes(Queue):
         given = str((await body(request)).get("token", "")).strip()
         if not self.tries.allows(caller(request)):
             raise HTTPException(429, "слишком много попыток; подождите минуту")
-        if not hmac.compare_digest(
-            token_of(self.secret).encode(), given.encode("utf-8", "replace")
-        ):
+        if not hmac.compare_digest(self.token, given.encode("utf-8", "replace")):
             raise HTTPException(403, "неверный ключ; его печатает команда kshm serve")
         request.session["teacher"] = True
 
@@ -72,25 +71,23 @@ class Classes(Queue):
                 return path.parent
         raise HTTPException(404, "нет такой группы")
 
-    def _chosen(self, request: Request) -> Path:
-        _enter(request)
-        return self._find(request.path_params["name"])
+    def _inside(self, request: Request) -> Path:
+        """The class that a request names, else the folder of all: for the instructor alone."""
+        if not request.session.get("teacher"):
+            raise HTTPException(403, "войдите с ключом преподавателя")
+        name = request.path_params.get("name")
+        return self._find(name) if name else self.folder
 
     async def _listed(self, request: Request) -> Data:
-        _enter(request)
         found = [{"name": path.parent.name, **read_json(path)}
-                 for path in self.folder.glob("*/about.json")]  # fmt: skip
+                 for path in self._inside(request).glob("*/about.json")]  # fmt: skip
         return {"classes": sorted(found, key=lambda each: str(each.get("date")), reverse=True)}
 
     async def _issue(self, request: Request) -> Data:
-        _enter(request)
-        data = await body(request)
+        folder, data = self._inside(request) / secrets.token_hex(8), await body(request)
         files = {name: text for name in _TEXTS if (text := str(data.get(name) or "")).strip()}
-        if not (seed := str(data.get("seed", ""))).lstrip("-").isdecimal() or len(seed) > 9:
-            raise InputError(Problem("seed", "нужно целое число", "например 1"))
         base = await ask(request, engine.read_toml, files.get("base.toml", ""))
         await ask(request, engine.as_toml, base["raw"])  # without its ranges it is an input too
-        folder = self.folder / secrets.token_hex(8)
         make_dir(folder / "works")
         for file, text in files.items():
             write_text(folder / file, text)
@@ -99,11 +96,11 @@ class Classes(Queue):
         write_json(folder / "about.json", {"title": title, "open": False, "date": date})
         more = ["--rubric", "rubric.toml"] if "rubric.toml" in files else []
         self.put(folder.name, ["issue", "base.toml", "--roster", "roster.csv", "-o", "issued",
-                               "--seed", seed, *_SECRET, *more])  # fmt: skip
+                               f"--seed={data.get('seed')}", *_SECRET, *more])  # fmt: skip
         return {"name": folder.name}
 
     async def _grade(self, request: Request) -> None:
-        folder, data = self._chosen(request), await body(request)
+        folder, data = self._inside(request), await body(request)
         if self.about(folder.name).get("state") in ("waiting", "running"):
             raise InputError(Problem("", "группа занята", "дождитесь окончания"))
         command = ["grade", "issued", "submitted.zip", "-o", "results", *_SECRET]
@@ -118,11 +115,11 @@ class Classes(Queue):
         self.put(folder.name, [*command, *self.far])
 
     async def _open(self, request: Request) -> None:
-        path, data = self._chosen(request) / "about.json", await body(request)
+        path, data = self._inside(request) / "about.json", await body(request)
         write_json(path, {**read_json(path), "open": bool(data.get("open"))})
 
     def _whole(self, request: Request) -> Shown:
-        folder = self._chosen(request)
+        folder = self._inside(request)
         results = folder / "results"
         made = {path.name: path for path in results.glob("[!.]*.*") if path.suffix != ".json"}
         pages = {f"{PAGES}/{path.name}": path for path in results.glob(f"{PAGES}/*.html")}
@@ -158,11 +155,6 @@ class Classes(Queue):
             "status": row.get("status", ""),
         }  # fmt: skip
         return Shown(told, files, {"work": work})
-
-
-def _enter(request: Request) -> None:
-    if not request.session.get("teacher"):
-        raise HTTPException(403, "войдите с ключом преподавателя")
 
 
 def _books(folder: Path) -> tuple[Issued, ...]:

@@ -33,8 +33,7 @@ def serve(port: int, host: str, folder: Path, public: str, dask: str | None) -> 
     need_packages("для kshm serve", **{name: name for name in packages})
     address = urlsplit(public)
     if public and (address.scheme not in ("http", "https") or not address.hostname):
-        msg = f"--public {public}: нужен адрес вида https://kafedra.example/kshm"
-        raise KshmError(msg)
+        raise KshmError(f"--public {public}: нужен адрес вида https://kafedra.example/kshm")
     bound = _bound(host, port)
     import uvicorn
 
@@ -65,5 +64,5 @@ def _bound(host: str, port: int) -> socket.socket:
     try:
         return socket.create_server((host, port), family=family, dualstack_ipv6=six)
     except OSError as error:
-        msg = f"--host {host} --port {port}: {reason(error)}; укажите другой адрес или порт"
-        raise KshmError(msg) from None
+        where = f"--host {host} --port {port}"
+        raise KshmError(f"{where}: {reason(error)}; укажите другой адрес или порт") from None

@@ -66,20 +66,16 @@ def start(raw: Mapping[str, Any]) -> Data:
 
 
 def answer(raw: Mapping[str, Any], sheet: str, cylinder: int = 0) -> Data:
-    """Numbers of an engine, the charts of a sheet, what moves, what is odd about the input."""
+    """Numbers of an engine, the charts of a sheet, what moves, its checks, what is odd about it."""
     loaded = load_apart(raw)
     model, solution = kept_model(loaded.model), solved(loaded.model)
     return {
+        **live.checks(model),
         "warnings": [asdict(problem) for problem in loaded.warnings],
         "results": list(live.results(model, solution)),
         "charts": live.charts(model, solution, sheet),
         "moves": live.moving(solution, cylinder),
     }
-
-
-def checks(raw: Mapping[str, Any]) -> Data:
-    """The checks of the calculation, each with its value, and what the step leaves out."""
-    return live.checks(kept_model(load_apart(raw).model))
 
 
 def as_toml(raw: Mapping[str, Any]) -> Data:

@@ -29,16 +29,20 @@ from reports.inputs.sections.report import FORMATS
 from reports.shared.errors import InputError, KshmError, Problem
 from reports.shared.files import make_dir, read_json, write_json, write_text, write_zip
 from reports.web import engine
-from reports.web.doors import Shown, ask, body, caller, route, shown
+from reports.web.doors import Shown, ask, body, caller, post, shown
 
 MOST_WAITING, MOST_OWN = 500, 6
 MOST_BYTES = 2 * 10**9  # of all files kept
 KEEP_S = 14 * 86400.0
-OFFERED = {
-    **{kind: title[0].upper() + title[1:] for kind, title in FORMATS.items()},
-    "csv": "Таблицы CSV", "json": "Числа JSON",
-    "compare-xlsx": "Сравнение: книга", "compare-pdf": "Сравнение: PDF",
-}  # fmt: skip
+_BUILD = ("build", "engine.toml", "-o", "out", "--only")
+_COMPARE = ("compare", "engine.toml", "other.toml", "-o")
+OFFERED = {  # titles of files and what makes them
+    **{kind: (title[0].upper() + title[1:], (*_BUILD, kind)) for kind, title in FORMATS.items()},
+    "csv": ("Таблицы CSV", ("solve", "engine.toml", "--csv", "csv")),
+    "json": ("Числа JSON", ("solve", "engine.toml", "--json", "out/engine.json")),
+    "compare-xlsx": ("Сравнение: книга", (*_COMPARE, "out/compare.xlsx")),
+    "compare-pdf": ("Сравнение: PDF", (*_COMPARE, "out/compare.pdf")),
+}
 
 
 class Queue:
@@ -173,32 +177,20 @@ class Jobs(Queue):
 
     def routes(self) -> list[Route]:
         """Doors at which files are ordered, asked after and taken."""
-        order = route("/api/files", self._ordered, "POST")
-        return [order, *shown("/api/files/{name}", self._made)]
+        return [post("/api/files", self._ordered), *shown("/api/files/{name}", self._made)]
 
     async def _ordered(self, request: Request) -> Data:
         data = await body(request)
-        kind = str(data.get("kind"))
-        if kind not in OFFERED:
+        _, command = OFFERED.get(str(data.get("kind")), ("", ()))
+        if not command:
             raise InputError(Problem("kind", "нет такого вида файла", "обновите страницу"))
-        wanted = {"engine.toml": data.get("raw")}
-        if kind.startswith("compare-"):
-            wanted["other.toml"] = data.get("other")
-            if not wanted["other.toml"]:
-                raise InputError(Problem("", "нет второго двигателя", "нажмите «Сравнить с этим»"))
+        inputs = {"engine.toml": data.get("raw"), "other.toml": data.get("other")}
+        if "other.toml" in command and not data.get("other"):
+            raise InputError(Problem("", "нет второго двигателя", "нажмите «Сравнить с этим»"))
         texts = {name: (await ask(request, engine.as_toml, raw))["text"]
-                 for name, raw in wanted.items()}  # fmt: skip
+                 for name, raw in inputs.items() if name in command}  # fmt: skip
         who = request.session.get("visitor") or caller(request)
-        return {"id": self.add(texts, self._command(kind), who)}
-
-    def _command(self, kind: str) -> list[str]:
-        """What makes a kind of file out of ``engine.toml`` (and ``other.toml``) into ``out``."""
-        if kind.startswith("compare-"):
-            return ["compare", "engine.toml", "other.toml", "-o", f"out/compare.{kind[8:]}"]
-        if kind in ("csv", "json"):
-            where = "csv" if kind == "csv" else "out/engine.json"
-            return ["solve", "engine.toml", f"--{kind}", where]
-        return ["build", "engine.toml", "-o", "out", "--only", kind, *self.far]
+        return {"id": self.add(texts, [*command, *(self.far if "build" in command else ())], who)}
 
     def _made(self, request: Request) -> Shown:
         name = request.path_params["name"]

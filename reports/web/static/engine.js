@@ -12,23 +12,19 @@ async function fresh(coming, keep = true) {
   if (keep && state.raw) Object.assign(state, {past: remembered(), isNew: false});
   if (!shape.sheets.length) delete shape.sheets;
   else if (!shape.sheets.some(([id]) => id === state.sheet)) [[shape.sheet]] = shape.sheets;
-  set({...shape, typed: {}, touched: null, errors: []});
-  document.title = `${state.raw.engine?.name || "Двигатель"} — КШМ`;
-  await solve();
+  document.title = `${shape.raw.engine?.name || "Двигатель"} — КШМ`;
+  await solve({...shape, typed: {}, touched: null});
 }
 
-async function solve() {
-  if (state.running) return set({again: true}); // at most one question on its way
-  clearTimeout(state.later);
-  set({running: true, again: false});
+async function solve(changes) {
+  if (state.running) return set({...changes, again: true}); // at most one question on its way
+  set({...changes, running: true, again: false, errors: []});
   const {raw, other, sheet, cylinder} = state, answer = raw => raw && ask("api/solve", {raw, sheet, cylinder});
   try { localStorage.kshm = JSON.stringify({raw, other}); } catch { /* private window */ }
   const [last, second] = await Promise.all([answer(raw), answer(other)]);
   const phi = last.errors ? 0 : Math.min(state.phi, last.moves.phi.at(-1)); // of a cycle that may be shorter
   set({running: false, ...last.errors ? {wrong: last.errors} : {wrong: [], last, second, phi}});
-  if (state.again) return solve();
-  // The checks take longer: they wait until nothing has changed for a while.
-  if (!last.errors) state.later = setTimeout(async () => set(await send("api/checks", {raw})), 400);
+  if (state.again) await solve();
 }
 
 async function order(kind, title) {
@@ -72,7 +68,6 @@ async function link() {
   set({linked: true});
 }
 
-const asked = changes => { Object.assign(state, changes); solve(); };
 const upload = async file => fresh(/\.xlsx$/i.test(file.name)
   ? ask("api/book", file) : ask("api/read", {text: await file.text()}));
 
@@ -110,8 +105,8 @@ const data = () => html`
       <button id="undo" disabled=${!state.past.length} onClick=${back}>Отменить</button>
       <button id="save" onClick=${save}>Скачать .toml</button>
       <button id="link" onClick=${link}>${state.linked ? "Ссылка в адресе" : "Ссылка"}</button>
-      <button id="keep" onClick=${() => asked({other: structuredClone(state.raw)})}>Сравнить с этим</button>
-      <button id="drop" hidden=${!state.other} onClick=${() => asked({other: null})}>Убрать второй</button></p>
+      <button id="keep" onClick=${() => solve({other: structuredClone(state.raw)})}>Сравнить с этим</button>
+      <button id="drop" hidden=${!state.other} onClick=${() => solve({other: null})}>Убрать второй</button></p>
     ${alerts([...state.errors, ...state.wrong])}
     <p><label>Найти поле <input id="find" type="search" autocomplete="off" value=${state.find}
       onInput=${e => set({find: e.target.value})} /></label></p>
@@ -124,7 +119,7 @@ const scene = ({moves}) => html`
   <div id="scene" class="cards">
     <figure>${mechanism(moves, state.phi)}<figcaption>${choice("Механизм, цилиндр", "cylinder",
       Array.from({length: moves.cylinders}, (_, i) => [i, i + 1]), moves.cylinder,
-      value => asked({cylinder: Number(value)}))}</figcaption></figure>
+      value => solve({cylinder: Number(value)}))}</figcaption></figure>
     <div>
       <label for="phi">Угол φ: ${printed(state.phi)}°</label>
       <input id="phi" type="range" min="0" max=${moves.phi.at(-1)} step="1" value=${state.phi}
@@ -152,15 +147,15 @@ const results = ({last, second}) => html`
     <h2>${state.raw.engine?.name || "Двигатель"}</h2>
     ${scene(last)}
     <p>${choice("Диаграммы листа", "sheet", state.sheets.map(([id, title]) => [id, id || "Прочее", title]),
-      state.sheet, sheet => asked({sheet}))}</p>
+      state.sheet, sheet => solve({sheet}))}</p>
     <div id="charts" class="cards">${last.charts.map(own =>
       figure({own, other: second?.charts?.find(c => c.id === own.id), phi: state.phi}))}</div>
     <div id="files"><h3>Файлы</h3><p class="tool-bar">${Object.entries(state.choices.files).map(([kind, title]) =>
       html`<button data-kind=${kind} onClick=${() => order(kind, title)}>${title}</button>`)}</p>
       <ul id="jobs" aria-live="polite">${state.jobs.map(job)}</ul></div>
-    <div id="checks">${state.checks.length > 0 && table("Проверки расчёта", state.checks.map(c =>
+    <div id="checks">${table("Проверки расчёта", last.checks.map(c =>
       row([[c.title], [printed(c.value), "n"], verdict(c)])))}</div>
-    ${list([...last.warnings, ...state.remarks], "warn")}
+    ${list([...last.warnings, ...last.remarks], "warn")}
     <div id="summary">${last.results.map(({id, title, rows}) => html`
       <details key=${id} open=${/^(summary_torque|geometry)/.test(id)}><summary>${title}</summary>
         ${table(title, rows.map(r => row([[r.title], [symbol(r.symbol), "s"], [r.text, "n"],
@@ -178,7 +173,7 @@ const page = () => html`
 
 set({
   past: [], groups: [], sheets: [], absent: {}, sheet: "П4.1", cylinder: 0, phi: 0, typed: {}, wrong: [],
-  checks: [], remarks: [], jobs: [], find: "", isNew: true, choices: await ask("api/choices"),
+  jobs: [], find: "", isNew: true, choices: await ask("api/choices"),
   open: new Set(innerWidth > 900 ? ["engine", "geometry", "regime"] : []),
 }, page);
 for (const media of ["(prefers-color-scheme: dark)", "print"]) // colours are drawn in

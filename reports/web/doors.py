@@ -10,7 +10,7 @@ import tempfile
 import time
 from collections import Counter
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from functools import partial
 from ipaddress import ip_address
 from pathlib import Path
@@ -138,7 +138,7 @@ def caller(request: Request) -> str:
 def refusal(code: int, why: KshmError | str) -> JSONResponse:
     """An answer that says why not, a line for each problem, never a traceback."""
     error = KshmError(why) if isinstance(why, str) else why
-    return JSONResponse({"errors": engine.told(error)}, code)
+    return JSONResponse({"errors": [asdict(problem) for problem in error.problems]}, code)
 
 
 async def failed(_: Request, error: Exception) -> Response:
@@ -245,10 +245,8 @@ def shown(path: str, find: Callable[[Request], Shown], files: str = "/{file}") -
         if file is None or not file.is_file():
             raise HTTPException(404, "нет такого файла; закажите заново")
         how = "inline" if file.suffix == ".html" else "attachment"  # a page can do nothing
-        return FileResponse(
-            file, headers={"content-security-policy": _SANDBOX}, filename=file.name,
-            content_disposition_type=how,
-        )  # fmt: skip
+        heads = {"content-security-policy": _SANDBOX}
+        return FileResponse(file, headers=heads, filename=file.name, content_disposition_type=how)
 
     async def taken(request: Request) -> None:
         place = find(request).takes.get(request.path_params["file"])

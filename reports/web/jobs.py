@@ -31,6 +31,7 @@ from reports.shared.files import make_dir, read_json, write_json, write_text, wr
 from reports.web import engine
 from reports.web.doors import Shown, ask, body, caller, post, shown
 
+Texts = Mapping[str, str]  # of files by name
 MOST_WAITING, MOST_OWN = 500, 6
 MOST_BYTES = 2 * 10**9  # of all files kept
 KEEP_S = 14 * 86400.0
@@ -61,7 +62,7 @@ class Queue:
         self.far = ["--dask", dask] if dask else []
         self.waiting: dict[str, str] = {}  # job → visitor, in the order of coming
         self.running: dict[str, tuple[str, float]] = {}  # job → visitor, beginning
-        self._wake = asyncio.Event()
+        self._ready = asyncio.Semaphore(0)  # as many as wait
 
     @contextlib.asynccontextmanager
     async def working(self) -> AsyncIterator[None]:
@@ -71,20 +72,23 @@ class Queue:
                 if not path.with_name("done.json").exists()]  # fmt: skip
         for path in sorted(left, key=lambda path: path.stat().st_mtime):
             self.waiting[path.parent.name] = read_json(path).get("visitor", "")
-        self._wake.set()
+        self._ready = asyncio.Semaphore(len(self.waiting))
         async with asyncio.TaskGroup() as group:
             tasks = [group.create_task(self._work()) for _ in range(self.at_once)]
             yield
             for task in tasks:
                 task.cancel()
 
-    def put(self, name: str, command: Sequence[str], visitor: str = "") -> None:
-        """A command to be run in the folder of that name."""
+    def put(self, name: str, files: Texts, command: Sequence[str], visitor: str = "") -> None:
+        """A command to be run in the folder of that name, beside these files."""
         folder = self.folder / name
+        folder.mkdir(mode=0o700, exist_ok=True)
         (folder / "done.json").unlink(missing_ok=True)
+        for file, text in files.items():
+            write_text(folder / file, text)
         write_json(folder / "order.json", {"visitor": visitor, "command": command})
         self.waiting[name] = visitor
-        self._wake.set()
+        self._ready.release()
 
     def line(self) -> list[str]:
         """The waiting jobs in their order: everybody's first before anybody's second."""
@@ -101,15 +105,11 @@ class Queue:
             return {"state": "waiting", "place": self.line().index(name) + len(self.running)}
         if name in self.running:
             return {"state": "running", "seconds": round(time.monotonic() - self.running[name][1])}
-        is_name = name.isalnum() and name.isascii() and len(name) <= 40  # never a path
-        return read_json(self.folder / name / "done.json") if is_name else {}
+        return read_json(self.folder / name / "done.json") if name.isalnum() else {}  # never a path
 
     async def _work(self) -> None:
-        while await self._wake.wait():
-            if not (line := self.line()):
-                self._wake.clear()
-                continue
-            name = line[0]
+        while await self._ready.acquire():
+            name = self.line()[0]
             self.running[name] = self.waiting.pop(name), time.monotonic()
             try:
                 done = await self._make(self.folder / name)
@@ -141,12 +141,8 @@ class Jobs(Queue):
     timeout_s = 300.0
     pack = ("out/tables.zip", "csv", "*.csv")
 
-    def add(self, files: Mapping[str, str], command: Sequence[str], visitor: str) -> str:
-        """An order: files by name, the command to run beside them; the name of the job.
-
-        Raises:
-            InputError: the queue is full, or the visitor has enough in it.
-        """
+    def add(self, files: Texts, command: Sequence[str], visitor: str) -> str:
+        """The name of a job: a command beside files; InputError where enough jobs wait already."""
         text = json.dumps([files, command, version("kshm")], ensure_ascii=False, sort_keys=True)
         name = hmac.digest(self.secret, text.encode(), "sha256").hex()[:40]
         folder, state = self.folder / name, self.about(name).get("state")
@@ -159,11 +155,8 @@ class Jobs(Queue):
             what = "очередь полна" if own < MOST_OWN else f"у вас уже {own} файлов в очереди"
             raise InputError(Problem("", what, "дождитесь их"))
         shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir(mode=0o700)
-        for file, content in files.items():
-            write_text(folder / file, content)
         self.clean()
-        self.put(name, command, visitor)
+        self.put(name, files, command, visitor)
         return name
 
     def clean(self) -> None:

@@ -39,21 +39,18 @@ function draw(canvas, props) {
   if (before && ["own", "other", "color"].every(key => before[key] === props[key])) return chart.draw();
   const isLine = own.kind === "line"; // else both axes have one scale, as in the workbook
   const most = 1.06 * Math.max(...datasets.flatMap(c => [...c.x, ...c.y]).map(Math.abs), 1e-9);
-  const axis = (text, reverse, bounds, stepSize) => ({
-    type: "linear", reverse, bounds, display: isLine || own.kind === "polar", grid: {color: "#8884"},
-    ...isLine || {min: -most, max: most},
-    title: {display: Boolean(text), text, color},
-    ticks: {color, stepSize, maxTicksLimit: 8, includeBounds: false, callback: v => printed(v)},
+  const axis = (key, bounds, stepSize) => ({
+    type: "linear", bounds, display: isLine || own.kind === "polar", grid: {color: "#8884"},
+    reverse: own[`${key}_reversed`], ...isLine || {min: -most, max: most},
+    title: {display: own[`${key}_title`] !== "", text: own[`${key}_title`], color},
+    ticks: {color, stepSize, maxTicksLimit: 9, includeBounds: false, callback: v => printed(v)},
   });
   const options = {
     animation: false, locale: "ru", maintainAspectRatio: false,
     interaction: {mode: "nearest", axis: own.x_is_angle ? "x" : "xy", intersect: false},
     elements: {point: {radius: 0, hitRadius: 8}, line: {borderWidth: 2}},
     datasets: {scatter: {showLine: true}}, plugins: {legend: {display: false}},
-    scales: {
-      x: own.x_is_angle ? axis(own.x_title, own.x_reversed, "data", 60) : axis(own.x_title, own.x_reversed),
-      y: axis(own.y_title, own.y_reversed),
-    },
+    scales: {x: own.x_is_angle ? axis("x", "data", 60) : axis("x"), y: axis("y")},
   };
   if (!chart) new Chart(canvas, {type: "scatter", data: {datasets}, options, plugins: [{id: "cursor", afterDraw: cursor}]});
   else Object.assign(chart, {data: {datasets}, options}).update("none");

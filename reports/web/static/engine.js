@@ -10,8 +10,7 @@ async function fresh(coming, keep = true) {
   const {raw, errors} = await coming, {errors: wrong, ...shape} = raw ? await ask("api/start", {raw}) : {};
   if (!shape.groups) return set({errors: errors ?? wrong ?? []});
   if (keep && state.raw) Object.assign(state, {past: remembered(), isNew: false});
-  if (!shape.sheets.length) delete shape.sheets;
-  else if (!shape.sheets.some(([id]) => id === state.sheet)) [[shape.sheet]] = shape.sheets;
+  if (shape.sheets?.every(([id]) => id !== state.sheet)) [[shape.sheet]] = shape.sheets;
   document.title = `${shape.raw.engine?.name || "Двигатель"} — КШМ`;
   await solve({...shape, typed: {}, touched: null});
 }
@@ -182,8 +181,7 @@ Object.assign(window, {kshm: state, ask, fresh, turn}); // for a person's consol
 try {
   const hash = location.hash.slice(1), text = hash && LZString.decompressFromEncodedURIComponent(hash);
   const {raw, other} = text ? {raw: JSON.parse(text)} : JSON.parse(localStorage.kshm);
-  set({other});
+  set({other, isNew: false});
   await fresh({raw}, false);
-  set({isNew: false});
 } catch { /* a damaged link or store is none */ }
 if (!state.raw) await fresh(ask("api/new", {sample: "gots-diesel"}));

@@ -30,11 +30,9 @@ async function issue(event) {
   await look({chosen: made.name, own: null});
 }
 
-function status({state: now, students, rows, graded}) {
-  if (isBusy()) return students.length ? `Проверка идёт… готово файлов: ${graded}` : "Выдача идёт…";
-  if (now !== "done") return "";
-  return rows.length ? "Проверено." : "Варианты выданы."; // how many wait for a person, its lines say
-}
+const status = ({state: now, students, rows, graded}) => // how many wait for a person, its lines say
+  isBusy() ? (students.length ? `Проверка идёт… готово файлов: ${graded}` : "Выдача идёт…")
+    : now === "done" && (rows.length ? "Проверено." : "Варианты выданы.");
 
 const loaded = name => file => act(door(`file/${name}`), file, `${file.name}: загружено`);
 const link = (path, title, more) => html`<a href=${door(`file/${path}`)} ...${more}>${title}</a>`;

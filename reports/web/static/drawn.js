@@ -37,13 +37,14 @@ function draw(canvas, props) {
   const before = canvas.props, chart = Chart.getChart(canvas), {own, curves: datasets, color} = props;
   canvas.props = props;
   if (before && ["own", "other", "color"].every(key => before[key] === props[key])) return chart.draw();
-  const isLine = own.kind === "line"; // else both axes have one scale, as in the workbook
-  const most = 1.06 * Math.max(...datasets.flatMap(c => [...c.x, ...c.y]).map(Math.abs), 1e-9);
-  const axis = (key, bounds, stepSize) => ({
+  const isLine = own.kind === "line"; // else both axes have one scale
+  const ends = key => [Math.min, Math.max].map(end => end(...datasets.flatMap(c => c[key])));
+  const half = .53 * Math.max(...["x", "y"].map(ends).map(([low, high]) => high - low), 1e-9);
+  const axis = (key, bounds, stepSize, [low, high] = ends(key)) => ({
     type: "linear", bounds, display: isLine || own.kind === "polar", grid: {color: "#8884"},
-    reverse: own[`${key}_reversed`], ...isLine || {min: -most, max: most},
+    reverse: own[`${key}_reversed`], ...isLine || {min: (low + high) / 2 - half, max: (low + high) / 2 + half},
     title: {display: own[`${key}_title`] !== "", text: own[`${key}_title`], color},
-    ticks: {color, stepSize, maxTicksLimit: 9, includeBounds: false, callback: v => printed(v)},
+    ticks: {color, stepSize, maxTicksLimit: 8, includeBounds: false, callback: v => printed(v)},
   });
   const options = {
     animation: false, locale: "ru", maintainAspectRatio: false,

@@ -7,8 +7,8 @@ import {put, section} from "./fields.js";
 // --- what is asked of the server ---
 // An input that comes from somewhere takes the page; its fields and charts are asked for.
 async function fresh(coming, keep = true) {
-  const {raw, errors} = await coming, {errors: wrong, ...shape} = raw ? await ask("api/start", {raw}) : {};
-  if (!shape.groups) return set({errors: errors ?? wrong ?? []});
+  const came = await coming, {errors, ...shape} = came.raw ? await ask("api/start", came) : came;
+  if (!shape.groups) return set({errors: errors ?? []});
   if (keep && state.raw) Object.assign(state, {past: remembered(), isNew: false});
   if (shape.sheets?.every(([id]) => id !== state.sheet)) [[shape.sheet]] = shape.sheets;
   document.title = `${shape.raw.engine?.name || "Двигатель"} — КШМ`;

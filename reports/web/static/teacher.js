@@ -13,9 +13,7 @@ async function look(changes) { // at the chosen class, again and again while som
   if (state.own && isBusy()) state.later = setTimeout(look, 1000);
 }
 
-async function act(path, data, news) {
-  if (await send(path, data)) await look({news});
-}
+const act = async (path, data, news) => await send(path, data) && look({news});
 
 async function issue(event) {
   const data = given(event);

@@ -42,7 +42,8 @@ function draw(canvas, props) {
   const half = .53 * Math.max(...["x", "y"].map(ends).map(([low, high]) => high - low), 1e-9);
   const axis = (key, bounds, stepSize, [low, high] = ends(key)) => ({
     type: "linear", bounds, display: isLine || own.kind === "polar", grid: {color: "#8884"},
-    reverse: own[`${key}_reversed`], ...isLine || {min: (low + high) / 2 - half, max: (low + high) / 2 + half},
+    reverse: own[`${key}_reversed`],
+    ...isLine || {min: (low + high) / 2 - half, max: (low + high) / 2 + half},
     title: {display: own[`${key}_title`] !== "", text: own[`${key}_title`], color},
     ticks: {color, stepSize, maxTicksLimit: 8, includeBounds: false, callback: v => printed(v)},
   });

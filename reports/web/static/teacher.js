@@ -64,7 +64,7 @@ const issued = ({open, students, rows, files}) => html`
     ${picker("Ведомость Moodle .csv", ".csv", loaded("worksheet.csv"))}
     <button id="grade" disabled=${isBusy()} onClick=${() => act(door("grade"), {})}>Проверить</button>
     <label><input id="open" type="checkbox" checked=${open}
-      onChange=${e => act(door("open"), {open: e.target.checked})} /> студенты видят свои страницы</label></p>
+      onChange=${e => act(door("open"), {open: state.own.open = e.target.checked})} /> студенты видят свои страницы</label></p>
   <p id="results" class="tool-bar">${files.map(name => link(name, name,
     name.endsWith(".html") ? {target: "_blank"} : {download: name}))}</p>
   ${rows.length > 0 && gradebook(rows)}

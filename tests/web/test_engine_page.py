@@ -149,7 +149,7 @@ def test_drawings_stand_beside_what_they_explain(page: Page, name: str, arms: st
 
 
 def test_checks_name_what_the_input_explains(page: Page) -> None:
-    answer = page.post("/api/solve", {"raw": page.sample(), "sheet": ""})
+    answer = page.post("/api/solve", {"raw": page.sample()})
     checks = {each["key"]: each for each in answer["checks"]}
     assert checks["work"]["ok"] and not checks["power"]["ok"] and checks["power"]["reason"]
 

@@ -72,7 +72,6 @@ export function figure(given) {
     </figure>`;
 }
 
-// --- what moves ---
 const upright = ([x, y], turned, size, text) => html`
   <text transform=${`translate(${x} ${y}) rotate(${-turned})`} font-size=${size}>${text}</text>`;
 

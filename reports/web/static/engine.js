@@ -12,18 +12,21 @@ async function fresh(coming, keep = true) {
   if (keep && state.raw) Object.assign(state, {past: remembered(), isNew: false});
   if (shape.sheets?.every(([id]) => id !== state.sheet)) [[shape.sheet]] = shape.sheets;
   document.title = `${shape.raw.engine?.name || "Двигатель"} — КШМ`;
-  await solve({...shape, typed: {}, touched: null});
+  await solve({...shape, typed: {}, touched: null, errors: []});
 }
 
 async function solve(changes) {
   if (state.running) return set({...changes, again: true}); // at most one question on its way
-  set({...changes, running: true, again: false, errors: []});
+  clearTimeout(state.later);
+  set({...changes, running: true, again: false});
   const {raw, other, sheet, cylinder} = state, answer = raw => raw && ask("api/solve", {raw, sheet, cylinder});
   try { localStorage.kshm = JSON.stringify({raw, other}); } catch { /* private window */ }
   const [last, second] = await Promise.all([answer(raw), answer(other)]);
   const phi = last.errors ? 0 : Math.min(state.phi, last.moves.phi.at(-1)); // of a cycle that may be shorter
   set({running: false, ...last.errors ? {wrong: last.errors} : {wrong: [], last, second, phi}});
-  if (state.again) await solve();
+  if (state.again) return solve();
+  // The checks take longer: they wait until nothing has changed for a while.
+  if (!last.errors) state.later = setTimeout(async () => set(await send("api/solve", {raw})), 400);
 }
 
 async function order(kind, title) {
@@ -75,7 +78,6 @@ function compose(event) {
   fresh(ask("api/new", {cylinders: Number(cylinders), layout, ...more}));
 }
 
-// --- the page ---
 function begun(id) { // a further regime begins as the main one
   const {regime, gas, regimes = []} = state.raw, number = regimes.length + 1;
   if (id !== "regimes") return [id, [id], {}];
@@ -152,9 +154,9 @@ const results = ({last, second}) => html`
     <div id="files"><h3>Файлы</h3><p class="tool-bar">${Object.entries(state.choices.files).map(([kind, title]) =>
       html`<button data-kind=${kind} onClick=${() => order(kind, title)}>${title}</button>`)}</p>
       <ul id="jobs" aria-live="polite">${state.jobs.map(job)}</ul></div>
-    <div id="checks">${table("Проверки расчёта", last.checks.map(c =>
+    <div id="checks">${state.checks.length > 0 && table("Проверки расчёта", state.checks.map(c =>
       row([[c.title], [printed(c.value), "n"], verdict(c)])))}</div>
-    ${list([...last.warnings, ...last.remarks], "warn")}
+    ${list([...last.warnings, ...state.remarks], "warn")}
     <div id="summary">${last.results.map(({id, title, rows}) => html`
       <details key=${id} open=${/^(summary_torque|geometry)/.test(id)}><summary>${title}</summary>
         ${table(title, rows.map(r => row([[r.title], [symbol(r.symbol), "s"], [r.text, "n"],
@@ -172,7 +174,7 @@ const page = () => html`
 
 set({
   past: [], groups: [], sheets: [], absent: {}, sheet: "П4.1", cylinder: 0, phi: 0, typed: {}, wrong: [],
-  jobs: [], find: "", isNew: true, choices: await ask("api/choices"),
+  checks: [], remarks: [], jobs: [], find: "", isNew: true, choices: await ask("api/choices"),
   open: new Set(innerWidth > 900 ? ["engine", "geometry", "regime"] : []),
 }, page);
 for (const media of ["(prefers-color-scheme: dark)", "print"]) // colours are drawn in

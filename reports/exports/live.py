@@ -13,6 +13,7 @@ import numpy as np
 from kshm import quantity
 from kshm.nomenclature.quantity import Quantity
 from kshm.results.solution import Solution
+from reports.document.figures.pen import by_direction
 from reports.document.text.symbols import indexed
 from reports.inputs.checks.grid import grid_remark
 from reports.inputs.units import MM
@@ -110,6 +111,7 @@ def moving(solution: Solution, cylinder: int = 0) -> Data:
 
     ``joints`` are the places of crankpin, articulated pin and piston pin [mm] in the frame of
     the cylinder, its axis upwards, over its own angle ``turn``; forces stand over the engine's.
+    ``throws`` are the directions of cranks [deg], each with the numbers of those that share it.
     """
     engine = solution.engine
     number = cylinder if cylinder in range(engine.cylinders) else 0
@@ -131,7 +133,9 @@ def moving(solution: Solution, cylinder: int = 0) -> Data:
         "radius": MM.from_si(geometry.crank_radius), "bore": MM.from_si(geometry.bore),
         "wall": MM.from_si(geometry.crank_offset or 0.0), "axis": float(np.degrees(place.axis)),
         "cylinder": number, "cylinders": engine.cylinders,
-        "throws": np.degrees([each.angle for each in engine.crankshaft.throws]).tolist(),
+        "throws": list(by_direction(
+            np.degrees([each.angle for each in engine.crankshaft.throws]).tolist()
+        )),
     }  # fmt: skip
 
 

@@ -32,7 +32,7 @@ from reports.shared.resources import resource_dir
 from reports.shared.workers import Workers
 from reports.web import engine
 from reports.web.classes import Classes
-from reports.web.doors import Door, Guard, Settings, asked, book, failed, route
+from reports.web.doors import Guard, Settings, asked, book, failed, get, post
 from reports.web.jobs import OFFERED, Jobs
 
 STATIC = Path(__file__).parent / "static"
@@ -40,21 +40,17 @@ SESSION_S = 12 * 3600
 _ANSWERS = 5_000  # of a solving process
 
 
-def page(name: str, root: str = ".") -> Door:
+async def page(request: Request, name: str, root: str = ".") -> Response:
     """A page whose script lies beside this module; ``root`` leads from its address."""
+    request.session.setdefault("visitor", secrets.token_urlsafe(16))  # the place in the queue
     text = Template((STATIC / "page.html").read_text(encoding="utf-8"))
-
-    async def shown(request: Request) -> Response:
-        request.session.setdefault("visitor", secrets.token_urlsafe(16))  # the place in the queue
-        return HTMLResponse(text.substitute(name=name, root=root))
-
-    return shown
+    return HTMLResponse(text.substitute(name=name, root=root))
 
 
 async def choices(_: Request) -> Data:
     """What may be chosen before there is an engine."""
     return {"samples": list_samples(), "layouts": LAYOUTS, "strokes": STROKES, "kinds": KINDS,
-            "files": OFFERED}  # fmt: skip
+            "files": {kind: title for kind, (title, _) in OFFERED.items()}}  # fmt: skip
 
 
 def server_secret(folder: Path) -> bytes:
@@ -79,31 +75,30 @@ def create_app(settings: Settings) -> Guard:
                 yield
 
     routes = [
-        route("/", page("engine")),
-        route("/teacher", page("teacher")),
-        route("/s/{link}/", page("student", "../..")),
+        get("/", page, "engine"),
+        get("/teacher", page, "teacher"),
+        get("/s/{link}/", page, "student", "../.."),
         Mount("/static", StaticFiles(directory=STATIC)),
         Mount("/images", StaticFiles(directory=resource_dir("docs/images"))),
-        route("/api/choices", choices),
-        route("/api/new", asked(engine.fresh), "POST"),
-        route("/api/read", asked(engine.read_toml, "text"), "POST"),
-        route("/api/start", asked(engine.start, "raw"), "POST"),
-        route("/api/solve", asked(engine.answer, "raw", "sheet", "cylinder"), "POST"),
-        route("/api/checks", asked(engine.checks, "raw"), "POST"),
-        route("/api/toml", asked(engine.as_toml, "raw"), "POST"),
-        route("/api/book", book, "POST"),
+        get("/api/choices", choices),
+        post("/api/new", asked, engine.fresh),
+        post("/api/read", asked, engine.read_toml, "text"),
+        post("/api/start", asked, engine.start, "raw"),
+        post("/api/solve", asked, engine.answer, "raw", "sheet", "cylinder"),
+        post("/api/toml", asked, engine.as_toml, "raw"),
+        post("/api/book", book),
         *jobs.routes(),
         *classes.routes(),
     ]
     public = urlsplit(settings.public)
-    prefixed = [Mount(public.path.rstrip("/"), routes=routes)] if public.path.strip("/") else []
     session = Middleware(
         SessionMiddleware, secret.hex(), "kshm", SESSION_S, same_site="lax",
         https_only=public.scheme == "https",
     )  # fmt: skip
     errors: Any = dict.fromkeys((KshmError, HTTPException, 500), failed)
     app = Starlette(
-        routes=[*prefixed, *routes], lifespan=lifespan, exception_handlers=errors,
+        routes=[Mount(prefix, routes=routes) for prefix in (public.path.rstrip("/"), "")],
+        lifespan=lifespan, exception_handlers=errors,
         middleware=[Middleware(GZipMiddleware, minimum_size=1000), session],
     )  # fmt: skip
     app.state.settings, app.state.jobs = settings, jobs

@@ -16,17 +16,16 @@ from starlette.requests import Request
 from starlette.routing import Route
 
 from reports.grading.batch.grade import PAGES
-from reports.grading.issuing.register import FILE, Issued, load_register
+from reports.grading.issuing.register import FILE, load_register
 from reports.inputs.described import Data
 from reports.shared.errors import InputError, Problem, one_line
-from reports.shared.files import make_dir, read_json, write_json, write_text, write_zip
+from reports.shared.files import make_dir, read_json, write_json, write_zip
 from reports.web import engine
-from reports.web.doors import Rate, Shown, ask, body, caller, route, shown
+from reports.web.doors import Rate, Shown, ask, body, caller, get, post, shown
 from reports.web.jobs import Queue
 
 _TEXTS = ("base.toml", "roster.csv", "rubric.toml")
 _SECRET = ("--secret", "secret.key")
-_DECISION = ("who", "what", "points", "remark")
 
 
 def token_of(secret: bytes) -> str:
@@ -47,22 +46,20 @@ class Classes(Queue):
     def routes(self) -> list[Route]:
         """Doors of the instructor, all but the first behind the key, and of the students."""
         return [
-            route("/api/login", self._login, "POST"),
-            route("/api/teacher", self._listed),
-            route("/api/teacher", self._issue, "POST"),
-            route("/api/teacher/{name}/grade", self._grade, "POST"),
-            route("/api/teacher/{name}/open", self._open, "POST"),
+            post("/api/login", self._login),
+            get("/api/teacher", self._listed),
+            post("/api/teacher", self._issue),
+            post("/api/teacher/{name}/grade", self._grade),
+            post("/api/teacher/{name}/open", self._open),
             *shown("/api/teacher/{name}", self._whole, "/file/{file:path}"),
             *shown("/api/student/{link}", self._own),
         ]
 
     async def _login(self, request: Request) -> None:
-        given = str((await body(request)).get("token", "")).strip()
+        given = str((await body(request)).get("token", "")).strip().encode("utf-8", "replace")
         if not self.tries.allows(caller(request)):
             raise HTTPException(429, "слишком много попыток; подождите минуту")
-        if not hmac.compare_digest(
-            token_of(self.secret).encode(), given.encode("utf-8", "replace")
-        ):
+        if not hmac.compare_digest(token_of(self.secret).encode(), given):
             raise HTTPException(403, "неверный ключ; его печатает команда kshm serve")
         request.session["teacher"] = True
 
@@ -72,69 +69,66 @@ class Classes(Queue):
                 return path.parent
         raise HTTPException(404, "нет такой группы")
 
-    def _chosen(self, request: Request) -> Path:
-        _enter(request)
-        return self._find(request.path_params["name"])
+    def _inside(self, request: Request) -> Path:
+        """The class that a request names, else the folder of all: for the instructor alone."""
+        if not request.session.get("teacher"):
+            raise HTTPException(403, "войдите с ключом преподавателя")
+        name = request.path_params.get("name")
+        return self._find(name) if name else self.folder
 
     async def _listed(self, request: Request) -> Data:
-        _enter(request)
         found = [{"name": path.parent.name, **read_json(path)}
-                 for path in self.folder.glob("*/about.json")]  # fmt: skip
+                 for path in self._inside(request).glob("*/about.json")]  # fmt: skip
         return {"classes": sorted(found, key=lambda each: str(each.get("date")), reverse=True)}
 
     async def _issue(self, request: Request) -> Data:
-        _enter(request)
-        data = await body(request)
+        folder, data = self._inside(request) / secrets.token_hex(8), await body(request)
         files = {name: text for name in _TEXTS if (text := str(data.get(name) or "")).strip()}
-        if not (seed := str(data.get("seed", ""))).lstrip("-").isdecimal() or len(seed) > 9:
-            raise InputError(Problem("seed", "нужно целое число", "например 1"))
         base = await ask(request, engine.read_toml, files.get("base.toml", ""))
         await ask(request, engine.as_toml, base["raw"])  # without its ranges it is an input too
-        folder = self.folder / secrets.token_hex(8)
         make_dir(folder / "works")
-        for file, text in files.items():
-            write_text(folder / file, text)
         title = one_line(str(data.get("title")), 120) or "Группа"
         date = datetime.now().isoformat(timespec="seconds")
         write_json(folder / "about.json", {"title": title, "open": False, "date": date})
         more = ["--rubric", "rubric.toml"] if "rubric.toml" in files else []
-        self.put(folder.name, ["issue", "base.toml", "--roster", "roster.csv", "-o", "issued",
-                               "--seed", seed, *_SECRET, *more])  # fmt: skip
+        command = ["issue", "base.toml", "--roster", "roster.csv", "-o", "issued", *_SECRET]
+        self.put(folder.name, files, [*command, f"--seed={data.get('seed')}", *more])
         return {"name": folder.name}
 
     async def _grade(self, request: Request) -> None:
-        folder, data = self._chosen(request), await body(request)
+        folder, data = self._inside(request), await body(request)
         if self.about(folder.name).get("state") in ("waiting", "running"):
             raise InputError(Problem("", "группа занята", "дождитесь окончания"))
         command = ["grade", "issued", "submitted.zip", "-o", "results", *_SECRET]
         if "who" in data:
-            decision = [str(data.get(key, ""))[:500] for key in _DECISION]
+            decision = [str(data.get(key, ""))[:500] for key in ("who", "what", "points", "remark")]
             command += ["--decide", *decision, "--author", "преподаватель"]
         else:
             works = {f"страница/{path.name}": path for path in folder.glob("works/*.xlsx")}
             write_zip(folder / "submitted.zip", works, folder / "moodle.zip")
         if (folder / "worksheet.csv").exists():
             command += ["--moodle", "worksheet.csv"]
-        self.put(folder.name, [*command, *self.far])
+        self.put(folder.name, {}, [*command, *self.far])
 
     async def _open(self, request: Request) -> None:
-        path, data = self._chosen(request) / "about.json", await body(request)
+        path, data = self._inside(request) / "about.json", await body(request)
         write_json(path, {**read_json(path), "open": bool(data.get("open"))})
 
     def _whole(self, request: Request) -> Shown:
-        folder = self._chosen(request)
-        results = folder / "results"
+        folder = self._inside(request)
+        results, issued = folder / "results", folder / "issued"
         made = {path.name: path for path in results.glob("[!.]*.*") if path.suffix != ".json"}
         pages = {f"{PAGES}/{path.name}": path for path in results.glob(f"{PAGES}/*.html")}
         students = [
             {"name": book.student.full, "group": book.student.group,
              "link": self.signer.dumps([folder.name, book.number]),
-             "handed": _work(folder, book).exists()}
-            for book in _books(folder)
+             "handed": (folder / "works" / book.file).exists()}
+            for book in (load_register(issued).books if (issued / FILE).exists() else ())
         ]  # fmt: skip
         return Shown(
             {**read_json(folder / "about.json"), **self.about(folder.name), "students": students,
-             "rows": _rows(folder), "files": [*made], "graded": len(pages)},
+             "rows": read_json(results / "summary.json").get("rows", []),
+             "files": [*made], "graded": len(pages)},
             {**made, **pages, "issued.zip": folder / "issued.zip"},
             {name: folder / name for name in ("moodle.zip", "worksheet.csv")},
         )  # fmt: skip
@@ -143,36 +137,18 @@ class Classes(Queue):
         try:
             name, number = self.signer.loads(request.path_params["link"])
             folder = self._find(name)
-            book = next(book for book in _books(folder) if book.number == number)
+            books = load_register(folder / "issued").books
+            book = next(book for book in books if book.number == number)
         except (BadData, StopIteration):
             raise HTTPException(404, "нет такой страницы") from None
-        about, work = read_json(folder / "about.json"), _work(folder, book)
-        rows = (row for row in _rows(folder) if about["open"] and row["number"] == number)
-        row = next(rows, {})
-        files = {"book": folder / "issued" / book.folder / book.file}
-        if page := row.get("page"):
-            files["page"] = folder / "results" / page
+        about, work = read_json(folder / "about.json"), folder / "works" / book.file
+        rows = read_json(folder / "results/summary.json").get("rows", ()) if about["open"] else ()
+        row: Data = next((row for row in rows if row["number"] == number), {})
+        files = {"book": folder / "issued" / book.folder / book.file,
+                 "page": folder / "results" / row.get("page", "")}  # fmt: skip
         told = {
             "title": about["title"], "student": book.student.full, "file": book.file,
-            "handed": work.exists(), "open": bool(page), "points": row.get("points"),
+            "handed": work.exists(), "open": bool(row.get("page")), "points": row.get("points"),
             "status": row.get("status", ""),
         }  # fmt: skip
         return Shown(told, files, {"work": work})
-
-
-def _enter(request: Request) -> None:
-    if not request.session.get("teacher"):
-        raise HTTPException(403, "войдите с ключом преподавателя")
-
-
-def _books(folder: Path) -> tuple[Issued, ...]:
-    path = folder / "issued"
-    return load_register(path).books if (path / FILE).exists() else ()
-
-
-def _rows(folder: Path) -> list[Data]:
-    return list(read_json(folder / "results/summary.json").get("rows", ()))
-
-
-def _work(folder: Path, book: Issued) -> Path:
-    return folder / "works" / f"{book.folder}.xlsx"

@@ -33,8 +33,7 @@ def serve(port: int, host: str, folder: Path, public: str, dask: str | None) -> 
     need_packages("для kshm serve", **{name: name for name in packages})
     address = urlsplit(public)
     if public and (address.scheme not in ("http", "https") or not address.hostname):
-        msg = f"--public {public}: нужен адрес вида https://kafedra.example/kshm"
-        raise KshmError(msg)
+        raise KshmError(f"--public {public}: нужен адрес вида https://kafedra.example/kshm")
     bound = _bound(host, port)
     import uvicorn
 
@@ -60,10 +59,9 @@ def serve(port: int, host: str, folder: Path, public: str, dask: str | None) -> 
 
 def _bound(host: str, port: int) -> socket.socket:
     """A socket at an address, or a line that says why there is none."""
-    six = ":" in host
-    family = socket.AF_INET6 if six else socket.AF_INET
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
     try:
-        return socket.create_server((host, port), family=family, dualstack_ipv6=six)
+        return socket.create_server((host, port), family=family, dualstack_ipv6=":" in host)
     except OSError as error:
-        msg = f"--host {host} --port {port}: {reason(error)}; укажите другой адрес или порт"
-        raise KshmError(msg) from None
+        where = f"--host {host} --port {port}"
+        raise KshmError(f"{where}: {reason(error)}; укажите другой адрес или порт") from None

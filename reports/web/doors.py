@@ -10,7 +10,8 @@ import tempfile
 import time
 from collections import Counter
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
+from functools import partial
 from ipaddress import ip_address
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -30,7 +31,7 @@ from reports.shared.workers import Died, NeverStarted
 from reports.web import engine
 from reports.workbook.intake import check_data
 
-Door = Callable[[Request], Awaitable[Response | Data | None]]
+Door = Callable[..., Awaitable[Response | Data | None]]
 MOST_JSON, MOST_BOOK, MOST_ARCHIVE = 2_000_000, 30 * 2**20, 100_000_000
 FILE_S = 300.0  # for an uploaded file
 BOOK_S = 60.0  # to read an edited workbook
@@ -137,7 +138,7 @@ def caller(request: Request) -> str:
 def refusal(code: int, why: KshmError | str) -> JSONResponse:
     """An answer that says why not, a line for each problem, never a traceback."""
     error = KshmError(why) if isinstance(why, str) else why
-    return JSONResponse({"errors": engine.told(error)}, code)
+    return JSONResponse({"errors": [asdict(problem) for problem in error.problems]}, code)
 
 
 async def failed(_: Request, error: Exception) -> Response:
@@ -150,14 +151,17 @@ async def failed(_: Request, error: Exception) -> Response:
     return refusal(500, f"внутренняя ошибка {type(error).__name__}")
 
 
-def route(path: str, door: Door, method: str = "GET") -> Route:
-    """A door at a path, its plain data as JSON."""
+def route(method: str, path: str, door: Door, *given: Any) -> Route:  # noqa: ANN401
+    """A door at a path, which takes a request and what is given; its plain data go as JSON."""
 
     async def answer(request: Request) -> Response:
-        found = await door(request)
+        found = await door(request, *given)
         return found if isinstance(found, Response) else JSONResponse(found or {})
 
     return Route(path, answer, methods=[method])
+
+
+get, post = partial(route, "GET"), partial(route, "POST")
 
 
 async def ask(
@@ -206,17 +210,13 @@ async def uploaded(request: Request, most: int) -> AsyncIterator[Path]:
         yield path
 
 
-def asked(function: Callable[..., Data], *keys: str) -> Door:
+async def asked(request: Request, function: Callable[..., Data], *keys: str) -> Response | Data:
     """A question to the solving processes: values of these keys of a request, or all of it."""
-
-    async def answer(request: Request) -> Response | Data:
-        data = await body(request)
-        try:
-            return await ask(request, function, *([data.get(key) for key in keys] or [data]))
-        except KshmError as error:  # usual while one types
-            return refusal(200, error)
-
-    return answer
+    data = await body(request)
+    try:
+        return await ask(request, function, *([data.get(key) for key in keys] or [data]))
+    except KshmError as error:  # usual while one types
+        return refusal(200, error)
 
 
 async def book(request: Request) -> Data:
@@ -245,10 +245,8 @@ def shown(path: str, find: Callable[[Request], Shown], files: str = "/{file}") -
         if file is None or not file.is_file():
             raise HTTPException(404, "нет такого файла; закажите заново")
         how = "inline" if file.suffix == ".html" else "attachment"  # a page can do nothing
-        return FileResponse(
-            file, headers={"content-security-policy": _SANDBOX}, filename=file.name,
-            content_disposition_type=how,
-        )  # fmt: skip
+        heads = {"content-security-policy": _SANDBOX}
+        return FileResponse(file, headers=heads, filename=file.name, content_disposition_type=how)
 
     async def taken(request: Request) -> None:
         place = find(request).takes.get(request.path_params["file"])
@@ -262,8 +260,4 @@ def shown(path: str, find: Callable[[Request], Shown], files: str = "/{file}") -
                 raise InputError(Problem("", "это не тот файл", "загрузите архив .zip"))
             file.replace(place)
 
-    return [
-        route(path, told),
-        route(f"{path}{files}", given),
-        route(f"{path}{files}", taken, "POST"),
-    ]
+    return [get(path, told), get(f"{path}{files}", given), post(f"{path}{files}", taken)]

@@ -29,11 +29,6 @@ HEAD = ("Исходные данные двигателя для kshm.",)
 _OPTIONS = ("sample", "layout", "strokes", "kind", "power", "speed")  # of kshm new
 
 
-def told(error: KshmError) -> list[Data]:
-    """Problems as the page takes them."""
-    return [asdict(problem) for problem in error.problems]
-
-
 def read_toml(text: object) -> Data:
     """The mapping of a file's text, as the page keeps it; InputError if it is none."""
     return {"raw": split_ranges(parsed(str(text), source="файл"))[0]}
@@ -52,23 +47,24 @@ def start(raw: Mapping[str, Any]) -> Data:
     What is wrong with its values stands among the errors; the fields are shown all the same.
     """
     plain = without_foreign(understood(raw))
-    sheets: dict[str, str] = {}
-    errors: list[Data] = []
+    found: Data = {"errors": []}
     try:
         model = load_apart(plain).model
-        plain = to_mapping(model)
+        plain, sheets = to_mapping(model), dict[str, str]()
         for chart in kept_model(model).charts:
             sheets.setdefault(chart.sheet, chart.title)
+        found["sheets"] = list(sheets.items())
     except InputError as error:
-        errors = told(error)
-    return {"raw": plain, "groups": list(groups(plain)), "absent": absent(plain),
-            "sheets": list(sheets.items()), "errors": errors}  # fmt: skip
+        found["errors"] = [asdict(problem) for problem in error.problems]
+    return {**found, "raw": plain, "groups": list(groups(plain)), "absent": absent(plain)}
 
 
-def answer(raw: Mapping[str, Any], sheet: str, cylinder: int = 0) -> Data:
-    """Numbers of an engine, the charts of a sheet, what moves, what is odd about the input."""
+def answer(raw: Mapping[str, Any], sheet: str | None, cylinder: int = 0) -> Data:
+    """Numbers of an engine, the charts of a sheet, what moves; without a sheet the checks alone."""
     loaded = load_apart(raw)
     model, solution = kept_model(loaded.model), solved(loaded.model)
+    if sheet is None:  # the checks take longer
+        return live.checks(model)
     return {
         "warnings": [asdict(problem) for problem in loaded.warnings],
         "results": list(live.results(model, solution)),
@@ -77,22 +73,13 @@ def answer(raw: Mapping[str, Any], sheet: str, cylinder: int = 0) -> Data:
     }
 
 
-def checks(raw: Mapping[str, Any]) -> Data:
-    """The checks of the calculation, each with its value, and what the step leaves out."""
-    return live.checks(kept_model(load_apart(raw).model))
-
-
 def as_toml(raw: Mapping[str, Any]) -> Data:
     """The commented file of an input."""
     return {"text": file_text(Made(to_mapping(load_apart(raw).model), {}, HEAD))}
 
 
 def fresh(wanted: Mapping[str, Any]) -> Data:
-    """A new engine as ``kshm new`` makes it: a sample, an own one, or an alternative to ``raw``.
-
-    Raises:
-        KshmError: there is no such engine.
-    """
+    """A sample, an own engine or an alternative to ``raw`` by ``kshm new``; KshmError if none."""
     options = [f"--{key}={wanted[key]}".replace(",", ".") for key in _OPTIONS if wanted.get(key)]
     if "sample" not in wanted:
         options.append(f"--cylinders={wanted.get('cylinders')!r}")

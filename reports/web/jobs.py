@@ -29,35 +29,38 @@ from reports.inputs.sections.report import FORMATS
 from reports.shared.errors import InputError, KshmError, Problem
 from reports.shared.files import make_dir, read_json, write_json, write_text, write_zip
 from reports.web import engine
-from reports.web.doors import Shown, ask, body, caller, route, shown
+from reports.web.doors import Shown, ask, body, caller, post, shown
 
+Texts = Mapping[str, str]  # of files by name
 MOST_WAITING, MOST_OWN = 500, 6
 MOST_BYTES = 2 * 10**9  # of all files kept
 KEEP_S = 14 * 86400.0
-OFFERED = {
-    **{kind: title[0].upper() + title[1:] for kind, title in FORMATS.items()},
-    "csv": "Таблицы CSV", "json": "Числа JSON",
-    "compare-xlsx": "Сравнение: книга", "compare-pdf": "Сравнение: PDF",
-}  # fmt: skip
+_BUILD = ("build", "engine.toml", "-o", "out", "--only")
+_COMPARE = ("compare", "engine.toml", "other.toml", "-o")
+OFFERED = {  # titles of files and what makes them
+    **{kind: (title[0].upper() + title[1:], (*_BUILD, kind)) for kind, title in FORMATS.items()},
+    "csv": ("Таблицы CSV", ("solve", "engine.toml", "--csv", "csv")),
+    "json": ("Числа JSON", ("solve", "engine.toml", "--json", "out/engine.json")),
+    "compare-xlsx": ("Сравнение: книга", (*_COMPARE, "out/compare.xlsx")),
+    "compare-pdf": ("Сравнение: PDF", (*_COMPARE, "out/compare.pdf")),
+}
 
 
 class Queue:
     """Commands in folders of one folder, ``at_once`` together.
 
-    ``secret`` makes names unguessable; a cluster at ``dask`` does what commands leave to it.
+    ``key`` makes names unguessable; a cluster at ``dask`` does what commands leave to it.
     """
 
     timeout_s: ClassVar[float]  # that a command may take
     pack: ClassVar[tuple[str, str, str]]  # archive of its many files, their folder and pattern
 
-    def __init__(
-        self, folder: Path, secret: bytes, at_once: int = 1, dask: str | None = None
-    ) -> None:
-        self.folder, self.secret, self.at_once = folder, secret, at_once
+    def __init__(self, folder: Path, key: bytes, at_once: int = 1, dask: str | None = None) -> None:
+        self.folder, self.secret, self.at_once = folder, key, at_once
         self.far = ["--dask", dask] if dask else []
         self.waiting: dict[str, str] = {}  # job → visitor, in the order of coming
         self.running: dict[str, tuple[str, float]] = {}  # job → visitor, beginning
-        self._wake = asyncio.Event()
+        self._ready = asyncio.Semaphore(0)  # as many as wait
 
     @contextlib.asynccontextmanager
     async def working(self) -> AsyncIterator[None]:
@@ -67,20 +70,23 @@ class Queue:
                 if not path.with_name("done.json").exists()]  # fmt: skip
         for path in sorted(left, key=lambda path: path.stat().st_mtime):
             self.waiting[path.parent.name] = read_json(path).get("visitor", "")
-        self._wake.set()
+        self._ready = asyncio.Semaphore(len(self.waiting))
         async with asyncio.TaskGroup() as group:
             tasks = [group.create_task(self._work()) for _ in range(self.at_once)]
             yield
             for task in tasks:
                 task.cancel()
 
-    def put(self, name: str, command: Sequence[str], visitor: str = "") -> None:
-        """A command to be run in the folder of that name."""
+    def put(self, name: str, files: Texts, command: Sequence[str], visitor: str = "") -> None:
+        """A command to be run in the folder of that name, beside these files."""
         folder = self.folder / name
+        folder.mkdir(mode=0o700, exist_ok=True)
         (folder / "done.json").unlink(missing_ok=True)
+        for file, text in files.items():
+            write_text(folder / file, text)
         write_json(folder / "order.json", {"visitor": visitor, "command": command})
         self.waiting[name] = visitor
-        self._wake.set()
+        self._ready.release()
 
     def line(self) -> list[str]:
         """The waiting jobs in their order: everybody's first before anybody's second."""
@@ -97,15 +103,11 @@ class Queue:
             return {"state": "waiting", "place": self.line().index(name) + len(self.running)}
         if name in self.running:
             return {"state": "running", "seconds": round(time.monotonic() - self.running[name][1])}
-        is_name = name.isalnum() and name.isascii() and len(name) <= 40  # never a path
-        return read_json(self.folder / name / "done.json") if is_name else {}
+        return read_json(self.folder / name / "done.json") if name.isalnum() else {}  # never a path
 
     async def _work(self) -> None:
-        while await self._wake.wait():
-            if not (line := self.line()):
-                self._wake.clear()
-                continue
-            name = line[0]
+        while await self._ready.acquire():
+            name = self.line()[0]
             self.running[name] = self.waiting.pop(name), time.monotonic()
             try:
                 done = await self._make(self.folder / name)
@@ -137,12 +139,8 @@ class Jobs(Queue):
     timeout_s = 300.0
     pack = ("out/tables.zip", "csv", "*.csv")
 
-    def add(self, files: Mapping[str, str], command: Sequence[str], visitor: str) -> str:
-        """An order: files by name, the command to run beside them; the name of the job.
-
-        Raises:
-            InputError: the queue is full, or the visitor has enough in it.
-        """
+    def add(self, files: Texts, command: Sequence[str], visitor: str) -> str:
+        """The name of a job: a command beside files; InputError where enough jobs wait already."""
         text = json.dumps([files, command, version("kshm")], ensure_ascii=False, sort_keys=True)
         name = hmac.digest(self.secret, text.encode(), "sha256").hex()[:40]
         folder, state = self.folder / name, self.about(name).get("state")
@@ -155,11 +153,8 @@ class Jobs(Queue):
             what = "очередь полна" if own < MOST_OWN else f"у вас уже {own} файлов в очереди"
             raise InputError(Problem("", what, "дождитесь их"))
         shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir(mode=0o700)
-        for file, content in files.items():
-            write_text(folder / file, content)
         self.clean()
-        self.put(name, command, visitor)
+        self.put(name, files, command, visitor)
         return name
 
     def clean(self) -> None:
@@ -173,32 +168,20 @@ class Jobs(Queue):
 
     def routes(self) -> list[Route]:
         """Doors at which files are ordered, asked after and taken."""
-        order = route("/api/files", self._ordered, "POST")
-        return [order, *shown("/api/files/{name}", self._made)]
+        return [post("/api/files", self._ordered), *shown("/api/files/{name}", self._made)]
 
     async def _ordered(self, request: Request) -> Data:
         data = await body(request)
-        kind = str(data.get("kind"))
-        if kind not in OFFERED:
+        _, command = OFFERED.get(str(data.get("kind")), ("", ()))
+        if not command:
             raise InputError(Problem("kind", "нет такого вида файла", "обновите страницу"))
-        wanted = {"engine.toml": data.get("raw")}
-        if kind.startswith("compare-"):
-            wanted["other.toml"] = data.get("other")
-            if not wanted["other.toml"]:
-                raise InputError(Problem("", "нет второго двигателя", "нажмите «Сравнить с этим»"))
+        inputs = {"engine.toml": data.get("raw"), "other.toml": data.get("other")}
+        if "other.toml" in command and not data.get("other"):
+            raise InputError(Problem("", "нет второго двигателя", "нажмите «Сравнить с этим»"))
         texts = {name: (await ask(request, engine.as_toml, raw))["text"]
-                 for name, raw in wanted.items()}  # fmt: skip
+                 for name, raw in inputs.items() if name in command}  # fmt: skip
         who = request.session.get("visitor") or caller(request)
-        return {"id": self.add(texts, self._command(kind), who)}
-
-    def _command(self, kind: str) -> list[str]:
-        """What makes a kind of file out of ``engine.toml`` (and ``other.toml``) into ``out``."""
-        if kind.startswith("compare-"):
-            return ["compare", "engine.toml", "other.toml", "-o", f"out/compare.{kind[8:]}"]
-        if kind in ("csv", "json"):
-            where = "csv" if kind == "csv" else "out/engine.json"
-            return ["solve", "engine.toml", f"--{kind}", where]
-        return ["build", "engine.toml", "-o", "out", "--only", kind, *self.far]
+        return {"id": self.add(texts, [*command, *(self.far if "build" in command else ())], who)}
 
     def _made(self, request: Request) -> Shown:
         name = request.path_params["name"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from pathlib import Path
 from typing import Any
 
@@ -220,6 +221,22 @@ def test_hostile_books(client: TestClient) -> None:
         is_refused(answer, 422)
     data = client.app.app.state.settings.data  # type: ignore[attr-defined]
     assert not list(data.glob("book-*"))
+
+
+def test_a_seed_is_no_option(page: Page, client: TestClient) -> None:
+    data = client.app.app.state.settings.data  # type: ignore[attr-defined]
+    page.post("/api/login", {"token": token_of(server_secret(data))})
+    wanted = {"title": "x", "base.toml": classroom.base_text(), "seed": "1 --rubric /etc/passwd",
+              "roster.csv": classroom.roster_text(1)}  # fmt: skip
+    name = page.post("/api/teacher", wanted)["name"]
+    told: dict[str, Any] = {}
+    for _ in range(300):
+        told = page.get(f"/api/teacher/{name}")
+        if told["state"] not in ("waiting", "running"):
+            break
+        time.sleep(0.1)
+    client.cookies.clear()
+    assert told["state"] == "failed" and "нужно число" in told["lines"][0]
 
 
 XSS = "<script>alert(1)</script>\"'><img src=x onerror=alert(1)>"

@@ -20,12 +20,6 @@ const curvesOf = ({own, other, phi}) => [own, other].filter(Boolean).flatMap((ch
     at: chart.x_is_angle ? between(curve.x, curve.y, phi) : null,
   })));
 
-function square(curves) { // limits of both axes, which have one scale
-  const ends = ["x", "y"].map(key => curves.flatMap(c => c[key])).map(all => [Math.min(...all), Math.max(...all)]);
-  const half = Math.max(...ends.map(([low, high]) => high - low), 1e-9) * .53;
-  return ends.map(([low, high]) => ({min: (low + high) / 2 - half, max: (low + high) / 2 + half}));
-}
-
 function cursor({canvas, ctx, scales: {x, y}}) { // a line at φ and a point of each curve, or of the path
   const {own: {path}, phi, curves} = canvas.props;
   const dots = curves.filter(c => c.at !== null).map(c => [phi, c.at, c.borderColor]);
@@ -35,9 +29,7 @@ function cursor({canvas, ctx, scales: {x, y}}) { // a line at φ and a point of 
   if (path) dots.push([place("x"), place("y"), COLOURS[0]]);
   for (const [px, py, colour] of dots) {
     ctx.fillStyle = colour;
-    ctx.beginPath();
-    ctx.arc(x.getPixelForValue(px), y.getPixelForValue(py), 4, 0, 7);
-    ctx.fill();
+    Chart.helpers.drawPoint(ctx, {radius: 4}, x.getPixelForValue(px), y.getPixelForValue(py));
   }
 }
 
@@ -45,11 +37,14 @@ function draw(canvas, props) {
   const before = canvas.props, chart = Chart.getChart(canvas), {own, curves: datasets, color} = props;
   canvas.props = props;
   if (before && ["own", "other", "color"].every(key => before[key] === props[key])) return chart.draw();
-  const plain = own.kind === "line";
-  const [x, y] = plain ? [{bounds: own.x_is_angle ? "data" : "ticks"}, {}] : square(datasets);
-  const axis = (text, reverse, ends, stepSize) => ({
-    type: "linear", reverse, display: plain || own.kind === "polar", grid: {color: "#8884"}, ...ends,
-    title: {display: Boolean(text), text, color},
+  const isLine = own.kind === "line"; // else both axes have one scale
+  const ends = key => [Math.min, Math.max].map(end => end(...datasets.flatMap(c => c[key])));
+  const half = .53 * Math.max(...["x", "y"].map(ends).map(([low, high]) => high - low), 1e-9);
+  const axis = (key, bounds, stepSize, [low, high] = ends(key)) => ({
+    type: "linear", bounds, display: isLine || own.kind === "polar", grid: {color: "#8884"},
+    reverse: own[`${key}_reversed`],
+    ...isLine || {min: (low + high) / 2 - half, max: (low + high) / 2 + half},
+    title: {display: own[`${key}_title`] !== "", text: own[`${key}_title`], color},
     ticks: {color, stepSize, maxTicksLimit: 8, includeBounds: false, callback: v => printed(v)},
   });
   const options = {
@@ -57,10 +52,7 @@ function draw(canvas, props) {
     interaction: {mode: "nearest", axis: own.x_is_angle ? "x" : "xy", intersect: false},
     elements: {point: {radius: 0, hitRadius: 8}, line: {borderWidth: 2}},
     datasets: {scatter: {showLine: true}}, plugins: {legend: {display: false}},
-    scales: {
-      x: axis(own.x_title, own.x_reversed, x, own.x_is_angle ? 60 : undefined),
-      y: axis(own.y_title, own.y_reversed, y),
-    },
+    scales: {x: own.x_is_angle ? axis("x", "data", 60) : axis("x"), y: axis("y")},
   };
   if (!chart) new Chart(canvas, {type: "scatter", data: {datasets}, options, plugins: [{id: "cursor", afterDraw: cursor}]});
   else Object.assign(chart, {data: {datasets}, options}).update("none");
@@ -80,7 +72,6 @@ export function figure(given) {
     </figure>`;
 }
 
-// --- what moves ---
 const upright = ([x, y], turned, size, text) => html`
   <text transform=${`translate(${x} ${y}) rotate(${-turned})`} font-size=${size}>${text}</text>`;
 
@@ -98,34 +89,28 @@ export function mechanism(moves, phi) {
         <rect class="body" x=${left} y=${points.at(-1)[1] - half * .8} width=${bore} height=${half * 1.3} />
         <polyline class="rod" points=${points.join(" ")} />
         ${points.map(([x, y]) => html`<circle class="body" cx=${x} cy=${y} r=${radius / 9} />`)}
-        ${arrows(moves, phi, points[1], points.at(-1), inside * Math.PI / 180)}
+        ${arrows(moves, phi, points[1], points.at(-1), inside)}
       </g>
     </svg>`;
 }
 
 function arrows({forces, phi: over, axis, bore}, phi, pin, piston, turn) {
   const most = Math.max(...Object.values(forces).flatMap(f => f.values.map(Math.abs)), 1e-9);
-  const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
-  const drawn = [["Ps_MPa", "PΣ", 0, piston, 0, 1], ["N_MPa", "N", 4, piston, -1, 0],
-    ["T_MPa", "T", 1, pin, cos, sin], ["K_MPa", "K", 2, pin, -sin, cos]];
-  return drawn.map(([key, name, colour, [x, y], dx, dy]) => {
+  const drawn = [["Ps_MPa", "PΣ", 0, piston, 90], ["N_MPa", "N", 4, piston, 180],
+    ["T_MPa", "T", 1, pin, turn], ["K_MPa", "K", 2, pin, turn + 90]];
+  return drawn.map(([key, name, colour, place, along]) => {
     const far = bore * between(over, forces[key].values, phi) / most, ink = COLOURS[colour];
-    const beyond = far + Math.sign(far) * bore / 6;
-    return Math.abs(far) > bore / 40 && html`
-      <path d=${`M${x} ${y}l${dx * far} ${dy * far}`} stroke=${ink} stroke-width="3" />
-      <circle cx=${x + dx * far} cy=${y + dy * far} r=${bore / 28} fill=${ink} />
-      ${upright([x + dx * beyond, y + dy * beyond], axis, bore / 5, name)}`;
+    return Math.abs(far) > bore / 40 && html`<g transform=${`translate(${place}) rotate(${along})`}>
+      <path d=${`M0 0h${far}`} stroke=${ink} stroke-width="3" />
+      <circle cx=${far} r=${bore / 28} fill=${ink} />
+      ${upright([far + Math.sign(far) * bore / 6, 0], axis + along, bore / 5, name)}</g>`;
   });
 }
 
-export function star({throws}, phi) {
-  const groups = {};
-  throws.forEach((angle, i) => (groups[Math.round(angle * 100) / 100 % 360] ??= []).push(i + 1));
-  return html`
-    <svg id="star" role="img" aria-label="Звезда кривошипов" viewBox="-130 -130 260 260">
-      <circle class="axis" r="85" />
-      ${Object.entries(groups).map(([angle, numbers]) => html`<g transform=${`rotate(${Number(angle) + phi})`}>
-        <path class="rod" d="M0 0V-85" /><circle class="body" cy="-85" r="6" />
-        ${upright([0, -108], Number(angle) + phi, 14, numbers.join(", "))}</g>`)}
-    </svg>`;
-}
+export const star = ({throws}, phi) => html`
+  <svg id="star" role="img" aria-label="Звезда кривошипов" viewBox="-130 -130 260 260">
+    <circle class="axis" r="85" />
+    ${throws.map(([angle, numbers]) => html`<g transform=${`rotate(${angle + phi})`}>
+      <path class="rod" d="M0 0V-85" /><circle class="body" cy="-85" r="6" />
+      ${upright([0, -108], angle + phi, 14, numbers.join(", "))}</g>`)}
+  </svg>`;

@@ -7,20 +7,18 @@ import {put, section} from "./fields.js";
 // --- what is asked of the server ---
 // An input that comes from somewhere takes the page; its fields and charts are asked for.
 async function fresh(coming, keep = true) {
-  const {raw, errors} = await coming, {errors: wrong, ...shape} = raw ? await ask("api/start", {raw}) : {};
-  if (!shape.groups) return set({errors: errors ?? wrong ?? []});
+  const came = await coming, {errors, ...shape} = came.raw ? await ask("api/start", came) : came;
+  if (!shape.groups) return set({errors: errors ?? []});
   if (keep && state.raw) Object.assign(state, {past: remembered(), isNew: false});
-  if (!shape.sheets.length) delete shape.sheets;
-  else if (!shape.sheets.some(([id]) => id === state.sheet)) [[shape.sheet]] = shape.sheets;
-  set({...shape, typed: {}, touched: null, errors: []});
-  document.title = `${state.raw.engine?.name || "Двигатель"} — КШМ`;
-  await solve();
+  if (shape.sheets?.every(([id]) => id !== state.sheet)) [[shape.sheet]] = shape.sheets;
+  document.title = `${shape.raw.engine?.name || "Двигатель"} — КШМ`;
+  await solve({...shape, typed: {}, touched: null, errors: []});
 }
 
-async function solve() {
-  if (state.running) return set({again: true}); // at most one question on its way
+async function solve(changes) {
+  if (state.running) return set({...changes, again: true}); // at most one question on its way
   clearTimeout(state.later);
-  set({running: true, again: false});
+  set({...changes, running: true, again: false});
   const {raw, other, sheet, cylinder} = state, answer = raw => raw && ask("api/solve", {raw, sheet, cylinder});
   try { localStorage.kshm = JSON.stringify({raw, other}); } catch { /* private window */ }
   const [last, second] = await Promise.all([answer(raw), answer(other)]);
@@ -28,7 +26,7 @@ async function solve() {
   set({running: false, ...last.errors ? {wrong: last.errors} : {wrong: [], last, second, phi}});
   if (state.again) return solve();
   // The checks take longer: they wait until nothing has changed for a while.
-  if (!last.errors) state.later = setTimeout(async () => set(await send("api/checks", {raw})), 400);
+  if (!last.errors) state.later = setTimeout(async () => set(await send("api/solve", {raw})), 400);
 }
 
 async function order(kind, title) {
@@ -72,7 +70,6 @@ async function link() {
   set({linked: true});
 }
 
-const asked = changes => { Object.assign(state, changes); solve(); };
 const upload = async file => fresh(/\.xlsx$/i.test(file.name)
   ? ask("api/book", file) : ask("api/read", {text: await file.text()}));
 
@@ -81,7 +78,6 @@ function compose(event) {
   fresh(ask("api/new", {cylinders: Number(cylinders), layout, ...more}));
 }
 
-// --- the page ---
 function begun(id) { // a further regime begins as the main one
   const {regime, gas, regimes = []} = state.raw, number = regimes.length + 1;
   if (id !== "regimes") return [id, [id], {}];
@@ -110,8 +106,8 @@ const data = () => html`
       <button id="undo" disabled=${!state.past.length} onClick=${back}>Отменить</button>
       <button id="save" onClick=${save}>Скачать .toml</button>
       <button id="link" onClick=${link}>${state.linked ? "Ссылка в адресе" : "Ссылка"}</button>
-      <button id="keep" onClick=${() => asked({other: structuredClone(state.raw)})}>Сравнить с этим</button>
-      <button id="drop" hidden=${!state.other} onClick=${() => asked({other: null})}>Убрать второй</button></p>
+      <button id="keep" onClick=${() => solve({other: structuredClone(state.raw)})}>Сравнить с этим</button>
+      <button id="drop" hidden=${!state.other} onClick=${() => solve({other: null})}>Убрать второй</button></p>
     ${alerts([...state.errors, ...state.wrong])}
     <p><label>Найти поле <input id="find" type="search" autocomplete="off" value=${state.find}
       onInput=${e => set({find: e.target.value})} /></label></p>
@@ -124,7 +120,7 @@ const scene = ({moves}) => html`
   <div id="scene" class="cards">
     <figure>${mechanism(moves, state.phi)}<figcaption>${choice("Механизм, цилиндр", "cylinder",
       Array.from({length: moves.cylinders}, (_, i) => [i, i + 1]), moves.cylinder,
-      value => asked({cylinder: Number(value)}))}</figcaption></figure>
+      value => solve({cylinder: Number(value)}))}</figcaption></figure>
     <div>
       <label for="phi">Угол φ: ${printed(state.phi)}°</label>
       <input id="phi" type="range" min="0" max=${moves.phi.at(-1)} step="1" value=${state.phi}
@@ -152,7 +148,7 @@ const results = ({last, second}) => html`
     <h2>${state.raw.engine?.name || "Двигатель"}</h2>
     ${scene(last)}
     <p>${choice("Диаграммы листа", "sheet", state.sheets.map(([id, title]) => [id, id || "Прочее", title]),
-      state.sheet, sheet => asked({sheet}))}</p>
+      state.sheet, sheet => solve({sheet}))}</p>
     <div id="charts" class="cards">${last.charts.map(own =>
       figure({own, other: second?.charts?.find(c => c.id === own.id), phi: state.phi}))}</div>
     <div id="files"><h3>Файлы</h3><p class="tool-bar">${Object.entries(state.choices.files).map(([kind, title]) =>
@@ -187,8 +183,7 @@ Object.assign(window, {kshm: state, ask, fresh, turn}); // for a person's consol
 try {
   const hash = location.hash.slice(1), text = hash && LZString.decompressFromEncodedURIComponent(hash);
   const {raw, other} = text ? {raw: JSON.parse(text)} : JSON.parse(localStorage.kshm);
-  set({other});
+  set({other, isNew: false});
   await fresh({raw}, false);
-  set({isNew: false});
 } catch { /* a damaged link or store is none */ }
 if (!state.raw) await fresh(ask("api/new", {sample: "gots-diesel"}));

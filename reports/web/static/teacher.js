@@ -13,9 +13,7 @@ async function look(changes) { // at the chosen class, again and again while som
   if (state.own && isBusy()) state.later = setTimeout(look, 1000);
 }
 
-async function act(path, data, news) {
-  if (await send(path, data)) await look({news});
-}
+const act = async (path, data, news) => await send(path, data) && look({news});
 
 async function issue(event) {
   const data = given(event);
@@ -30,11 +28,9 @@ async function issue(event) {
   await look({chosen: made.name, own: null});
 }
 
-function status({state: now, students, rows, graded}) {
-  if (isBusy()) return students.length ? `Проверка идёт… готово файлов: ${graded}` : "Выдача идёт…";
-  if (now !== "done") return "";
-  return rows.length ? "Проверено." : "Варианты выданы."; // how many wait for a person, its lines say
-}
+const status = ({state: now, students, rows, graded}) => // how many wait for a person, its lines say
+  isBusy() ? (students.length ? `Проверка идёт… готово файлов: ${graded}` : "Выдача идёт…")
+    : now === "done" && (rows.length ? "Проверено." : "Варианты выданы.");
 
 const loaded = name => file => act(door(`file/${name}`), file, `${file.name}: загружено`);
 const link = (path, title, more) => html`<a href=${door(`file/${path}`)} ...${more}>${title}</a>`;
@@ -68,7 +64,7 @@ const issued = ({open, students, rows, files}) => html`
     ${picker("Ведомость Moodle .csv", ".csv", loaded("worksheet.csv"))}
     <button id="grade" disabled=${isBusy()} onClick=${() => act(door("grade"), {})}>Проверить</button>
     <label><input id="open" type="checkbox" checked=${open}
-      onChange=${e => act(door("open"), {open: e.target.checked})} /> студенты видят свои страницы</label></p>
+      onChange=${e => act(door("open"), {open: state.own.open = e.target.checked})} /> студенты видят свои страницы</label></p>
   <p id="results" class="tool-bar">${files.map(name => link(name, name,
     name.endsWith(".html") ? {target: "_blank"} : {download: name}))}</p>
   ${rows.length > 0 && gradebook(rows)}

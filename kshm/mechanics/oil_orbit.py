@@ -123,7 +123,7 @@ class _Run:
         )
 
     def slope(self, at: Array, centre: Complex) -> Complex:
-        """Derivatives at angles of the bearings, the last axis; NaN outside the clearance circle."""
+        """Derivatives, bearings on the last axis; NaN outside the clearance circle."""
         place = (at - self.phi[0]) / self.pitch
         before = np.minimum(place.astype(int), len(self.phi) - 2)
         share, row = place - before, self.first + before

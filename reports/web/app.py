@@ -65,7 +65,7 @@ def create_app(settings: Settings) -> Guard:
         make_dir(settings.data)
         settings.data.chmod(0o700)
     secret, count = server_secret(settings.data), settings.workers or processors()
-    jobs = Jobs(settings.data / "jobs", secret, count, settings.dask)
+    jobs = Jobs(settings.data / "jobs", secret, settings.dask, count)
     classes = Classes(settings.data / "classes", secret, settings.dask)
 
     @contextlib.asynccontextmanager

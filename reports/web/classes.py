@@ -40,7 +40,7 @@ class Classes(Queue):
     pack = ("issued.zip", "issued", "*/*.xlsx")
 
     def __init__(self, folder: Path, secret: bytes, dask: str | None) -> None:
-        super().__init__(folder, secret, dask=dask)
+        super().__init__(folder, secret, dask)
         self.signer, self.tries = URLSafeSerializer(secret, "student"), Rate(10, 60)
 
     def routes(self) -> list[Route]:

@@ -49,14 +49,14 @@ OFFERED = {  # titles of files and what makes them
 class Queue:
     """Commands in folders of one folder, ``at_once`` together.
 
-    ``key`` makes names unguessable; a cluster at ``dask`` does what commands leave to it.
+    ``secret`` makes names unguessable; a cluster at ``dask`` does what commands leave to it.
     """
 
     timeout_s: ClassVar[float]  # that a command may take
     pack: ClassVar[tuple[str, str, str]]  # archive of its many files, their folder and pattern
 
-    def __init__(self, folder: Path, key: bytes, at_once: int = 1, dask: str | None = None) -> None:
-        self.folder, self.secret, self.at_once = folder, key, at_once
+    def __init__(self, folder: Path, secret: bytes, dask: str | None, at_once: int = 1) -> None:
+        self.folder, self.secret, self.at_once = folder, secret, at_once
         self.far = ["--dask", dask] if dask else []
         self.waiting: dict[str, str] = {}  # job → visitor, in the order of coming
         self.running: dict[str, tuple[str, float]] = {}  # job → visitor, beginning

@@ -26,7 +26,7 @@ from tests.web.test_files import made
 
 
 def waiting(folder: Path) -> Jobs:
-    made = Jobs(folder, b"secret", at_once=1)
+    made = Jobs(folder, b"secret", None)
     folder.mkdir(exist_ok=True)
     return made
 
@@ -54,7 +54,7 @@ def test_nobody_fills_the_queue_alone(tmp_path: Path) -> None:
 
 
 def test_names_hang_on_the_servers_secret(tmp_path: Path) -> None:
-    one, other = waiting(tmp_path / "a"), Jobs(tmp_path / "b", b"other", 1)
+    one, other = waiting(tmp_path / "a"), Jobs(tmp_path / "b", b"other", None)
     other.folder.mkdir()
     assert added(one, "a") != added(other, "a")
 

@@ -32,6 +32,7 @@ def words() -> dict[str, str]:
     """Every word with a file where it stands."""
     paths = [ROOT / "README.ru.md", *(ROOT / "docs").glob("*.md")]
     paths += [*(ROOT / "samples").glob("*.toml"), *(ROOT / "templates").rglob("*.*")]
+    paths += (ROOT / "reports/web/static").glob("*.*")
     for room in ("kshm", "reports", "tools"):
         paths += (ROOT / room).rglob("*.py")
     return {

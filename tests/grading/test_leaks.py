@@ -104,12 +104,13 @@ PLANTS = {
 
 @pytest.mark.parametrize("name", PLANTS)
 def test_planted_answers_are_found(name):
-    found = leaks_of(planted(PLANTS[name]), classroom.assignment())
+    book = planted(PLANTS[name])
+    found = leaks_of(book, classroom.assignment())
     assert found, name
     wanted = "geometry." if name == "scalars" else "P4_1.T_MPa"
     assert any(wanted in leak.item for leak in found)
     with pytest.raises(InputError, match="книга содержала бы ответы"):
-        check_for_leaks(planted(PLANTS[name]), classroom.assignment(), "рубрика")
+        check_for_leaks(book, classroom.assignment(), "рубрика")
 
 
 def test_answers_in_the_cache_of_a_chart_are_found():

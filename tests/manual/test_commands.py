@@ -67,7 +67,7 @@ def submitted(folder: Path) -> None:
     register = load_register(folder / "issued")
     for book in register.books[:2]:
         handout = (folder / "issued" / book.folder / book.file).read_bytes()
-        filled = filled_book(handout, assignment_for(book, register.rubric))
+        filled = filled_book(handout, assignment_for(book, register.rubric), charts=True)
         (target / book.file).write_bytes(filled)
 
 

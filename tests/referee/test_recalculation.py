@@ -14,6 +14,7 @@ from reports.tables.registry import build_model
 from reports.workbook.caches import sheet_parts
 from reports.workbook.write import workbook_bytes
 from tests.cover import engines_with, formulas, quantities, samples_with
+from tests.grading.forms import rewritten
 from tests.layouts import MAKERS as LAYOUTS
 from tests.layouts import made
 from tests.referee.changes import (
@@ -33,7 +34,7 @@ from tests.workbook.made import coarse_book, coarse_model
 from tests.workbook.made import model as own_model
 from tools.referees.by_formualizer import Formualizer
 from tools.referees.by_libreoffice import LibreOffice
-from tools.referees.cells import formula_cells
+from tools.referees.cells import formula_cells, stripped
 
 # Both programs open the same changed books: made once.
 pytestmark = pytest.mark.xdist_group("recalculation")
@@ -143,6 +144,14 @@ def test_formualizer_does_not_believe_a_tampered_cache() -> None:
     (result,) = Formualizer().recalculate([book])
     (difference,) = differences_from_caches(book, result)
     assert difference.startswith("П4.1!H20: cached 123456.5")
+
+
+def test_no_formula_cell_is_passed_over() -> None:
+    """Of a cell written in another way the referee would believe the saved value."""
+    book = own_book("gots-diesel")
+    other = rewritten(book, lambda _, data: data.replace(b'<c r="H20" s=', b'<c s="1" r="H20" s='))
+    with pytest.raises(ValueError, match="are not written as"):
+        stripped(other)
 
 
 def test_size_of_the_textbook_diesel() -> None:

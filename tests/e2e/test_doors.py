@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from tests.e2e.test_cli import ROOT, SAMPLES, edited, kshm, refused
+from tests.workbook.made import coarse_book
 
 OWN = "результат лёг бы поверх ваших исходных данных; укажите другое место"
 DIAGRAM = "angle,pressure\n" + "".join(
@@ -65,9 +66,8 @@ def test_solve_spares_the_diagram_beside_its_input(tmp_path: Path) -> None:
 
 
 def test_sweep_spares_its_own_input(tmp_path: Path) -> None:
-    assert kshm("build", SAMPLES / "d-240.toml", "-o", tmp_path, "--only", "xlsx").returncode == 0
-    book = tmp_path / "d-240.xlsx"
-    before = book.read_bytes()
+    book, before = tmp_path / "d-240.xlsx", coarse_book("d-240")
+    book.write_bytes(before)
     vary = ("--vary", "geometry.bore_mm=108:110:2", "-o")
     for target in links(tmp_path, book):
         assert OWN in refused(kshm("sweep", book, *vary, target))[-1]

@@ -38,7 +38,7 @@ _NAME = re.compile(r"\{([<^|]?)([\w.]+)\}")
 
 @dataclass(frozen=True)
 class Base:
-    """A class of two on an engine: honest formulas, mistakes, cheats."""
+    """A class of one on an engine: honest formulas, mistakes, cheats."""
 
     sample: str
     variants: Mapping[str, object]
@@ -55,7 +55,7 @@ class Base:
         raw["variants"] = self.variants
         folder = Path(mkdtemp(prefix="kshm-base-"))
         (folder / "base.toml").write_text(tomlkit.dumps(raw), encoding="utf-8")
-        (folder / "group.csv").write_text(roster_text(2), encoding="utf-8")
+        (folder / "group.csv").write_text(roster_text(1), encoding="utf-8")
         rubric = tomlkit.dumps({"work": {"fill": list(self.fill)}})
         (folder / "rubric.toml").write_text(rubric, encoding="utf-8")
         with pytest.MonkeyPatch.context() as patch:

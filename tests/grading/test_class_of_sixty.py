@@ -103,9 +103,8 @@ def book_of(number: int, defect: Defect) -> bytes:
         if defect.edit is not None:
             defect.edit(book, places)
 
-    return filled_book(
-        empty, assignment, substituted(assignment, values, changes, other, layout), edit
-    )
+    wrong = substituted(assignment, values, changes, other, layout)
+    return filled_book(empty, assignment, wrong, edit, charts=True)
 
 
 def graded_class(libreoffice: LibreOffice):

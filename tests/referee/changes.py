@@ -104,7 +104,7 @@ def type_into(book: bytes, data: InputFile, changes: Sequence[Change]) -> bytes:
     stream = io.BytesIO()
     with (
         zipfile.ZipFile(io.BytesIO(book)) as source,
-        zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as target,
+        zipfile.ZipFile(stream, "w") as target,  # read at once: not worth compressing
     ):
         parts = {part: of_sheet[title] for title, part in sheet_parts(source).items()
                  if title in of_sheet}  # fmt: skip
@@ -119,7 +119,7 @@ def without_charts(book: bytes) -> bytes:
     stream = io.BytesIO()
     with (
         zipfile.ZipFile(io.BytesIO(book)) as source,
-        zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as target,
+        zipfile.ZipFile(stream, "w") as target,  # read at once: not worth compressing
     ):
         for name in source.namelist():
             content = source.read(name)

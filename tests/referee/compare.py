@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from kshm import solve
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.to_si.engine import engine_and_cycle
+from reports.inputs.solved import solved
 from reports.spec.blocks import Model
 from reports.spec.graph import Graph
 from reports.tables.registry import build_model
@@ -46,7 +45,7 @@ def differences_from_solver(
 
     In an ``edited`` book what follows from values of the build is old, as the book says.
     """
-    solution = solve(*engine_and_cycle(model.input))
+    solution = solved(model.input)
     layout = Layout.of(model)
     compared, wrong = 0, []
     # What the program computes at the build does not follow an open workbook.

@@ -5,17 +5,16 @@ from __future__ import annotations
 import io
 import random
 import zipfile
-from functools import cache
+from functools import cache, lru_cache
 
 import pytest
 
-from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Model
 from reports.tables.registry import build_model
 from reports.workbook.caches import sheet_parts
 from reports.workbook.write import workbook_bytes
-from tests.conftest import sample
 from tests.cover import engines_with, formulas, quantities, samples_with
+from tests.grading.forms import rewritten
 from tests.layouts import MAKERS as LAYOUTS
 from tests.layouts import made
 from tests.referee.changes import (
@@ -31,10 +30,11 @@ from tests.referee.compare import (
     errors_in,
 )
 from tests.workbook.made import book as own_book
-from tests.workbook.made import coarse, coarse_book
+from tests.workbook.made import coarse_book, coarse_model
+from tests.workbook.made import model as own_model
 from tools.referees.by_formualizer import Formualizer
 from tools.referees.by_libreoffice import LibreOffice
-from tools.referees.cells import formula_cells
+from tools.referees.cells import formula_cells, stripped
 
 # Both programs open the same changed books: made once.
 pytestmark = pytest.mark.xdist_group("recalculation")
@@ -45,18 +45,20 @@ SPREADS = (0.03, 0.2)
 OWN_GRID = ("gots-diesel",)  # the others on a coarse grid: the same formulas
 
 
-def grid_of(name: str) -> InputFile:
+@lru_cache(maxsize=4)
+def model_of(name: str) -> Model:
     """A sample on its own grid or on the coarse one; a layout."""
     if name in LAYOUTS:
-        return made(name, step_deg=30)
-    return sample(name) if name in OWN_GRID else coarse(name)
+        return build_model(made(name, step_deg=30))
+    return own_model(name) if name in OWN_GRID else coarse_model(name)
 
 
+@lru_cache(maxsize=4)
 def book_of(name: str) -> bytes:
     """Its workbook: the first sample's own, a layout's, otherwise the coarse one."""
     if name in OWN_GRID:
         return own_book(name)
-    return workbook_bytes(build_model(grid_of(name))) if name in LAYOUTS else coarse_book(name)
+    return workbook_bytes(model_of(name)) if name in LAYOUTS else coarse_book(name)
 
 
 def check_model(model: Model, book: bytes, recalculated: dict) -> None:
@@ -70,29 +72,29 @@ def check_model(model: Model, book: bytes, recalculated: dict) -> None:
 @pytest.mark.parametrize("name", engines_with(formulas))
 def test_formualizer_agrees(name: str) -> None:
     book = book_of(name)
-    check_model(build_model(grid_of(name)), book, Formualizer().recalculate([book])[0])
+    check_model(model_of(name), book, Formualizer().recalculate([book])[0])
 
 
 @cache
-def changed_books(name: str) -> tuple[tuple[list[Change], InputFile, bytes], ...]:
+def changed_books(name: str) -> tuple[tuple[list[Change], Model, bytes], ...]:
     """A sample with everything changed at once, once for each spread."""
-    data = coarse(name)
+    data = coarse_model(name).input
     book = without_charts(coarse_book(name))  # no formula stands in them
     found = []
     for spread in SPREADS:
         changes, changed = changed_everywhere(data, random.Random(f"{name} {spread}"), spread)
-        found.append((changes, changed, type_into(book, data, changes)))
+        found.append((changes, build_model(changed), type_into(book, data, changes)))
     return tuple(found)
 
 
 @pytest.mark.parametrize("name", samples_with(quantities))
 def test_formulas_follow_every_input(name: str) -> None:
     """The only test that sees a number of the sample's inside of a formula."""
-    assert len(changed_books(name)[0][0]) >= 0.9 * len(free_fields(coarse(name)))
-    for changes, data, book in changed_books(name):
+    assert len(changed_books(name)[0][0]) >= 0.9 * len(free_fields(coarse_model(name).input))
+    for changes, model, book in changed_books(name):
         (result,) = Formualizer().recalculate([book])
         assert errors_in(result) == [], changes
-        compared, wrong = differences_from_solver(build_model(data), result, edited=True)
+        compared, wrong = differences_from_solver(model, result, edited=True)
         assert wrong == [], changes
         assert compared > 1000
 
@@ -123,21 +125,18 @@ def test_libreoffice_agrees(libreoffice: LibreOffice) -> None:
     Of all tests this one alone opens what we write in another program, and holds that
     program's values against the solver.
     """
-    models = [build_model(sample("gots-diesel"))]
-    models += [build_model(made(name, step_deg=30)) for name in ("offset_articulated", "split")]
-    whole = [workbook_bytes(model) for model in models]
+    names = ("gots-diesel", "offset_articulated", "split")
+    whole = [book_of(name) for name in names]
     changed = [changed_books(name)[0] for name in samples_with(quantities)]
     opened = [tampered(whole[0], "П4.1", "H20"), *whole[1:], *(book for _, _, book in changed)]
     results = libreoffice.recalculate(opened)
     (lie,) = differences_from_caches(opened[0], results[0])
     assert lie.startswith("П4.1!H20: cached 123456.5")
-    for model, book, result in zip(models, whole, results, strict=False):
-        check_model(model, book, result)
-    for (changes, data, _), result in zip(changed, results[len(whole) :], strict=True):
+    for name, book, result in zip(names, whole, results, strict=False):
+        check_model(model_of(name), book, result)
+    for (changes, model, _), result in zip(changed, results[len(whole) :], strict=True):
         assert errors_in(result) == [], changes
-        assert differences_from_solver(build_model(data), result, edited=bool(changes))[1] == [], (
-            changes
-        )
+        assert differences_from_solver(model, result, edited=bool(changes))[1] == [], changes
 
 
 def test_formualizer_does_not_believe_a_tampered_cache() -> None:
@@ -145,6 +144,14 @@ def test_formualizer_does_not_believe_a_tampered_cache() -> None:
     (result,) = Formualizer().recalculate([book])
     (difference,) = differences_from_caches(book, result)
     assert difference.startswith("П4.1!H20: cached 123456.5")
+
+
+def test_no_formula_cell_is_passed_over() -> None:
+    """Of a cell written in another way the referee would believe the saved value."""
+    book = own_book("gots-diesel")
+    other = rewritten(book, lambda _, data: data.replace(b'<c r="H20" s=', b'<c s="1" r="H20" s='))
+    with pytest.raises(ValueError, match="are not written as"):
+        stripped(other)
 
 
 def test_size_of_the_textbook_diesel() -> None:

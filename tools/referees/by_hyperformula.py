@@ -8,7 +8,7 @@ import subprocess
 from collections.abc import Sequence
 from pathlib import Path
 
-from tools.referees.cells import Book, formula_cells, row_and_column
+from tools.referees.cells import Book, formula_cells, row_and_column, without_pictures
 
 PACKAGE = "hyperformula@3.5.0"
 _SCRIPT = """
@@ -48,7 +48,7 @@ class HyperFormula:
             array = isinstance(value, ArrayFormula)
             return f"=ARRAYFORMULA({value.text.lstrip('=')})" if array else value  # type: ignore[attr-defined]
 
-        opened = load_workbook(io.BytesIO(book))
+        opened = load_workbook(io.BytesIO(without_pictures(book)))
         cells = formula_cells(book)
         given = {
             "sheets": {

@@ -118,11 +118,7 @@ def test_pins_are_called_alike_only_if_they_are(source):
 
 
 def layouts_pins(model):
-    return [
-        name
-        for name in solution(model).columns
-        if re.fullmatch("crankpin(_[0-9]+)?", name)
-    ]
+    return [name for name in solution(model).columns if re.fullmatch("crankpin(_[0-9]+)?", name)]
 
 
 def test_the_reason_that_is_given_is_the_one():

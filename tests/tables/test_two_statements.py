@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from kshm import solve
+from kshm import Solution, solve
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_text
 from reports.inputs.own_engine import own_engine
@@ -30,7 +30,8 @@ def variant(name: str, **changes: object) -> InputFile:
     return load_mapping(raw, source=name).model
 
 
-def assert_agree(data: InputFile) -> None:
+def assert_agree(data: InputFile) -> Solution:
+    """Compare all that both give; the solver's part for further questions."""
     model = build_model(data)
     values, solution = evaluate_model(model), solve(*engine_and_cycle(data))
     for table in model.tables.values():
@@ -47,6 +48,7 @@ def assert_agree(data: InputFile) -> None:
         ours = values.scalars[key]
         assert isinstance(ours, float)
         assert abs(ours - theirs) <= 1e-10 * max(1.0, abs(theirs)), key
+    return solution
 
 
 @pytest.mark.parametrize("method", ["textbook", "exact"])

@@ -16,10 +16,9 @@ from bare_pages import bare_page, plain
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from kshm import solve
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.inputs.to_si.engine import engine_and_cycle
+from reports.inputs.solved import solved
 from tests import layouts
 from tests.conftest import sample
 from tests.cover import charts, choices, samples_with
@@ -85,22 +84,12 @@ def numbers_in(rows):
             for n in re.findall(r"−?\d[\d\xa0]*(?:,\d+)?", text)]  # fmt: skip
 
 
-_last = []
-
-
-def solution(model):
-    """An engine by the solver, once for all claims of a page."""
-    if not _last or _last[0][0] is not model:
-        _last[:] = [(model, solve(*engine_and_cycle(model)))]
-    return _last[0][1]
-
-
 # --- pins ---
 
 
 def pins_differ(model):
     """By the solver: whether the sorted loads of the crankpins are not the same."""
-    columns = solution(model).columns
+    columns = solved(model).columns
     names = [name for name in columns if re.fullmatch("crankpin(_[0-9]+)?", name)]
     loads = [np.sort(columns[name]["Rpin_MPa"][:-1]) for name in names]
     return len(loads) > 1 and any(
@@ -118,7 +107,7 @@ def test_pins_are_called_alike_only_if_they_are(source):
 
 
 def layouts_pins(model):
-    return [name for name in solution(model).columns if re.fullmatch("crankpin(_[0-9]+)?", name)]
+    return [name for name in solved(model).columns if re.fullmatch("crankpin(_[0-9]+)?", name)]
 
 
 def test_the_reason_that_is_given_is_the_one():
@@ -137,7 +126,7 @@ def light_first(**changes):
 
 def assert_pins_agree(model, text):
     """Chapter, abstract and conclusion tell of the most loaded crankpin, by the solver."""
-    scalars = solution(model).scalars
+    scalars = solved(model).scalars
     loads = {key: value for key, value in scalars.items() if re.fullmatch(r"Rpin\d*_max", key)}
     most = [key for key in loads if loads[key] == pytest.approx(max(loads.values()), rel=1e-6)]
     pin = most[0].removeprefix("Rpin").removesuffix("_max")
@@ -193,7 +182,7 @@ def assert_claims_hold(model, page):
     text = plain(page)
     if "Средняя нагрузка" in text and "следует сверлить" in text:
         assert_pins_agree(model, text)
-    scalars = solution(model).scalars
+    scalars = solved(model).scalars
     if "Наибольшая нагрузка приходится" in text:
         said = claimed(text, "Наибольшая нагрузка приходится на шейк[уи]")
         assert said == leaders(scalars, "Rmain([0-9]+)_max", 3)

@@ -16,6 +16,7 @@ Dash = tuple[float, ...]  # strokes and gaps [mm]
 DASHED: Dash = (5.0, 2.0)
 CENTRE: Dash = (12.0, 2.0, 1.0, 2.0)
 DOTTED: Dash = (1.5, 1.5)
+_NEAR = 1e-6  # mm; what is farther from a text's box surely does not cut it
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +75,7 @@ class Words:
     angle: float = 0.0
     layer: Layer = LETTERS
 
-    @property
+    @cached_property
     def width(self) -> float:
         """Length of the line."""
         return width_of(self.text, self.height)
@@ -198,6 +199,10 @@ def _inside(box: Box, outer: Box) -> bool:
 
 def _cuts(item: Item, words: Words) -> bool:
     if isinstance(item, Words) or (isinstance(item, Line) and item.layer not in (CONTOUR, SIZES)):
+        return False
+    left, low, right, high = words.box
+    around = (left - _NEAR, low - _NEAR, right + _NEAR, high + _NEAR)
+    if not overlap(box_of(item), around):
         return False
     if isinstance(item, Circle):
         ends = [polar(item.centre, item.radius, turn) for turn in range(0, 375, 15)]

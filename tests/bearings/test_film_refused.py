@@ -29,13 +29,13 @@ def test_a_load_that_no_film_carries_is_refused_with_its_row() -> None:
 
 
 def test_the_input_is_told_which_bearing_gives_way() -> None:
-    loose = tractor(pin_clearance_min_mm=1.9, pin_clearance_max_mm=2.0)
+    loose = tractor(30, pin_clearance_min_mm=1.9, pin_clearance_max_mm=2.0)
     with pytest.raises(InputError, match="bearings: масляная плёнка шатунного подшипника"):
         solved(loose)
 
 
 def test_the_file_is_named_and_check_refuses_what_build_refuses(tmp_path: Path) -> None:
-    loose = tractor(pin_clearance_min_mm=1.9, pin_clearance_max_mm=2.0)
+    loose = tractor(30, pin_clearance_min_mm=1.9, pin_clearance_max_mm=2.0)
     file = tmp_path / "loose.toml"
     file.write_text(tomlkit.dumps(to_mapping(loose)), encoding="utf-8")
     with pytest.raises(InputError, match=r"^loose.toml: bearings: масляная плёнка"):
@@ -44,7 +44,7 @@ def test_the_file_is_named_and_check_refuses_what_build_refuses(tmp_path: Path) 
 
 def test_a_study_keeps_the_reason_in_the_row(tmp_path: Path) -> None:
     file, target = tmp_path / "base.toml", tmp_path / "a.csv"
-    file.write_text(tomlkit.dumps(to_mapping(tractor())), encoding="utf-8")
+    file.write_text(tomlkit.dumps(to_mapping(tractor(30))), encoding="utf-8")
     vary = (
         "bearings.pin_clearance_max_mm=0.131:2.0:2",
         "bearings.pin_clearance_min_mm=0.057:1.9:2",

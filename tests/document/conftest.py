@@ -2,6 +2,7 @@
 
 import http.server
 import threading
+from functools import cache
 
 import pytest
 
@@ -10,16 +11,23 @@ from reports.document.chapters import closing, opening
 from reports.document.page import render, writer
 from reports.document.text.mathsvg import Formula
 
+BOX = '<svg class="fig" viewBox="0 0 2 1" style="width:120.0mm" data-size="2/1"></svg>'
+
+
+@cache
+def _without_formulas(media, style):
+    """The environment of the templates, which are compiled once for all tests of a process."""
+    made = render._environment(None, media, style)
+    empty = (Formula("<svg></svg>", 1.0, 1.0, 0.0, "x"),)
+    made.globals["formula_lines"] = lambda tex, room: empty
+    return made
+
 
 @pytest.fixture
 def nothing_is_drawn(monkeypatch):
     """Reports without figures and formulas, which takes half the time."""
-    empty = (Formula("<svg></svg>", 1.0, 1.0, 0.0, "x"),)
-    monkeypatch.setattr(render, "formula_lines", lambda tex, room: empty)
-    monkeypatch.setattr(writer, "drawn", lambda plan: "<svg></svg>")
-    render._own_environment.cache_clear()
-    yield
-    render._own_environment.cache_clear()
+    monkeypatch.setattr(render, "_own_environment", _without_formulas)
+    monkeypatch.setattr(writer, "drawn", lambda plan: BOX)
 
 
 @pytest.fixture

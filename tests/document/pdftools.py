@@ -3,7 +3,9 @@
 import os
 import shutil
 import subprocess
+from functools import lru_cache
 from pathlib import Path
+from tempfile import NamedTemporaryFile
 
 import pytest
 
@@ -24,6 +26,14 @@ def fonts_of(pdf: bytes, folder: Path) -> set[str]:
 
 
 def pages_of(pdf: bytes, folder: Path) -> list[str]:
-    path = folder / "text.pdf"
-    path.write_bytes(pdf)
-    return poppler("pdftotext", "-layout", str(path), "-").split("\f")[:-1]
+    (folder / "text.pdf").write_bytes(pdf)
+    return list(_pages(pdf))
+
+
+@lru_cache(maxsize=4)
+def _pages(pdf: bytes) -> tuple[str, ...]:
+    with NamedTemporaryFile(suffix=".pdf") as file:
+        file.write(pdf)
+        file.flush()
+        text = poppler("pdftotext", "-layout", file.name, "-")
+    return tuple(text.split("\f")[:-1])

@@ -13,7 +13,9 @@ from reports.inputs.load import load_text
 from reports.shared.resources import samples_dir
 from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
+from tests.conftest import sample
 from tests.kept import kept
+from tests.workbook.made import book
 
 ONE = """
 [report]
@@ -105,6 +107,14 @@ def pdf(name: str) -> bytes:
     made = render(print_page(name))
     assert made.warnings == ()
     return made.pdf
+
+
+@kept
+def shipped_pdf(name: str) -> bytes:
+    """The finished PDF of a sample as it is shipped, with its files."""
+    model = build_model(sample(name))
+    source = samples_dir() / f"{name}.toml"
+    return report.report_pdf(model, evaluate_model(model), source=source, workbook=book(name))
 
 
 @lru_cache(maxsize=16)

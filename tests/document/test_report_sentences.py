@@ -16,15 +16,15 @@ from bare_pages import bare_page, plain
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from kshm import solve
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.inputs.to_si.engine import engine_and_cycle
+from reports.inputs.solved import solved
 from tests import layouts
 from tests.conftest import sample
 from tests.cover import charts, choices, samples_with
 
-pytestmark = pytest.mark.usefixtures("nothing_is_drawn")
+# One process with those of test_report_strict: they read the same pages.
+pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]
 
 
 def text_of(model):
@@ -49,8 +49,14 @@ def engine(layout="basic", source="gots-diesel", **changes):
 
 
 @cache
+def noted(source, detail="full"):
+    """The page of a sample, once for all that read it, with the charts drawn on it."""
+    drawn = []
+    return bare_page(engine(source=source, report__detail=detail), drawn), drawn
+
+
 def page_of(source="gots-diesel", detail="full"):
-    return bare_page(engine(source=source, report__detail=detail))
+    return noted(source, detail)[0]
 
 
 def words_of(source="gots-diesel", detail="full"):
@@ -83,7 +89,7 @@ def numbers_in(rows):
 
 def pins_differ(model):
     """By the solver: whether the sorted loads of the crankpins are not the same."""
-    columns = solve(*engine_and_cycle(model)).columns
+    columns = solved(model).columns
     names = [name for name in columns if re.fullmatch("crankpin(_[0-9]+)?", name)]
     loads = [np.sort(columns[name]["Rpin_MPa"][:-1]) for name in names]
     return len(loads) > 1 and any(
@@ -93,8 +99,7 @@ def pins_differ(model):
 
 @pytest.mark.parametrize("source", ["yamz-236", "yamz-238", "gots-diesel"])
 def test_pins_are_called_alike_only_if_they_are(source):
-    model = engine(source=source)
-    text = text_of(model)
+    model, text = engine(source=source), words_of(source)
     assert ("нагружены по-разному" in text) == pins_differ(model)
     assert ("такие же нагрузки" in text) == (
         len(layouts_pins(model)) > 1 and not pins_differ(model)
@@ -102,11 +107,7 @@ def test_pins_are_called_alike_only_if_they_are(source):
 
 
 def layouts_pins(model):
-    return [
-        name
-        for name in solve(*engine_and_cycle(model)).columns
-        if re.fullmatch("crankpin(_[0-9]+)?", name)
-    ]
+    return [name for name in solved(model).columns if re.fullmatch("crankpin(_[0-9]+)?", name)]
 
 
 def test_the_reason_that_is_given_is_the_one():
@@ -125,7 +126,7 @@ def light_first(**changes):
 
 def assert_pins_agree(model, text):
     """Chapter, abstract and conclusion tell of the most loaded crankpin, by the solver."""
-    scalars = solve(*engine_and_cycle(model)).scalars
+    scalars = solved(model).scalars
     loads = {key: value for key, value in scalars.items() if re.fullmatch(r"Rpin\d*_max", key)}
     most = [key for key in loads if loads[key] == pytest.approx(max(loads.values()), rel=1e-6)]
     pin = most[0].removeprefix("Rpin").removesuffix("_max")
@@ -181,7 +182,7 @@ def assert_claims_hold(model, page):
     text = plain(page)
     if "Средняя нагрузка" in text and "следует сверлить" in text:
         assert_pins_agree(model, text)
-    scalars = solve(*engine_and_cycle(model)).scalars
+    scalars = solved(model).scalars
     if "Наибольшая нагрузка приходится" in text:
         said = claimed(text, "Наибольшая нагрузка приходится на шейк[уи]")
         assert said == leaders(scalars, "Rmain([0-9]+)_max", 3)
@@ -227,9 +228,7 @@ def assert_symbols_mean_one_number(page):
 
 @pytest.mark.parametrize("name", samples_with(charts, choices))
 def test_no_sentence_of_a_sample_is_denied(name):
-    model = engine(source=name)
-    drawn = []
-    page = bare_page(model, drawn)
+    model, (page, drawn) = engine(source=name), noted(name)
     assert_claims_hold(model, page)
     assert_nothing_is_empty(page, drawn)
     assert_symbols_mean_one_number(page)

@@ -112,6 +112,7 @@ def html_of(text: str, folder: Path) -> str:
     return report_html(t.model, t.values, source=folder / "in.toml")
 
 
+@pytest.mark.usefixtures("few_chapters")
 def test_own_templates_replace_and_extend(tmp_path):
     own(tmp_path, "report.css.j2", "{% include 'kshm/report/report.css.j2' %} p { color: #123456 }")
     text = own(tmp_path, "cover.html.j2", "<p>Бланк {{ cover_page.year }}</p>")
@@ -120,6 +121,7 @@ def test_own_templates_replace_and_extend(tmp_path):
     assert "Расчётно-пояснительная" in html_of(ONE, tmp_path)
 
 
+@pytest.mark.usefixtures("few_chapters")
 @pytest.mark.parametrize(
     ("name", "text", "line", "words"),
     [
@@ -136,6 +138,7 @@ def test_a_broken_template_is_told_by_line(tmp_path, name, text, line, words):
     assert f"{name}, строка {line}" in message and words in message
 
 
+@pytest.mark.usefixtures("few_chapters")
 def test_a_template_in_another_encoding_is_told(tmp_path):
     source = own(tmp_path, "cover.html.j2", "")
     (tmp_path / "own" / "cover.html.j2").write_bytes("<p>\nБланк</p>".encode("cp1251"))
@@ -143,6 +146,7 @@ def test_a_template_in_another_encoding_is_told(tmp_path):
         html_of(source, tmp_path)
 
 
+@pytest.mark.usefixtures("few_chapters")
 def test_a_missing_folder_and_an_unknown_name_are_refused(tmp_path):
     source = ONE.replace("[report]\n", '[report]\ntemplates = "own"\n')
     with pytest.raises(InputError, match=r"report\.templates: нет папки"):

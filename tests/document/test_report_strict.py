@@ -7,7 +7,7 @@ import report_samples
 from bare_pages import plain
 from test_report_sentences import engine, page_of, printed_rows, text_of, words_of
 
-pytestmark = pytest.mark.usefixtures("nothing_is_drawn")
+pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]
 
 
 def test_neighbouring_numbers_are_a_range():

@@ -51,6 +51,7 @@ def test_profiles_hold_one_another():
     assert held["short"] < held["course"] < held["full"] == set(CHAPTERS)
 
 
+@pytest.mark.usefixtures("nothing_is_drawn")
 @pytest.mark.parametrize("name", sections.CHAPTERS)
 def test_every_chapter_stands_alone_and_may_be_left_out(name):
     """References to what is left out turn into words; none stays unresolved."""

@@ -6,8 +6,6 @@ import importlib
 import pkgutil
 import re
 from collections import defaultdict
-from collections.abc import Iterator
-from unittest import mock
 
 import pytest
 
@@ -30,8 +28,11 @@ LETTERS = {"i", "k", "x", "y", "r"}
 
 
 @pytest.fixture
-def meanings(monkeypatch: pytest.MonkeyPatch) -> Iterator[Meanings]:
-    """Titles of the quantities whose symbols are written while a report is made."""
+def meanings(monkeypatch: pytest.MonkeyPatch, nothing_is_drawn: None) -> Meanings:
+    """Titles of the quantities whose symbols are written while a report is made.
+
+    Those of formulas are asked for too, though no formula is set.
+    """
     seen: Meanings = defaultdict(set)
     plain = Terms.tex
 
@@ -48,8 +49,7 @@ def meanings(monkeypatch: pytest.MonkeyPatch) -> Iterator[Meanings]:
             monkeypatch.setattr(module, "angle_table", _noted_columns(seen, module.angle_table))
         if hasattr(module, "grid_table"):
             monkeypatch.setattr(module, "grid_table", _noted_rows(seen, module.grid_table))
-    with mock.patch("reports.document.page.writer.drawn", lambda plan: ""):
-        yield seen
+    return seen
 
 
 def _noted_columns(seen, make):
@@ -76,6 +76,7 @@ def _noted_rows(seen, make):
 def page_of(name: str) -> str:
     raw = to_mapping(sample(name))
     raw["report"]["detail"] = "full"
+    raw["calculation"]["step_deg"] = 30  # the same words in shorter tables
     model = build_model(load_mapping(raw, source=name).model)
     return report_page(model, evaluate_model(model), media="screen")
 

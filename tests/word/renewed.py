@@ -1,6 +1,6 @@
-"""Open a Word file in LibreOffice, renew fields and contents, save it as PDF, tell its counts.
+"""Open Word files in LibreOffice, renew fields and contents, save each as PDF, tell its counts.
 
-Run by the system's Python, which has ``uno``: ``renewed.py FILE PDF PROFILE``.
+Run by the system's Python, which has ``uno``: ``renewed.py PROFILE FILE PDF FILE PDF…``.
 """
 
 import contextlib
@@ -21,7 +21,25 @@ def prop(name, value):
     return made
 
 
-def main(source, target, profile):
+def renew(desktop, source, target):
+    address = Path(source).resolve().as_uri()
+    document = desktop.loadComponentFromURL(address, "_blank", 0, (prop("Hidden", True),))
+    document.getTextFields().refresh()
+    for index in document.getDocumentIndexes():
+        index.update()
+    document.getTextFields().refresh()
+    export = (prop("FilterName", "writer_pdf_Export"),)
+    document.storeToURL(Path(target).resolve().as_uri(), export)
+    counts = {
+        "tables": document.getTextTables().getCount(),
+        "pictures": document.getGraphicObjects().getCount(),
+        "formulas": document.getEmbeddedObjects().getCount(),
+    }
+    document.close(True)
+    return counts
+
+
+def main(profile, *files):
     pipe = f"kshm{abs(hash(profile))}"
     office = subprocess.Popen(
         ["soffice", "--headless", "--norestore", f"-env:UserInstallation=file://{profile}",
@@ -41,24 +59,11 @@ def main(source, target, profile):
     desktop = context.ServiceManager.createInstanceWithContext(
         "com.sun.star.frame.Desktop", context
     )
-    address = Path(source).resolve().as_uri()
-    document = desktop.loadComponentFromURL(address, "_blank", 0, (prop("Hidden", True),))
-    document.getTextFields().refresh()
-    for index in document.getDocumentIndexes():
-        index.update()
-    document.getTextFields().refresh()
-    export = (prop("FilterName", "writer_pdf_Export"),)
-    document.storeToURL(Path(target).resolve().as_uri(), export)
-    counts = {
-        "tables": document.getTextTables().getCount(),
-        "pictures": document.getGraphicObjects().getCount(),
-        "formulas": document.getEmbeddedObjects().getCount(),
-    }
-    print(json.dumps(counts))
-    document.close(True)
+    for source, target in zip(files[::2], files[1::2], strict=True):
+        print(json.dumps(renew(desktop, source, target)))
     with contextlib.suppress(Exception):  # the bridge breaks when the office goes
         desktop.terminate()
     office.wait(30)
 
 
-main(*sys.argv[1:4])
+main(*sys.argv[1:])

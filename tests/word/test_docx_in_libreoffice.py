@@ -13,65 +13,20 @@ from pathlib import Path
 import docx
 import pytest
 from docx.oxml.ns import qn
-from docx_samples import M, W, docx_of, model_of, page_of, part, root_of
+from docx_samples import NAME, M, W, docx_of, page_of, part, root_of
 
-from reports.document.report import report_pdf
 from tests.conftest import missing
+from tests.document.report_samples import shipped_pdf
 
 PYTHON = "/usr/bin/python3"
+pytestmark = pytest.mark.xdist_group(NAME)  # the process that makes the file
 WRITER = Path("/usr/lib/libreoffice/program/libswlo.so")
-NAME = "gots-diesel"
 
 
 @pytest.fixture(scope="module", autouse=True)
 def _writer() -> None:
     if not (WRITER.exists() and shutil.which("soffice") and shutil.which("pdftotext")):
         missing("LibreOffice Writer", "libreoffice-writer-nogui libreoffice-math-nogui")
-
-
-def renewed(data: bytes, folder: Path) -> tuple[dict[str, int], Path]:
-    """Counts in LibreOffice and the PDF that it makes."""
-    source, target = folder / "note.docx", folder / "note.pdf"
-    source.write_bytes(data)
-    script = Path(__file__).with_name("renewed.py")
-    done = subprocess.run(
-        [PYTHON, str(script), str(source), str(target), str(folder / "profile")],
-        capture_output=True, text=True, timeout=300, check=False,
-    )  # fmt: skip
-    assert done.returncode == 0, done.stderr[-2000:]
-    return json.loads(done.stdout.splitlines()[-1]), target
-
-
-@pytest.fixture(scope="module")
-def as_made(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[str, int], Path]:
-    """The same of the file as it is made."""
-    return renewed(docx_of(NAME), tmp_path_factory.mktemp("made"))
-
-
-def pages(pdf: Path) -> int:
-    told = subprocess.run(["pdfinfo", str(pdf)], capture_output=True, text=True, check=True)
-    return int(re.search(r"Pages:\s+(\d+)", told.stdout)[1])
-
-
-def text_of(pdf: Path) -> str:
-    told = subprocess.run(
-        ["pdftotext", "-layout", str(pdf), "-"], capture_output=True, check=True
-    )  # fmt: skip
-    return re.sub(r"[ \u00a0]+", " ", told.stdout.decode())
-
-
-def test_nothing_is_lost(tmp_path, as_made):
-    data = docx_of(NAME)
-    counts, made = as_made
-    document = part(data)
-    assert counts["formulas"] == len(document.findall(f".//{M}oMath"))
-    assert counts["tables"] == len(document.findall(f".//{W}tbl"))
-    assert counts["pictures"] == len(root_of(page_of(NAME)).findall(".//figure"))
-    usual = tmp_path / "usual.pdf"
-    source = tmp_path / f"{NAME}.toml"
-    source.write_text("")
-    usual.write_bytes(report_pdf(*model_of(NAME), source=source, workbook=b"PK"))
-    assert abs(pages(made) - pages(usual)) <= 0.1 * pages(usual)
 
 
 def with_chapter(data: bytes) -> bytes:
@@ -93,13 +48,54 @@ def with_chapter(data: bytes) -> bytes:
     return stream.getvalue()
 
 
+@pytest.fixture(scope="module")
+def renewed(tmp_path_factory: pytest.TempPathFactory) -> list[tuple[dict[str, int], Path]]:
+    """Counts and the PDF of LibreOffice: of the file as made, of one with a chapter put in."""
+    folder = tmp_path_factory.mktemp("word")
+    paths = []
+    for name, data in {"made": docx_of(NAME), "put_in": with_chapter(docx_of(NAME))}.items():
+        paths += [folder / f"{name}.docx", folder / f"{name}.pdf"]
+        paths[-2].write_bytes(data)
+    script = Path(__file__).with_name("renewed.py")
+    done = subprocess.run(
+        [PYTHON, str(script), str(folder / "profile"), *map(str, paths)],
+        capture_output=True, text=True, timeout=600, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr[-2000:]
+    counts = map(json.loads, done.stdout.splitlines()[-2:])
+    return list(zip(counts, paths[1::2], strict=True))
+
+
+def pages(pdf: Path) -> int:
+    told = subprocess.run(["pdfinfo", str(pdf)], capture_output=True, text=True, check=True)
+    return int(re.search(r"Pages:\s+(\d+)", told.stdout)[1])
+
+
+def text_of(pdf: Path) -> str:
+    told = subprocess.run(
+        ["pdftotext", "-layout", str(pdf), "-"], capture_output=True, check=True
+    )  # fmt: skip
+    return re.sub(r"[ \u00a0]+", " ", told.stdout.decode())
+
+
+def test_nothing_is_lost(tmp_path, renewed):
+    data = docx_of(NAME)
+    counts, made = renewed[0]
+    document = part(data)
+    assert counts["formulas"] == len(document.findall(f".//{M}oMath"))
+    assert counts["tables"] == len(document.findall(f".//{W}tbl"))
+    assert counts["pictures"] == len(root_of(page_of(NAME)).findall(".//figure"))
+    usual = tmp_path / "usual.pdf"
+    usual.write_bytes(shipped_pdf(NAME))
+    assert abs(pages(made) - pages(usual)) <= 0.1 * pages(usual)
+
+
 def numbers_of(text: str, words: str) -> list[int]:
     return [int(n) for n in re.findall(rf"{words} (\d+) —", text)]
 
 
-def test_a_chapter_put_in_renumbers_what_follows(tmp_path, as_made):
-    old = text_of(as_made[1])
-    new = text_of(renewed(with_chapter(docx_of(NAME)), tmp_path)[1])
+def test_a_chapter_put_in_renumbers_what_follows(renewed):
+    old, new = (text_of(pdf) for _, pdf in renewed)
     figures, tables = (numbers_of(new, words) for words in ("Рисунок", "Таблица"))
     assert figures == list(range(1, len(numbers_of(old, "Рисунок")) + 2))
     assert tables == list(range(1, len(numbers_of(old, "Таблица")) + 2))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 
 import pytest
-from docx_samples import NUMBER, M, W, docx_of, page_of, part, root_of, text_of
+from docx_samples import NAME, NUMBER, M, W, docx_of, page_of, part, root_of, text_of
 
 from reports.document.text.texts import FORMULA
 from tests.cover import chapters, samples_with
@@ -63,7 +63,7 @@ def test_every_number_of_the_pdf_stands_in_word(name):
 
 
 def test_every_formula_is_an_equation_and_none_a_picture():
-    root, document = root_of(page_of("gots-diesel")), part(docx_of("gots-diesel"))
+    root, document = root_of(page_of(NAME)), part(docx_of(NAME))
     lines = root.xpath("//span[@data-tex]")
     assert len(document.findall(f".//{M}oMathPara")) == len(lines) > 100
     pictures = document.xpath("//*[local-name()='inline']")
@@ -71,7 +71,7 @@ def test_every_formula_is_an_equation_and_none_a_picture():
 
 
 def test_tables_are_native_with_a_heading_on_every_sheet():
-    root, document = root_of(page_of("gots-diesel")), part(docx_of("gots-diesel"))
+    root, document = root_of(page_of(NAME)), part(docx_of(NAME))
     sources = root.xpath("//table[contains(@class, 'data')]")
     made = [t for t in document.iter(f"{W}tbl")
             if t.find(f"{W}tblPr/{W}tblStyle").get(f"{W}val") != "FormulaTable"]  # fmt: skip

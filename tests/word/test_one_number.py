@@ -13,11 +13,11 @@ import pytest
 from docx_samples import docx_of, model_of, page_of, part, root_of, text_of
 from ezdxf import recover
 
-from reports.document.report import report_pdf
 from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms
 from reports.sheet.write import sheet_files
 from tests.cover import ALL, chapters, samples_with
+from tests.document.report_samples import shipped_pdf
 from tests.workbook.made import book as own_book
 
 # Setting pages takes longest and says the same of the text: an engine in line, a V, two strokes.
@@ -52,13 +52,11 @@ def of_workbook(data: bytes) -> dict[str, float]:
 def test_the_same_number_everywhere(name, tmp_path):
     model, values = model_of(name)
     terms = Terms(model, values)
-    source = tmp_path / f"{name}.toml"
-    source.write_text("")
     book = own_book(name)
     files = sheet_files(model, values)
     pdfs = {"sheet PDF": files["-sheet.pdf"]}
     if name in PRINTED or ALL:
-        pdfs["PDF"] = report_pdf(model, values, source=source, workbook=book)
+        pdfs["PDF"] = shipped_pdf(name)
     document, _ = recover.read(io.BytesIO(files["-sheet.dxf"]))
     assert isinstance(document, ezdxf.document.Drawing)
     texts = {place: words_of(pdf, tmp_path / "a.pdf") for place, pdf in pdfs.items()}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections import OrderedDict
 from collections.abc import Iterable
 
 from reports.drawing.lettering import plain
@@ -60,6 +61,8 @@ def dxf_bytes(items: Iterable[Item]) -> bytes:
         space.reset_limits((left, low), (right, high))
         centre = ((left + right) / 2, (low + high) / 2)
         document.set_modelspace_vport(1.05 * (high - low), centre)  # the whole of it is seen
+        document.classes.add_required_classes(document.dxfversion)  # in the order of a set
+        document.classes.classes = OrderedDict(sorted(document.classes.classes.items()))
         stream = io.StringIO()
         document.write(stream)
         return stream.getvalue().encode(document.output_encoding, "dxfreplace")

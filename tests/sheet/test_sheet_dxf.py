@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import io
+import os
 import re
+import subprocess
+import sys
 from functools import cache
 
 import ezdxf
@@ -191,6 +194,23 @@ def test_parts_are_true_to_size():
 
 def test_the_same_bytes():
     assert anew() == files()
+
+
+def test_the_same_bytes_in_another_process():
+    """Where sets of words have another order."""
+    program = (
+        "import sys; from reports.drawing.dxf import dxf_bytes;"
+        "from reports.drawing.primitives import Line;"
+        "sys.stdout.buffer.write(dxf_bytes([Line(((0, 0), (9, 9)))]))"
+    )
+    made = {
+        subprocess.run(
+            [sys.executable, "-c", program], check=True, capture_output=True,
+            env={**os.environ, "PYTHONHASHSEED": seed},
+        ).stdout
+        for seed in "14"  # two orders
+    }  # fmt: skip
+    assert len(made) == 1 and b"ENTITIES" in made.pop()
 
 
 def test_words_stand_in_the_file_where_the_list_has_them():

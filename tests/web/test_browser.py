@@ -49,6 +49,12 @@ def test_the_page_fits_and_shows_the_solvers_numbers(
     page.wait_for_selector("#chart-fig46 output")
     page.wait_for_selector("#checks table")
     assert page.evaluate("document.documentElement.scrollWidth") <= width
+    cut = page.evaluate("""() => [...Array(73).keys()].map(i => 10 * i).filter(phi => {
+        turn(phi);
+        const {scrollWidth, clientWidth} = document.querySelector("#scene [role=region]");
+        return scrollWidth > clientWidth; // a unit beside the mechanism would not be seen
+    })""")
+    assert cut == []
     solution = solved(page)
     shown = page.inner_text("tr[data-key=M_mean] td:nth-child(3)")
     assert float(shown.replace(",", ".")) == pytest.approx(solution.scalars["M_mean"], abs=0.06)

@@ -55,6 +55,10 @@ def test_the_page_fits_and_shows_the_solvers_numbers(
         return scrollWidth > clientWidth; // a unit beside the mechanism would not be seen
     })""")
     assert cut == []
+    if width < 900:  # a finger is wider than a pointer
+        heights = """[...document.querySelectorAll("main :is(button, select, [type=search])")]
+            .map(e => e.offsetHeight).filter(height => height > 0)"""
+        assert min(page.evaluate(heights)) >= 44
     solution = solved(page)
     shown = page.inner_text("tr[data-key=M_mean] td:nth-child(3)")
     assert float(shown.replace(",", ".")) == pytest.approx(solution.scalars["M_mean"], abs=0.06)

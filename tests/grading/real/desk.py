@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from pathlib import Path
 from tempfile import mkdtemp
 
@@ -26,7 +26,11 @@ class Desk:
     other: Issued
     assignment: Assignment
     layout: Layout
-    values: Values
+
+    @cached_property
+    def values(self) -> Values:
+        """The variant solved, where anybody looks."""
+        return evaluate_model(self.assignment.model)
 
     def column(self, node: str) -> list[float]:
         """The right numbers of a column."""
@@ -51,6 +55,7 @@ def _first() -> Assignment:
     return assignment_for(register.books[0], register.rubric)
 
 
+@lru_cache(maxsize=COUNT)
 def desk(number: int) -> Desk:
     """The desk of a student."""
     register = classroom()[1]
@@ -60,5 +65,4 @@ def desk(number: int) -> Desk:
         if all(book.drawn[key] != issued.drawn[key] for key in issued.drawn)
     )  # fmt: skip
     assignment = assignment_for(issued, register.rubric, _first())
-    return Desk(issued, other, assignment, Layout.of(assignment.model),
-                evaluate_model(assignment.model))  # fmt: skip
+    return Desk(issued, other, assignment, Layout.of(assignment.model))

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import io
+import zipfile
+
 import pytest
 
+from tests.grading.real.books import filling, saved, values
 from tests.grading.real.cheats import CHEATS
-from tests.grading.real.grading import Marked, marked
+from tests.grading.real.desk import desk
+from tests.grading.real.grading import WORKS, Marked, marked
 from tests.grading.real.honest import HONEST
 from tests.grading.real.mistakes import MISTAKES
+from tests.grading.real.typed import typed
 from tools.referees.by_libreoffice import LibreOffice
 
 pytestmark = pytest.mark.xdist_group("real class")  # the class is graded once
@@ -41,6 +47,21 @@ def test_an_honest_book_is_right_throughout(name):
     assert unlike(found) == {}
     assert found.result["points"] == 100
     assert found.result["manual"] == found.result["notes"] == found.result["doubts"] == []
+
+
+@pytest.mark.parametrize("name", ["array formulas", "noughts at dead centre", "blank omega"])
+def test_a_typed_book_is_what_openpyxl_writes(name):
+    number, work = next((n, w) for n, w in enumerate(WORKS, 1) if w.name == name)
+    here = desk(number)
+    own = parts(typed(here, values(here, filling(here, work))))
+    written = parts(saved(here, filling(here, work)))
+    del own["docProps/core.xml"], written["docProps/core.xml"]  # the time of writing
+    assert own == written
+
+
+def parts(book: bytes) -> dict[str, bytes]:
+    with zipfile.ZipFile(io.BytesIO(book)) as source:
+        return {name: source.read(name) for name in source.namelist()}
 
 
 def test_formulas_by_hand_are_not_the_programs():

@@ -12,8 +12,8 @@ from openpyxl.worksheet.formula import ArrayFormula
 from reports.grading.issuing.handout import TICKET_NAME
 from reports.tables.registry import build_model
 from reports.workbook.write import workbook_bytes
-from tests.grading.classroom import opened
-from tests.grading.real.books import Desk, Work, desk, literals, rows, write
+from tests.grading.real.books import Work, literals, rows, saved
+from tests.grading.real.desk import Desk, desk
 from tests.grading.real.written import COLUMNS, WRITTEN
 
 M, T, S1, V1, J1, N = (
@@ -130,13 +130,10 @@ def _foreign(where: str) -> Callable[[bytes, Desk], bytes]:
 
     def after(data: bytes, here: Desk) -> bytes:
         friend = desk(here.other.number)
-        book = opened(friend.assignment, friend.issued.ticket)
-        write(book, friend, WRITTEN)
         mine = {"own": here.issued.ticket, "altered": here.issued.ticket[:-2] + "AA",
                 "none": "", "friend": friend.issued.ticket}[where]  # fmt: skip
-        stream = io.BytesIO()
-        book.save(stream)
-        return reticketed(stream.getvalue(), friend.issued.ticket, mine)
+        book = saved(friend, WRITTEN)
+        return reticketed(book, friend.issued.ticket, mine)
 
     return after
 

@@ -11,8 +11,9 @@ from typing import Any
 
 from reports.grading.batch.grade import Options, grade
 from tests.grading.forms import as_excel
-from tests.grading.real.books import Work, classroom, desk, made
+from tests.grading.real.books import Work, made
 from tests.grading.real.cheats import CHEATS
+from tests.grading.real.desk import classroom, desk
 from tests.grading.real.honest import HONEST
 from tests.grading.real.mistakes import MISTAKES
 from tools.referees.by_libreoffice import LibreOffice

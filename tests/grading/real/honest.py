@@ -10,7 +10,8 @@ from openpyxl.worksheet.formula import ArrayFormula
 
 from kshm.nomenclature.quantity import quantity
 from tests.grading.forms import insert
-from tests.grading.real.books import Cells, Desk, Work, rows
+from tests.grading.real.books import Cells, Work, rows
+from tests.grading.real.desk import Desk
 from tests.grading.real.written import COLUMNS, FIRST, ROWS, SCALARS
 
 LAST = FIRST + ROWS - 1

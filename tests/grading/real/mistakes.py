@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from openpyxl import Workbook
 
-from tests.grading.real.books import Desk, Work
+from tests.grading.real.books import Work
+from tests.grading.real.desk import Desk
 from tests.grading.real.written import COLUMNS, LAM, OMEGA, ROWS, SCALARS, R
 
 _RAD = "A{r}*PI()/180"

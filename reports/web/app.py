@@ -97,7 +97,7 @@ def create_app(settings: Settings) -> Guard:
     )  # fmt: skip
     errors: Any = dict.fromkeys((KshmError, HTTPException, 500), failed)
     app = Starlette(
-        routes=[Mount(prefix, routes=routes) for prefix in (public.path.rstrip("/"), "")],
+        routes=[Mount(at, routes=routes) for at in dict.fromkeys((public.path.rstrip("/"), ""))],
         lifespan=lifespan, exception_handlers=errors,
         middleware=[Middleware(GZipMiddleware, minimum_size=1000), session],
     )  # fmt: skip

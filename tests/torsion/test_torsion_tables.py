@@ -46,7 +46,8 @@ GIVEN = {
 
 @pytest.mark.parametrize("maker", MAKERS)
 def test_estimates_of_every_layout(maker: str) -> None:
-    assert_agree(laid_out(maker, {}, step_deg=15))
+    data = laid_out(maker, {}, step_deg=15)
+    assert_agree(data, solve(*engine_and_cycle(data)))
 
 
 @pytest.mark.parametrize("maker", ["four", "v_six", "articulated", "two_stroke"])

@@ -211,11 +211,16 @@ def group_of(item: pytest.Item) -> str:
     return min(samples_of(item), default=item.nodeid.partition("::")[0])
 
 
+def pytest_sessionstart() -> None:
+    """What is imported stays: no garbage is looked for in it."""
+    gc.disable()
+
+
 def pytest_collection_finish() -> None:
-    """What is imported stays; in a heap of whole books garbage is looked for seldom."""
-    gc.collect()
+    """In a heap of whole books garbage is looked for seldom."""
     gc.freeze()
     gc.set_threshold(200_000, 20, 20)
+    gc.enable()
 
 
 def pytest_sessionfinish() -> None:

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any, TypeVar
 
 from reports.shared.errors import KshmError, SystemPartMissing
+from reports.shared.processes import processes
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -49,11 +50,9 @@ def in_order(
 def _in_processes(
     work: Callable[[Item], Result], items: Iterable[Item], jobs: int
 ) -> Iterator[Result]:
-    import multiprocessing
     from concurrent.futures import ProcessPoolExecutor
 
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(jobs, mp_context=context) as pool:
+    with ProcessPoolExecutor(jobs, mp_context=processes(work.__module__)) as pool:
         yield from _windowed(pool.submit, work, items, jobs * _AHEAD)
 
 

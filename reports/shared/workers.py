@@ -6,7 +6,6 @@ They look at people's files and inputs: little memory, no network, no other prog
 from __future__ import annotations
 
 import contextlib
-import multiprocessing
 import os
 import signal
 import sys
@@ -19,6 +18,7 @@ from typing import Any
 
 from reports.shared.errors import KshmError, one_line
 from reports.shared.interrupt import held
+from reports.shared.processes import processes
 
 MEMORY = 2 * 2**30  # bytes of address space beyond what the ready process has
 _START_S = 120.0  # a cold start on a loaded machine
@@ -45,6 +45,7 @@ class Workers:
         count: how many.
         begin: what makes a process ready; it returns what answers the questions.
         given: arguments of ``begin``.
+        needs: a module that ``begin`` imports, if it is not its own.
         memory: bytes that a ready process may take besides.
         most: answers of a process; then a new one: whatever a library leaks is given back.
     """
@@ -54,11 +55,14 @@ class Workers:
         count: int,
         begin: Callable[..., Callable[..., Any]],
         *given: Any,  # noqa: ANN401
+        needs: str = "",
         memory: int = MEMORY,
         most: int = 500,
     ) -> None:
         self._threads = ThreadPoolExecutor(count)  # one waits for each process
-        self._all = [_Worker(most, memory, begin, *given) for _ in range(count)]
+        self._all = [
+            _Worker(most, needs or begin.__module__, memory, begin, *given) for _ in range(count)
+        ]
         self._idle = SimpleQueue[_Worker]()
 
     def __enter__(self) -> Workers:
@@ -103,11 +107,11 @@ class Workers:
 class _Worker:
     """A process and its pipe, alone with each other: its death harms no other's answers."""
 
-    def __init__(self, most: int, *given: Any) -> None:  # noqa: ANN401
-        self.most, self.given, self.over = most, given, False
+    def __init__(self, most: int, needs: str, *given: Any) -> None:  # noqa: ANN401
+        self.most, self.needs, self.given, self.over = most, needs, given, False
 
     def launch(self) -> None:
-        context = multiprocessing.get_context("spawn")
+        context = processes(self.needs)
         self.connection, theirs = context.Pipe()
         self.process = context.Process(target=_serve, args=(theirs, *self.given), daemon=True)
         with held(signal.SIGINT):  # Ctrl-C is for the process that the person has started

@@ -21,13 +21,22 @@ class Cost:
 
 
 # A small process in between: a child counts the memory of the one that started it as its own.
+# Processes that the command leaves behind, as the one that copies itself, are waited for too.
 _STARTER = """
-import json, os, sys, time
+import ctypes, json, os, resource, sys, time
+PR_SET_CHILD_SUBREAPER = 36
+if sys.platform == "linux":
+    ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1)
 quiet = [(os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)]
 begin = time.perf_counter()
 child = os.posix_spawnp(sys.argv[1], sys.argv[1:], os.environ, file_actions=quiet)
-_, status, usage = os.wait4(child, 0)
+_, status = os.waitpid(child, 0)
 wall = time.perf_counter() - begin
+try:
+    while True:
+        os.wait()
+except ChildProcessError:
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
 cpu = usage.ru_utime + usage.ru_stime
 print(json.dumps([os.waitstatus_to_exitcode(status), wall, cpu, usage.ru_maxrss / 1024]))
 """

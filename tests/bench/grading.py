@@ -7,18 +7,23 @@ solved book's formulas and saved by LibreOffice, as students save them.
 from __future__ import annotations
 
 import json
+import multiprocessing
 import os
 import tempfile
 import time
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
+from unittest import mock
 
+from reports.grading.batch import pool
 from reports.grading.issuing.issue import assignment_for, issue
 from reports.grading.issuing.register import Register
 from reports.recalculation.forms import Forms
 from reports.recalculation.read import read_grid
+from reports.shared import workers as room
 from reports.shared.resources import samples_dir
-from tests.bench._figure import Figure, costs, interleaved, median
+from tests.bench._figure import Figure, costs, interleaved, median, ratio
 from tests.bench._process import Cost, kshm, run
 from tests.grading.fill import Formula, filled_book
 from tools.referees.by_libreoffice import LibreOffice
@@ -40,6 +45,7 @@ def figures() -> Iterator[Figure]:
         each = (time.perf_counter() - started) / STUDENTS
         yield Figure("выдача одной рабочей книги", each, "с")
         yield from _assignments(register)
+        yield _copied(folder)
         books = LibreOffice().converted(_filled(folder, register))
         yield from _forms(books)
         few, many = _graded(folder, books, FEW), _graded(folder, books, MANY)
@@ -102,6 +108,25 @@ def _assignments(register: Register) -> Iterator[Figure]:
             assert made.items and made.points and made.fill_nodes
         each = (time.process_time() - started) / len(register.books)
         yield Figure(f"таблицы работы {words}", each, "с")
+
+
+def _copied(folder: Path) -> Figure:
+    """What it saves that a process is copied from one that has imported what it needs."""
+
+    def started() -> None:
+        begun = room.Workers(1, pool._marking, folder / "issued", needs=pool._NEEDS)
+        with begun as workers, suppress(RuntimeError):  # no submission, but an answer
+            workers.ask(None, seconds=60).result()
+
+    def importing() -> None:
+        spawn = multiprocessing.get_context("spawn")
+        with mock.patch.object(room, "processes", lambda needs: spawn):
+            started()
+
+    times = interleaved({"copied": started, "importing": importing}, 5, time.perf_counter)
+    gained = ratio(times, "copied", "importing")
+    return Figure("следующий процесс проверки копией / с импортом", gained, "раз",
+                  f"{median(times['copied']):.2f} с")  # fmt: skip
 
 
 def _filled(folder: Path, register: Register, changes: Changes | None = None) -> list[bytes]:

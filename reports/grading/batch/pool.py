@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from dataclasses import dataclass
+from importlib import import_module
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ from reports.shared.errors import KshmError
 from reports.shared.workers import MEMORY, Died, NeverStarted, Workers
 
 TIMEOUT_S = 60.0
+_NEEDS = "reports.grading.batch.marks"  # by name: this process marks nothing
 _AHEAD = 2  # files for a process: writing a result must not keep it waiting
 
 SLOW = "проверка заняла слишком много времени"
@@ -49,7 +51,7 @@ def grade_all(
         return
     count = min(workers, len(submissions))
     waiting, asked = iter(submissions), dict[Future[Marked], Submission]()
-    with Workers(count, marking, register_folder, memory=memory) as pool:
+    with Workers(count, _marking, register_folder, needs=_NEEDS, memory=memory) as pool:
         while True:
             for submission in islice(waiting, _AHEAD * count - len(asked)):
                 asked[pool.ask(submission, seconds=timeout_s)] = submission
@@ -75,22 +77,6 @@ def _outcome(submission: Submission, future: Future[Marked]) -> Outcome:
     return Outcome(submission, None, "", problem)
 
 
-def marking(register_folder: Path) -> Callable[[Submission], Marked]:
-    """What grades a submission, everything imported while memory may still be used freely."""
-    import formualizer
-    import lxml.etree
-    import numpy as np
-
-    from reports.grading.issuing.register import load_register
-    from reports.grading.judging.marking import Marker
-    from reports.grading.pages.pages import student_page
-
-    assert formualizer and lxml.etree
-    np.ones((8, 8)) @ np.ones((8, 8))
-    marker = Marker(load_register(register_folder))
-
-    def mark(submission: Submission) -> Marked:
-        result = marker.mark(submission, submission.read())
-        return result, student_page(result, marker.register.rubric)
-
-    return mark
+def _marking(register_folder: Path) -> Callable[[Submission], Marked]:
+    begin: Callable[[Path], Callable[[Submission], Marked]] = import_module(_NEEDS).marking
+    return begin(register_folder)

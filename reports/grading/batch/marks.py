@@ -1,0 +1,31 @@
+"""What grades one submission, everything imported while memory may still be used freely."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import formualizer
+import lxml.etree
+import numpy as np
+
+from reports.grading.issuing.register import load_register
+from reports.grading.judging.marking import Marker
+from reports.grading.pages.pages import student_page
+from reports.grading.reading.submissions import Submission
+
+assert formualizer
+assert lxml.etree
+
+
+def marking(register_folder: Path) -> Callable[[Submission], tuple[dict[str, Any], str]]:
+    """What a submission comes to, and its page, by the register of a folder."""
+    np.ones((8, 8)) @ np.ones((8, 8))  # its library takes memory of its own
+    marker = Marker(load_register(register_folder))
+
+    def mark(submission: Submission) -> tuple[dict[str, Any], str]:
+        result = marker.mark(submission, submission.read())
+        return result, student_page(result, marker.register.rubric)
+
+    return mark

@@ -26,17 +26,6 @@ BASE = samples_dir() / "gots-diesel.toml"
 VARY = ("regime.speed_rpm=1500:4400:10", "geometry.bore_mm=84:92:6")
 
 
-@pytest.fixture(scope="module")
-def cluster() -> Iterator[Any]:
-    """Two workers, each a process of its own; a dead one is started again."""
-    distributed = pytest.importorskip("distributed")  # a second, which the quick tests spare
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None,
-        silence_logs=50,
-    ) as made:  # fmt: skip
-        yield made
-
-
 def killer(cluster: Any) -> tuple[Callable[..., Iterator[Any]], list[int]]:
     """``in_order`` that kills a worker while most of the work is still to be done."""
     victim = min(worker.pid for worker in cluster.workers.values())

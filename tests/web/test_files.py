@@ -90,20 +90,18 @@ def told(book: bytes) -> tuple[str, list[float]]:
     return value.sub("", text), [float(found) for _, found in value.findall(text)]
 
 
-def test_files_are_built_on_a_cluster(tmp_path: Path) -> None:
-    distributed = pytest.importorskip("distributed")
-    with distributed.LocalCluster(
-        n_workers=1, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50
-    ) as cluster:
-        books = []
-        for far in (cluster.scheduler_address, None):
-            settings = Settings(tmp_path / str(bool(far)), per_s=1e6, workers=1, dask=far)
-            with TestClient(create_app(settings), base_url="http://localhost") as client:
-                page = Page(client)
-                job, _ = made(page, raw=page.sample(), kind="xlsx")
-                books.append(client.get(f"/api/files/{job}/engine.xlsx").content)
-        done = {event[0] for event in cluster.scheduler.transition_log if event[2] == "memory"}
-    assert len(done) == 1  # the cluster's worker made the one, this machine the other
+def test_files_are_built_on_a_cluster(cluster: Any, tmp_path: Path) -> None:
+    def calculated() -> set[str]:
+        return {event[0] for event in cluster.scheduler.transition_log if event[2] == "memory"}
+
+    before, books = calculated(), []
+    for far in (cluster.scheduler_address, None):
+        settings = Settings(tmp_path / str(bool(far)), per_s=1e6, workers=1, dask=far)
+        with TestClient(create_app(settings), base_url="http://localhost") as client:
+            page = Page(client)
+            job, _ = made(page, raw=page.sample(), kind="xlsx")
+            books.append(client.get(f"/api/files/{job}/engine.xlsx").content)
+    assert len(calculated() - before) == 1  # the cluster made the one, this machine the other
     (far_text, far_values), (near_text, near_values) = map(told, books)
     assert far_text == near_text
     np.testing.assert_allclose(far_values, near_values, rtol=1e-9, atol=1e-9)  # last digits differ

@@ -18,8 +18,12 @@ import pytest
 
 from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import load_register
+from reports.inputs.fields import iter_fields
+from reports.inputs.load import load_toml
+from reports.workbook.read import load_workbook_input
 from tests.grading.fill import filled_book
 from tests.manual.pages import DOCS, PAGES, READMES, ROOT, blocks, commands
+from tests.referee.changes import Change, type_into
 
 # What a test cannot run, and why.
 LEFT_OUT = {
@@ -46,6 +50,7 @@ exec "{python}" -m reports "$@"
 # is built, of the samples the file must be there.  That every sample makes its files is tested
 # where they are made.
 SAME = re.compile(r"^./run build (samples/[\w-]+\.toml) -o out$")
+EDITED = {"masses_reciprocating_kg": 1.9, "report_detail": "short"}
 COPY = "my-engine.toml", "samples/gots-diesel.toml"
 
 
@@ -71,6 +76,14 @@ def submitted(folder: Path) -> None:
         (target / book.file).write_bytes(filled)
 
 
+def edited(folder: Path) -> None:
+    """The workbook as a person edits it: a lighter piston, a short report."""
+    book, data = folder / "out" / "my-engine.xlsx", load_toml(folder / COPY[0]).model
+    fields = {field.name: field for field in iter_fields(data)}
+    changes = [Change(fields[name], value) for name, value in EDITED.items()]
+    book.write_bytes(type_into(book.read_bytes(), data, changes))
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="the blocks are of a POSIX shell")
 @pytest.mark.parametrize("chain", CHAINS)
 def test_commands(tmp_path, chain):
@@ -89,6 +102,8 @@ def test_commands(tmp_path, chain):
     for command in chosen:
         if command.startswith("./run grade") and not (tmp_path / "submitted").exists():
             submitted(tmp_path)
+        if command == "./run build out/my-engine.xlsx -o out2":
+            edited(tmp_path)
         done = subprocess.run(
             ["bash", "-c", command],
             check=False,
@@ -106,6 +121,9 @@ def test_commands(tmp_path, chain):
     if chain == "project":
         copy, given = ((tmp_path / name).read_text(encoding="utf-8") for name in COPY)
         assert re.sub(r"year = \d+", "year = 2006", copy) == given  # this year's report
+        made = load_workbook_input(tmp_path / "out2" / "my-engine.xlsx").model
+        found = {field.name: field.value for field in iter_fields(made)}
+        assert {name: found[name] for name in EDITED} == EDITED
 
 
 EXPECTED = {

@@ -1,9 +1,9 @@
 """Fixtures of the cycle tests."""
 
 import pytest
-from cycle_engines import ENGINES
 
 from kshm.cycle.inputs import CycleInputs
+from tests.cycle.cycle_engines import ENGINES
 
 
 @pytest.fixture(params=sorted(ENGINES))

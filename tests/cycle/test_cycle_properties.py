@@ -4,7 +4,6 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from cycle_engines import ENGINES
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -16,6 +15,7 @@ from kshm.cycle.heat_balance import heat_balance
 from kshm.cycle.inputs import Boost
 from kshm.cycle.processes import compress, fill
 from reports.inputs.cycle_texts import text_of
+from tests.cycle.cycle_engines import ENGINES
 from tests.cycle.energy import cycle_energy
 
 

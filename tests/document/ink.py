@@ -10,7 +10,8 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from pdftools import poppler
+
+from tests.document.pdftools import poppler
 
 DPI = 50
 MM = DPI / 25.4  # dots in a millimetre

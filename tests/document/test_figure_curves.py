@@ -2,9 +2,9 @@ import math
 import re
 
 import pytest
-from figure_samples import FIGURES, FORCE, PHI, T, texts
 
 from reports.document.figures.curves import Curve, Panel, curves_figure
+from tests.document.figure_samples import FIGURES, FORCE, PHI, T, texts
 
 
 def one(y):

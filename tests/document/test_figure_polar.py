@@ -6,11 +6,11 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
-from figure_samples import FIGURES, PHI, K, T
 
 from reports.document.figures.labels import text_size
 from reports.document.figures.polar import polar_path
 from reports.document.figures.style import SMALL
+from tests.document.figure_samples import FIGURES, PHI, K, T
 
 
 @lru_cache(maxsize=1)

@@ -1,10 +1,10 @@
 """Schemes of the mechanism, of the shaft and of the engine."""
 
 import pytest
-from figure_samples import FIGURES, texts
 
 from reports.document.figures.mechanism import mechanism_sketch
 from reports.document.figures.shaft import crank_scheme, engine_scheme
+from tests.document.figure_samples import FIGURES, texts
 
 
 def test_cranks_of_one_direction_share_a_ray():

@@ -4,9 +4,9 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
-from figure_samples import FIGURES, texts
 
 from reports.document.figures.wear import wear_diagram
+from tests.document.figure_samples import FIGURES, texts
 
 
 def test_wear_is_to_scale():

@@ -4,7 +4,8 @@ import re
 from xml.etree import ElementTree as ET
 
 import pytest
-from figure_samples import FIGURES, texts
+
+from tests.document.figure_samples import FIGURES, texts
 
 
 @pytest.fixture(scope="module")

@@ -5,12 +5,12 @@ import re
 from dataclasses import dataclass
 
 import pytest
-from pdftools import pages_of, poppler
 
 from reports.document.page.blocks import Column, DocumentInfo, TableBlock, table_block
 from reports.document.page.numbering import Label
 from reports.document.page.render import environment, render
 from reports.document.page.style import USUAL
+from tests.document.pdftools import pages_of, poppler
 
 LONG = "Очень длинное название таблицы, которое занимает несколько строк над её головкой, " * 3
 SIMPLE = [Column("i"), Column("K"), Column("T"), Column("R")]

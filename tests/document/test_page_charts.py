@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from report_samples import terms
 
 from reports.document.page.charts import chart_figure, panels_figure
+from tests.document.report_samples import terms
 
 T = terms("gots-diesel")
 CHARTS = T.model.charts_by_id

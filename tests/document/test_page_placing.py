@@ -5,10 +5,8 @@ from dataclasses import replace
 
 import pytest
 import weasyprint
-from bare_pages import bare_page
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from report_samples import terms
 from weasyprint.text.fonts import FontConfiguration
 
 from reports.document.page import render
@@ -18,6 +16,8 @@ from reports.document.page.placing import Block, Spot, after, filled
 from reports.document.page.style import USUAL
 from reports.document.text.lines import line_count
 from tests.conftest import sample
+from tests.document.bare_pages import bare_page
+from tests.document.report_samples import terms
 
 ROOM, LINE = 900.0, 28.0
 

@@ -6,11 +6,11 @@ from unittest import mock
 import pydyf
 import pytest
 import weasyprint
-from figure_samples import FIGURES
 
 from reports.document.page import quick, render
 from reports.document.text.mathsvg import formula
 from reports.document.text.texts import pictured
+from tests.document.figure_samples import FIGURES
 
 PAGE = "".join(
     [

@@ -3,7 +3,6 @@
 import re
 
 import pytest
-from pdftools import fonts_of, pages_of, poppler
 
 from reports.document.figures.curves import Curve, Panel, curves_figure
 from reports.document.page.render import (
@@ -15,6 +14,7 @@ from reports.document.page.render import (
 )
 from reports.document.text.fonts import fonts_css
 from reports.document.text.mathsvg import formula
+from tests.document.pdftools import fonts_of, pages_of, poppler
 
 PAGE = """<!DOCTYPE html><html lang="ru"><head><title>Отчёт</title><style>
 {css} html{{font-family:STIXGeneral, STIXGeneralUpright}}</style>

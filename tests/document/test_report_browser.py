@@ -1,9 +1,9 @@
 """The HTML report in headless Chromium, on a phone and on a screen."""
 
 import pytest
-from report_samples import html_page
 
 from tests.browser import measure, photograph
+from tests.document.report_samples import html_page
 
 
 @pytest.mark.parametrize("width", [390, 1280])

@@ -8,10 +8,7 @@ import random
 import re
 from pathlib import Path
 
-import ink
 import pytest
-from pdftools import pages_of
-from report_samples import pdf, print_page, shipped_pdf, terms_of, text_of, with_detail
 
 from reports.document.page import writer
 from reports.document.page.render import render
@@ -22,6 +19,16 @@ from reports.inputs.load import load_mapping
 from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from tests.conftest import sample, sample_names
+from tests.document import ink
+from tests.document.pdftools import pages_of
+from tests.document.report_samples import (
+    pdf,
+    print_page,
+    shipped_pdf,
+    terms_of,
+    text_of,
+    with_detail,
+)
 from tests.layouts import MAKERS
 
 FIELD = ink.Field()

@@ -4,7 +4,6 @@ Formulas and figures are left out here: what they look like is tested elsewhere.
 """
 
 import pytest
-from report_samples import terms, terms_of, text_of
 
 from reports.document.report import report_page
 from reports.document.text.terms import Terms
@@ -14,6 +13,7 @@ from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from tests import layouts
 from tests.conftest import sample
+from tests.document.report_samples import terms, terms_of, text_of
 
 pytestmark = pytest.mark.usefixtures("nothing_is_drawn")
 

@@ -3,8 +3,9 @@
 import re
 
 import pytest
-from pdftools import fonts_of, pages_of, poppler
-from report_samples import html_page, pdf, pdf_with_files, terms
+
+from tests.document.pdftools import fonts_of, pages_of, poppler
+from tests.document.report_samples import html_page, pdf, pdf_with_files, terms
 
 NAMES = ["one", "gots-diesel"]
 ALLOWED_POINTS = [

@@ -12,7 +12,6 @@ from functools import cache
 
 import numpy as np
 import pytest
-from bare_pages import bare_page, plain
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -22,6 +21,7 @@ from reports.inputs.solved import solved
 from tests import layouts
 from tests.conftest import sample
 from tests.cover import charts, choices, samples_with
+from tests.document.bare_pages import bare_page, plain
 
 # One process with those of test_report_strict: they read the same pages.
 pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]

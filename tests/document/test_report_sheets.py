@@ -6,12 +6,12 @@ import zlib
 from pathlib import Path
 
 import pytest
-from pdftools import pages_of, poppler
-from report_samples import ONE, pdf, terms, terms_of
 
 from reports.document.page.render import render
 from reports.document.report import report_html, report_page, report_pdf
 from reports.shared.errors import InputError
+from tests.document.pdftools import pages_of, poppler
+from tests.document.report_samples import ONE, pdf, terms, terms_of
 
 DATA = """[report]
 student = "Иванов И. И."

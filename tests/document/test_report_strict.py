@@ -3,9 +3,10 @@
 import re
 
 import pytest
-import report_samples
-from bare_pages import plain
-from test_report_sentences import engine, page_of, printed_rows, text_of, words_of
+
+from tests.document import report_samples
+from tests.document.bare_pages import plain
+from tests.document.test_report_sentences import engine, page_of, printed_rows, text_of, words_of
 
 pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]
 

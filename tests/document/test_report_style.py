@@ -3,14 +3,14 @@
 import re
 
 import pytest
-from pdftools import pages_of
-from report_samples import ONE, terms_of, with_detail
 
 from reports.document.page.render import render
 from reports.document.page.style import Style, read
 from reports.document.report import CHAPTERS, chosen, find_style, report_page
 from reports.inputs.sections import report as sections
 from reports.shared.errors import InputError
+from tests.document.pdftools import pages_of
+from tests.document.report_samples import ONE, terms_of, with_detail
 
 STYLE = """
 font_size_pt = 12

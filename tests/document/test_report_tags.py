@@ -4,8 +4,8 @@ import itertools
 import re
 import zlib
 
-from pdftools import poppler
-from report_samples import pdf
+from tests.document.pdftools import poppler
+from tests.document.report_samples import pdf
 
 STREAM = re.compile(rb"stream\r?\n(.*?)\r?\nendstream", re.DOTALL)
 MAY_HOLD = {

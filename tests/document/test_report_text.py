@@ -5,8 +5,6 @@ import re
 from pathlib import Path
 
 import pytest
-from pdftools import fonts_of, pages_of
-from report_samples import ONE, html_page, terms, terms_of
 
 from reports.document.chapters.dynamics import _pressure_at, _pressure_tex
 from reports.document.page.render import render
@@ -15,6 +13,8 @@ from reports.document.text.mathsvg import formula, formula_lines
 from reports.document.text.terms import book_place, plain_number, unit_tex
 from reports.document.text.texcases import parts
 from reports.formula.tex import NotPrintable
+from tests.document.pdftools import fonts_of, pages_of
+from tests.document.report_samples import ONE, html_page, terms, terms_of
 
 HOSTILE = (
     '<script>alert(1)</script><img src="http://127.0.0.1:9/x">{{ 7*7 }}{% raw %}'

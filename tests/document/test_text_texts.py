@@ -2,11 +2,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from markupsafe import Markup
-from pdftools import pages_of
 
 from reports.document.page.render import render
 from reports.document.text import fonts, texts
 from reports.document.text.fonts import fonts_css
+from tests.document.pdftools import pages_of
 
 
 def test_foreign_signs_become_a_box_and_controls_go():

@@ -5,13 +5,13 @@ import itertools
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from sheet_samples import terms
 
 from reports.document.figures.parts import mechanism_of, throw_of
 from reports.drawing.lettering import parts_of, plain, width_of
 from reports.drawing.parts import Mechanism, Throw, mechanism_drawing, throw_drawing
 from reports.drawing.primitives import AXES, Canvas, Line, Words, interrupted, overlap
 from reports.drawing.svg import svg_of
+from tests.sheet.sheet_samples import terms
 
 
 def crossed(items) -> list[str]:

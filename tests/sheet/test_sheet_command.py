@@ -7,7 +7,6 @@ import subprocess
 
 import pytest
 from click.testing import CliRunner
-from sheet_samples import terms
 
 from reports.cli import main
 from reports.drawing.primitives import Words
@@ -16,6 +15,7 @@ from reports.shared.doctor import need_packages
 from reports.shared.errors import InputError, SystemPartMissing
 from reports.shared.resources import samples_dir
 from reports.sheet.layout import sheet_items
+from tests.sheet.sheet_samples import terms
 
 ENDINGS = ("-sheet.pdf", "-sheet.dxf", "-throw.dxf", "-mechanism.dxf")
 

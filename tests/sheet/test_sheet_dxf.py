@@ -15,7 +15,6 @@ import pytest
 from ezdxf import recover
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from sheet_samples import drawn, terms, terms_of
 
 from reports.drawing.dxf import dxf_bytes
 from reports.drawing.lettering import plain
@@ -26,6 +25,7 @@ from reports.inputs.own_file import file_text
 from reports.sheet.layout import sheet_items
 from reports.sheet.write import sheet_files
 from tests.cover import chapters, charts, samples_with
+from tests.sheet.sheet_samples import drawn, terms, terms_of
 from tests.sheet.test_sheet_places import faults
 
 NEAR = 0.1  # mm

@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 
 import pytest
-from sheet_samples import drawn, terms, terms_of
 
 from reports.drawing.primitives import Words, box_of, overlap
 from reports.inputs.sections.sheet import DIAGRAMS, USUAL, SheetSection
@@ -13,6 +12,7 @@ from reports.sheet.layout import SIZES, cells
 from reports.sheet.stamp import HEIGHT, MARGINS, WIDTH
 from tests.cover import chapters, charts, samples_with
 from tests.layouts import MAKERS, made
+from tests.sheet.sheet_samples import drawn, terms, terms_of
 
 
 def faults(t) -> list[str]:

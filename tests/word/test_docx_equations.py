@@ -3,12 +3,12 @@
 import re
 
 import pytest
-from docx_samples import M
 from hypothesis import given
 from hypothesis import strategies as st
 
 from reports.document.text.tex import TexError
 from reports.word.omml import displayed, omath
+from tests.word.docx_samples import M
 
 
 def words(tex: str) -> str:

@@ -8,12 +8,12 @@ import zipfile
 
 import pytest
 from click.testing import CliRunner
-from docx_samples import NAME, W, department, docx_of, part, text_of
 from lxml import etree
 
 from reports.cli import main
 from reports.shared.resources import samples_dir
 from reports.word.markup import bookmark_name
+from tests.word.docx_samples import NAME, W, department, docx_of, part, text_of
 
 pytestmark = pytest.mark.xdist_group(NAME)  # the process that makes the file
 

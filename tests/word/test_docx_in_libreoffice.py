@@ -13,10 +13,10 @@ from pathlib import Path
 import docx
 import pytest
 from docx.oxml.ns import qn
-from docx_samples import NAME, M, W, docx_of, page_of, part, root_of
 
 from tests.conftest import missing
 from tests.document.report_samples import shipped_pdf
+from tests.word.docx_samples import NAME, M, W, docx_of, page_of, part, root_of
 
 PYTHON = "/usr/bin/python3"
 pytestmark = pytest.mark.xdist_group(NAME)  # the process that makes the file

@@ -5,10 +5,10 @@ from __future__ import annotations
 import copy
 
 import pytest
-from docx_samples import NAME, NUMBER, M, W, docx_of, page_of, part, root_of, text_of
 
 from reports.document.text.texts import FORMULA
 from tests.cover import chapters, samples_with
+from tests.word.docx_samples import NAME, NUMBER, M, W, docx_of, page_of, part, root_of, text_of
 
 _UNSAID = ("span[@class='hn']", "nav", "*[@class='form2']", "*[@class='form2a']",
            "tr[@class='gap']")  # fmt: skip

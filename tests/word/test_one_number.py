@@ -10,7 +10,6 @@ from pathlib import Path
 import ezdxf
 import openpyxl
 import pytest
-from docx_samples import docx_of, model_of, page_of, part, root_of, text_of
 from ezdxf import recover
 
 from reports.document.text.numbers import of_digits
@@ -18,6 +17,7 @@ from reports.document.text.terms import Terms
 from reports.sheet.write import sheet_files
 from tests.cover import ALL, chapters, samples_with
 from tests.document.report_samples import shipped_pdf
+from tests.word.docx_samples import docx_of, model_of, page_of, part, root_of, text_of
 from tests.workbook.made import book as own_book
 
 # Setting pages takes longest and says the same of the text: an engine in line, a V, two strokes.

@@ -87,9 +87,12 @@ def test_build_spares_its_own_input(engine: Path, tmp_path: Path) -> None:
 
 
 def test_issue_spares_its_base(tmp_path: Path) -> None:
-    out = tmp_path / "issued"
-    roster, secret = SAMPLES / "class/group.csv", ("--secret", tmp_path / "key")
-    base = SAMPLES / "class/base.toml"
+    out, base, roster = (tmp_path / name for name in ("issued", "base.toml", "group.csv"))
+    text = (SAMPLES / "class/base.toml").read_text(encoding="utf-8")
+    assert "step_deg = 10" in text
+    base.write_text(text.replace("step_deg = 10", "step_deg = 30"), encoding="utf-8")
+    roster.write_text("Фамилия;Имя\nИванова;Анна\n", encoding="utf-8")
+    secret = ("--secret", tmp_path / "key")
     assert kshm("issue", base, "--roster", roster, "-o", out, *secret).returncode == 0
     own = out / "base.toml"
     shutil.copy(base, own)

@@ -192,11 +192,11 @@ def assert_claims_hold(model, page):
     assert main == leaders(scalars, "dM_main([0-9]+)", 0)
     if len(layouts_pins(model)) > 1:
         assert ("нагружены по-разному" in text) == pins_differ(model)
-    order = re.search(r"чередуются через ([0-9]+)°", text)
+    order = re.search(r"чередуются через ([0-9,]+)°", text)
     offsets = sorted(np.mod(model.crankshaft.firing_offsets_deg, 180 * model.engine.strokes))
     gaps = np.diff([*offsets, offsets[0] + 180 * model.engine.strokes])
     if order:
-        assert np.allclose(gaps, float(order.group(1)), atol=0.5)
+        assert np.allclose(gaps, float(order.group(1).replace(",", ".")), atol=0.005)
     assert ("чередование неравномерное" in text) == (not np.allclose(gaps, gaps[0], atol=1e-2))
     assert ("проверок" not in text) or "Из 7 проверок" not in text
 

@@ -19,7 +19,7 @@ from reports.document.page.writer import TablePlan
 from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms
 from reports.inputs.to_si.engine import to_engine
-from reports.shared.russian import MINUS, NBSP, fixed, joined, written
+from reports.shared.russian import MINUS, NBSP, fixed, joined, short, written
 
 _MOST_ORDERS = 8
 
@@ -224,7 +224,9 @@ def _fine_flywheel(chapter: Chapter) -> Markup | str:
     if not {"I_flywheel", "W_range", "delta_speed"} & off.keys():
         return ""
     error = off.get("I_flywheel")
-    return chapter.terms.val("I_flywheel") if error is None else chapter.fine(error)
+    if error is None:
+        return chapter.terms.val("I_flywheel") if chapter.terms.value("I_flywheel") > 0 else ""
+    return chapter.fine(error)
 
 
 def _firing(chapter: Chapter) -> TableBlock:
@@ -240,7 +242,9 @@ def _firing(chapter: Chapter) -> TableBlock:
     rows = [
         (
             "–".join(map(str, ranked.order)),
-            ", ".join(fixed(gap, 0) for gap in np.degrees(intervals(np.array(ranked.offsets)))),
+            ", ".join(
+                short(round(gap, 2)) for gap in np.degrees(intervals(np.array(ranked.offsets)))
+            ),
             fixed(ranked.unevenness, 3),
             fixed(ranked.half_order if np.abs(ranked.half_order) > 1e-9 else 0.0, 3),
             of_digits(ranked.journal_load / 1000, load.digits),

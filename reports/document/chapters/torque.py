@@ -14,7 +14,7 @@ from reports.document.page.blocks import Column, TableBlock, symbol_head, table_
 from reports.document.page.writer import TablePlan
 from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms
-from reports.shared.russian import fixed
+from reports.shared.russian import fixed, short
 from reports.tables.overview.summary import YES
 from reports.tables.overview.verdicts import reasons_of
 
@@ -69,7 +69,7 @@ def _intervals(chapter: Chapter) -> str:
     offsets = sorted(value % period for value in chapter.input.crankshaft.firing_offsets_deg)
     gaps = [b - a for a, b in zip(offsets, [*offsets[1:], offsets[0] + period], strict=True)]
     counted = Counter(round(gap, 3) for gap in gaps)
-    return fixed(gaps[0], 0) if len(counted) == 1 else ""
+    return short(round(gaps[0], 2)) if len(counted) == 1 else ""
 
 
 def running(chapter: Chapter) -> Markup:

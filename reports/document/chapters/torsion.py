@@ -82,6 +82,8 @@ def torsion(chapter: Chapter) -> Markup:
         flywheels=TablePlan(partial(_flywheels, terms, bare, other), "Два маховика", keep=True),
         change=terms.value("tor_f1_change"),
         change_text=fixed(abs(terms.value("tor_f1_change")), 1),
+        articulated=chapter.shape.articulated,
+        flywheel_needed=terms.has("I_flywheel") and terms.value("I_flywheel") > 0,
         heavier=terms.value("tor_flywheel_other") > terms.value("tor_flywheel"),
         other_helps=other.stress < (1 - _NEAR) * bare.stress,
         other_harms=other.stress > (1 + _NEAR) * bare.stress,

@@ -200,4 +200,5 @@ def _inertia(values: Values) -> Iterator[Finding]:
     if not 0.02 <= ratio <= 0.5:
         what = f"I_ш/(m_ш·l²) = {number_text(round(ratio, 4))} необычно"
         path = ("masses", "rod_inertia_kg_m2")
-        yield Finding(path, what, "обычно от 0.02 до 0.5: проверьте кг·м²", warning=True)
+        hint = f"обычно {span_text(0.02, 0.5)}: проверьте кг·м²"
+        yield Finding(path, what, hint, warning=True)

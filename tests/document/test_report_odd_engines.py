@@ -1,5 +1,7 @@
 """What the report claims of engines far from the samples, against their numbers."""
 
+import re
+
 import pytest
 from bare_pages import bare_page, plain
 from test_report_sentences import assert_claims_hold, text_of
@@ -12,7 +14,7 @@ from tests.conftest import sample
 pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]
 
 
-def in_line(order, strokes=4, **sections):
+def in_line(order, strokes=4, offsets=None, **sections):
     """Alike throws at equal intervals with the cylinder and the throw of the first sample."""
     raw = to_mapping(sample("gots-diesel"))
     count, shaft = len(order), raw["crankshaft"]
@@ -24,6 +26,9 @@ def in_line(order, strokes=4, **sections):
         "webs": [dict(shaft["webs"][0]) for _ in range(2 * count)],
         "arms": [dict(shaft["arms"][0]) for _ in range(count)],
     }
+    if offsets is not None:
+        del shaft["firing_order"]
+        shaft["firing_offsets_deg"] = offsets
     if strokes == 2:
         raw["gas"]["scavenge_start_before_bdc_deg"] = 40.0
     raw["report"]["detail"] = "full"
@@ -49,3 +54,42 @@ def test_the_flywheel_is_needed_or_not_in_every_chapter(allowed, needed):
     assert ("маховик не нужен" in text) != needed
     assert ("даёт и без него; принят в 8 раз больше" in text) != needed
     assert "но при шаге 1° Iм = 0" not in text.replace("\xa0", " ")
+
+
+def test_cylinders_that_fire_together_are_told_so():
+    text = text_of(in_line([1, 2, 3, 4], offsets=[0, 360, 360, 0]))
+    assert "порядок работы (1, 4)–(2, 3) (в скобках — цилиндры, работающие одновременно)" in text
+    assert "Порядок начала рабочих ходов (1, 4)–(2, 3) (в скобках" in text
+    assert "они чередуются через 360°" in text
+    text = text_of(in_line([1, 2], strokes=2, offsets=[0, 0]))
+    assert "рабочие ходы всех цилиндров начинаются одновременно. Схема" in text
+    assert "Рабочие ходы всех цилиндров начинаются одновременно. Моменты" in text
+
+
+def test_uneven_intervals_are_named():
+    text = text_of(in_line([1, 2], offsets=[0, 540]))
+    assert "чередование неравномерное: через 180° и 540°" in text
+
+
+def test_a_share_on_the_end_of_its_span_is_within_it():
+    """0.3 of the rod, which its centre gives as 0.30000000000000004."""
+    raw = to_mapping(sample("gots-diesel"))
+    raw["masses"] = {"piston_group_kg": 1.3, "rod_kg": 1.8, "rod_small_end_share": 0.3}
+    assert not [p for p in load_mapping(raw, source="t").warnings if "доля" in p.line()]
+    text = text_of(load_mapping(raw, source="t").model)
+    assert "Вне пределов" not in text
+    assert re.search(r"на поршневом пальце 0,2…0,3\s*0,3000\s*да", text)
+
+
+@pytest.mark.parametrize(
+    "offset, said", [(9.0, "углы, меньшие φ1, относятся к концу"), (-9.0, "720° + φ1, относятся")]
+)
+def test_angles_beyond_the_dead_centre_are_of_the_right_cycle(offset, said):
+    text = text_of(in_line([1, 3, 2], geometry={"crank_offset_mm": offset}))
+    assert said in text and text.count("относятся к") == 1
+
+
+def test_clearances_are_called_accepted_only_if_they_are():
+    given = {f"{of}_clearance_{end}_mm": 0.05 for of in ("pin", "main") for end in ("min", "max")}
+    assert "Зазоры, которые не заданы" in text_of(in_line([1, 3, 2], bearings={}))
+    assert "Зазоры, которые не заданы" not in text_of(in_line([1, 3, 2], bearings=given))

@@ -86,10 +86,17 @@ def test_a_share_on_the_end_of_its_span_is_within_it():
 )
 def test_angles_beyond_the_dead_centre_are_of_the_right_cycle(offset, said):
     text = text_of(in_line([1, 3, 2], geometry={"crank_offset_mm": offset}))
-    assert said in text and text.count("относятся к") == 1
+    assert said in text and len(re.findall("углы, (?:меньшие|большие)", text)) == 1
 
 
 def test_clearances_are_called_accepted_only_if_they_are():
     given = {f"{of}_clearance_{end}_mm": 0.05 for of in ("pin", "main") for end in ("min", "max")}
     assert "Зазоры, которые не заданы" in text_of(in_line([1, 3, 2], bearings={}))
     assert "Зазоры, которые не заданы" not in text_of(in_line([1, 3, 2], bearings=given))
+
+
+def test_an_oil_hole_that_the_fine_step_puts_elsewhere_is_told_in_every_chapter():
+    text = text_of(in_line([1, 3, 2], calculation={"step_deg": 30.0}))
+    assert "αм = 270° (при шаге 1° — 300°) от колена" in text
+    assert "по диаграмме износа (при шаге 1° — 300°: моменты при шаге 1° относятся" in text
+    assert "под углом 270° (при шаге 1° — 300°) от колена" in text

@@ -4,7 +4,7 @@ import re
 
 import pytest
 from bare_pages import bare_page, plain
-from test_report_sentences import assert_claims_hold, text_of
+from test_report_sentences import assert_claims_hold, engine, text_of
 
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
@@ -100,3 +100,12 @@ def test_an_oil_hole_that_the_fine_step_puts_elsewhere_is_told_in_every_chapter(
     assert "αм = 270° (при шаге 1° — 300°) от колена" in text
     assert "по диаграмме износа (при шаге 1° — 300°: моменты при шаге 1° относятся" in text
     assert "под углом 270° (при шаге 1° — 300°) от колена" in text
+
+
+def test_a_lean_gas_engine_leaves_nothing_unburnt():
+    """α of 1.8 is usual for gas: what is said of want of air is for rich mixtures."""
+    lean = {"cycle__fuel": "methane", "cycle__excess_air": 1.8, "cycle__h2_co_ratio": None}
+    text = text_of(engine(source="cycle-petrol", **lean))
+    assert "Воздуха достаточно, поэтому CO и H2 в продуктах нет" in text
+    assert "Недостаток воздуха" not in text
+    assert "Недостаток воздуха" in text_of(engine(source="cycle-petrol"))

@@ -109,3 +109,16 @@ def test_a_lean_gas_engine_leaves_nothing_unburnt():
     assert "Воздуха достаточно, поэтому CO и H2 в продуктах нет" in text
     assert "Недостаток воздуха" not in text
     assert "Недостаток воздуха" in text_of(engine(source="cycle-petrol"))
+
+
+def test_no_name_from_the_input_brings_a_sign_that_the_font_lacks():
+    raw = to_mapping(sample("gots-regimes"))
+    rotor = {"name": "ротор 🚀", "inertia_kg_m2": 1.0, "stiffness_nm_rad": 1e6}
+    raw["torsion"] = {"masses": [rotor, {"name": "🚀", "inertia_kg_m2": 0.1, "throw": 1}]}
+    raw["engine"]["name"] = "🚀 дизель"
+    for regime in (raw["regime"], *raw["regimes"]):
+        regime["name"] += " 🚀"
+    raw["report"] |= dict.fromkeys(("student", "title", "institution", "designation"), "🚀")
+    raw["report"]["detail"] = "full"
+    text = text_of(load_mapping(raw, source="t").model)
+    assert "🚀" not in text and "ротор □" in text

@@ -119,6 +119,7 @@ def companions(chapter: Chapter) -> Markup:
         round=all(_is_round(terms, f"{letter}1_before") for letter in "FL"),
         over_turn=_over_turn(terms, after=after),
         flywheel=_fine_flywheel(chapter),
+        flywheel_needed=_is_flywheel_needed(terms),
         rod_given=chapter.input.masses.rod_kg is not None,
     )
 
@@ -218,6 +219,11 @@ def _devices(chapter: Chapter, asked: set[str]) -> TablePlan | None:
     return chapter.scalars("Противовесы и балансирные валы", keys, size="dense", keep=True)
 
 
+def _is_flywheel_needed(terms: Terms) -> bool:
+    """Whether the required evenness asks for a flywheel that can be printed."""
+    return bool(terms.num("I_flywheel").strip(_ZERO))
+
+
 def _fine_flywheel(chapter: Chapter) -> Markup | str:
     """Inertia of the flywheel by the fine step where the table's own cannot carry it."""
     off = {error.key: error for error in chapter.terms.grid_errors}
@@ -225,7 +231,7 @@ def _fine_flywheel(chapter: Chapter) -> Markup | str:
         return ""
     error = off.get("I_flywheel")
     if error is None:
-        return chapter.terms.val("I_flywheel") if chapter.terms.value("I_flywheel") > 0 else ""
+        return chapter.terms.val("I_flywheel") if _is_flywheel_needed(chapter.terms) else ""
     return chapter.fine(error)
 
 

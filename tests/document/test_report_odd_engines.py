@@ -4,7 +4,7 @@ import re
 
 import pytest
 from bare_pages import bare_page, plain
-from test_report_sentences import assert_claims_hold, engine, text_of
+from test_report_sentences import assert_claims_hold, engine, numbers_in, printed_rows, text_of
 
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
@@ -33,7 +33,8 @@ def in_line(order, strokes=4, offsets=None, **sections):
         raw["gas"]["scavenge_start_before_bdc_deg"] = 40.0
     raw["report"]["detail"] = "full"
     for section, keys in sections.items():
-        raw[section] = {**raw.get(section, {}), **keys}
+        old = {} if section == "balance" else raw.get(section, {})
+        raw[section] = old | keys
     return load_mapping(raw, source="t.toml").model
 
 
@@ -122,3 +123,33 @@ def test_no_name_from_the_input_brings_a_sign_that_the_font_lacks():
     raw["report"]["detail"] = "full"
     text = text_of(load_mapping(raw, source="t").model)
     assert "🚀" not in text and "ротор □" in text
+
+
+def test_forces_left_by_shafts_are_told_only_if_shafts_are_asked_for():
+    """Four cylinders in line: their force of the second order stays where nothing takes it."""
+    plain_page = bare_page(in_line([1, 3, 4, 2]))
+    heads = "Свободные силы и моменты инерции по порядкам"
+    (force,) = (row[4] for row in printed_rows(plain_page, heads) if row[0] == "2")
+    assert all(len(row) == 6 for row in printed_rows(plain_page, heads))
+    page = bare_page(in_line([1, 3, 4, 2], balance={"second_shafts_share": 0.5}))
+    (row,) = (row for row in printed_rows(page, heads) if row[0] == "2")
+    assert numbers_in([[row[6]]])[0] == pytest.approx(numbers_in([[force]])[0] / 2, abs=1e-4)
+    assert "снимают долю 0,5 сил и моментов второго порядка." in plain(page)
+
+
+@pytest.mark.parametrize("named", ["counterweight_share", "first_shafts_share"])
+def test_a_device_that_is_named_brings_no_other(named):
+    model = in_line([1, 3, 4, 2], balance={named: 0.4})
+    shares = {"counterweight_share", "first_shafts_share", "second_shafts_share"}
+    assert {key: getattr(model.balance, key) for key in shares} == {
+        key: 0.4 if key == named else 0.0 for key in shares
+    }
+    assert "второго порядка." not in text_of(model).partition("Балансирные валы")[2][:60]
+
+
+def test_shafts_against_no_force_carry_no_weight_of_zero():
+    """Five cylinders in line have moments alone."""
+    text = text_of(in_line([1, 2, 4, 5, 3], balance={"first_shafts_share": 1.0}))
+    assert "Сил первого порядка двигатель не даёт, грузы против них не нужны." in text
+    assert "моменты в той же доле снимают противоположные грузы" in text
+    assert "Масса груза каждого вала" not in text

@@ -287,7 +287,7 @@ def test_a_rod_is_modelled_only_if_its_mass_is_not_given():
 def test_shafts_are_told_only_if_asked_for():
     assert "Балансирные валы" not in words_of()
     asked = text_of(engine(source="vw-1600", balance__first_shafts_share=0.5))
-    assert "Балансирные валы снимают доли" in asked
+    assert "Балансирные валы снимают долю 0,5 сил и моментов первого порядка." in asked
 
 
 def test_a_department_is_called_so_once():

@@ -153,3 +153,14 @@ def test_shafts_against_no_force_carry_no_weight_of_zero():
     assert "Сил первого порядка двигатель не даёт, грузы против них не нужны." in text
     assert "моменты в той же доле снимают противоположные грузы" in text
     assert "Масса груза каждого вала" not in text
+
+
+def test_one_cylinder_stands_in_no_row():
+    text = text_of(sample("two-stroke"))
+    assert "Двигатель одноцилиндровый, двухтактный. Схема" in text and "рядный, дву" not in text
+
+
+def test_the_conclusion_has_no_digits_of_a_frequency_that_nobody_knows():
+    text = text_of(in_line([1, 3, 2], torsion={}))
+    said = re.search("частота крутильных колебаний вала ([0-9,]+) Гц", text).group(1)
+    assert len(said.replace(",", "")) == 4

@@ -164,3 +164,14 @@ def test_the_conclusion_has_no_digits_of_a_frequency_that_nobody_knows():
     text = text_of(in_line([1, 3, 2], torsion={}))
     said = re.search("частота крутильных колебаний вала ([0-9,]+) Гц", text).group(1)
     assert len(said.replace(",", "")) == 4
+
+
+CHAPTERS = ("kinematics", "dynamics", "torque", "crankpin", "journals", "bearings", "running",
+            "torsion", "oil", "companions", "checks")  # fmt: skip
+
+
+@pytest.mark.parametrize("chapter", CHAPTERS)
+def test_a_chapter_alone_leaves_no_gap_where_a_number_of_another_would_stand(chapter):
+    extra = {"torsion": {}, "bearings": {}, "report": {"chapters": [chapter]}}
+    text = text_of(in_line([1, 3, 2], **extra))
+    assert re.findall(r"(?:формуле|таблиц(?:е|ах)|рисунк(?:е|ах)|главе) [.,;)]", text) == []

@@ -175,3 +175,12 @@ def test_a_chapter_alone_leaves_no_gap_where_a_number_of_another_would_stand(cha
     extra = {"torsion": {}, "bearings": {}, "report": {"chapters": [chapter]}}
     text = text_of(in_line([1, 3, 2], **extra))
     assert re.findall(r"(?:формуле|таблиц(?:е|ах)|рисунк(?:е|ах)|главе) [.,;)]", text) == []
+
+
+def test_work_that_a_slow_rise_takes_is_told_as_such():
+    """The cycle burns at once: the same diagram with an early, slow rise does less work."""
+    early = {"gas__injection_advance_deg": 30.0, "gas__ignition_delay_deg": 2.0}
+    text = text_of(engine(source="cycle-petrol", **early))
+    assert "здесь давление растёт от φc на протяжении θоп" in text
+    assert "Значит, индикаторная диаграмма" not in text
+    assert "растёт от φc на протяжении" not in text_of(engine(source="cycle-petrol"))

@@ -6,6 +6,7 @@ import pytest
 from bare_pages import bare_page, plain
 from test_report_sentences import assert_claims_hold, engine, numbers_in, printed_rows, text_of
 
+from reports.inputs.checks.grid import grid_remark
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.solved import solved
@@ -184,3 +185,11 @@ def test_work_that_a_slow_rise_takes_is_told_as_such():
     assert "здесь давление растёт от φc на протяжении θоп" in text
     assert "Значит, индикаторная диаграмма" not in text
     assert "растёт от φc на протяжении" not in text_of(engine(source="cycle-petrol"))
+
+
+@pytest.mark.parametrize("name", ["gots-diesel", "yamz-236", "two-stroke"])
+def test_no_number_of_a_journal_runs_into_its_load(name):
+    """«шейку 1 113,03 кН» is a load of 1113 kN to a reader."""
+    model = sample(name)
+    for text in (text_of(model), grid_remark(model)):
+        assert not re.findall(r"(?:шейк|подшипник|колен|цилиндр|опор)[а-я]* \d+ \d+,\d", text)

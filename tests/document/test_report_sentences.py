@@ -134,7 +134,7 @@ def assert_pins_agree(model, text):
     for key, digits, said in (
         (f"Rpin{pin}_mean", 3, f"Средняя нагрузка R′ш.ш{pin} ср = "),
         (f"Rpin{pin}_max", 3, r"\. Наибольшая "),
-        (f"Rpin{pin}_max_kN", 2, f"наибольшая нагрузка на шатунную шейку{number} "),
+        (f"Rpin{pin}_max_kN", 2, f"наибольшая нагрузка на шатунную шейку{number} — "),
         (f"hole_pin{pin}_deg", 0, f"отверстие шатунной шейки{number} следует сверлить под углом "),
     ):
         found = re.search(said + r"([\d,]+)", text)

@@ -63,7 +63,7 @@ def test_the_commands_name_the_grid(command):
     path = samples_dir() / "yamz-236.toml"
     done = CliRunner().invoke(main, [command, str(path)])
     assert done.exit_code == 0
-    assert re.search(r"Шаг таблиц 10° .*наибольший суммарный момент 2374 вместо 2557", done.stdout)
+    assert re.search(r"Шаг таблиц 10° .*наибольший суммарный момент: 2374 вместо 2557", done.stdout)
 
 
 def test_an_oil_hole_that_the_fine_step_puts_elsewhere_is_told():

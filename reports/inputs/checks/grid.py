@@ -155,4 +155,4 @@ def _said(error: GridError) -> str:
     q = error.quantity
     coarse, fine = (written(value, q.digits) for value in (error.coarse, error.fine))
     unit = q.unit_label if q.unit_label in ("", "°") else f"{NBSP}{q.unit_label}"
-    return f"{q.title} {coarse} вместо {fine}{unit}"
+    return f"{q.title}: {coarse} вместо {fine}{unit}"

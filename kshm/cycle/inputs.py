@@ -124,6 +124,8 @@ _KIND_LIMITS: dict[Kind, dict[str, tuple[float, float]]] = {
     "diesel": {"compression_ratio": (10, 26), "excess_air": (1.0, 8.0)},
     "petrol": {"compression_ratio": (4, 16), "excess_air": (0.6, 1.6)},
 }
+_GAS = 45.0  # molar mass of propane and lighter [kg/kmol]: gases burn where vapours do not
+_LEAN_GAS = {"excess_air": (0.6, 2.5)}
 # Why an input may not leave its range, where it is more than a number out of hand
 _REASONS = {
     ("excess_air", "diesel", True): "diesel_smokes",
@@ -162,6 +164,8 @@ def check_inputs(inputs: CycleInputs) -> None:
         raise CycleError("cylinders_not_whole", "cylinders", cylinders=inputs.cylinders)
     check_fuel(inputs.fuel)
     kind_limits = _KIND_LIMITS[inputs.kind]
+    if inputs.kind == "petrol" and inputs.fuel.vapour_molar_mass <= _GAS:
+        kind_limits = kind_limits | _LEAN_GAS
     for field in (*(name for name in LIMITS if hasattr(inputs, name)), *kind_limits):
         value = getattr(inputs, field)
         if value is not None and field != "mechanical":

@@ -198,7 +198,8 @@ def _print_summary(scalars: dict[str, float], small: int) -> None:
             continue
         about = quantity(key, small)
         text = written(value, about.digits)
-        click.echo(f"{about.title}: {about.symbol} = {text} {about.unit_label}".rstrip())
+        gap = "" if about.unit_label == "°" else " "
+        click.echo(f"{about.title}: {about.symbol} = {text}{gap}{about.unit_label}".rstrip())
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)

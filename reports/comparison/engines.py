@@ -16,6 +16,7 @@ from reports.shared.errors import InputError, Problem
 from reports.shared.russian import capital
 from reports.spec.charts import PHI
 from reports.spec.shape import pin_name, pin_table
+from reports.tables.overview.unused import given_by_cycle
 
 if TYPE_CHECKING:
     from kshm.results.solution import Solution
@@ -184,9 +185,10 @@ def differences(engines: Sequence[Compared]) -> tuple[Difference, ...]:
 
 def _gathered(model: InputFile) -> Iterator[tuple[str, tuple[Field, str | int | float]]]:
     lists: dict[str, list[Field]] = {}
+    found = given_by_cycle(model)
     for field in iter_fields(model):
         path = field.path
-        if path[0] in _NOT_COMPARED or path == ("engine", "name"):
+        if path[0] in _NOT_COMPARED or path == ("engine", "name") or field.name in found:
             continue
         if not any(isinstance(part, int) for part in path):
             label = (field.choices or {}).get(str(field.value), field.value)

@@ -78,6 +78,23 @@ def sequence(offsets: Sequence[float]) -> tuple[int, ...]:
     return tuple(i for _, i in rows)
 
 
+def strokes_at(offsets: Sequence[float], period: float) -> dict[float, tuple[int, ...]]:
+    """Cylinders whose power strokes begin at each angle of the cycle [deg], in its order."""
+    angles = [round(offset % period, 6) % period for offset in offsets]
+    return {
+        at: tuple(i for i, angle in enumerate(angles, 1) if angle == at)
+        for at in sorted(set(angles))
+    }
+
+
+def order_text(offsets: Sequence[float], period: float) -> str:
+    """``1–3–4–2``; cylinders that fire together stand in brackets: ``(1, 2)–(3, 4)``."""
+    groups = strokes_at(offsets, period).values()
+    return "–".join(
+        str(group[0]) if len(group) == 1 else f"({', '.join(map(str, group))})" for group in groups
+    )
+
+
 def _write_out(text: str, cylinders: int, period: float, shaft: dict[str, Any]) -> list[Finding]:
     if not _ORDER.fullmatch(text.strip()):
         what = "порядок работы записан непонятно"

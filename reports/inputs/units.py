@@ -72,6 +72,11 @@ J_KG_K = Unit("j_kg_k", "Дж/(кг·К)")
 MPA_S_M = Unit("mpa_s_m", "МПа·с/м", times=1e6)
 
 
+def is_within(value: float, span: tuple[float, float]) -> bool:
+    """Whether a quotient lies in a span, its ends too: 0.3 as 1 − 104.3/149 is a little more."""
+    return span[0] <= round(value, 9) <= span[1]
+
+
 def span_text(low: float, high: float) -> str:
     """Both ends of a span as a sentence writes them: ``от 0,15 до 0,45``."""
     return f"от {number_text(low)} до {number_text(high)}"

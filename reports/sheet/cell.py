@@ -61,6 +61,14 @@ def headed(canvas: Canvas, room: Room, title: str, lines: tuple[str, ...] = ()) 
     return Room(room.left, room.low, room.width, y + 0.6 * TEXT - room.low)
 
 
+def _shown(dash: Dash) -> Dash:
+    """Dashes so short that a sample shows them all, with the first one at both its ends."""
+    if not dash:
+        return dash
+    share = min(1.0, _SAMPLE / (sum(dash) + dash[0]))
+    return tuple(round(share * part, 2) for part in dash)
+
+
 def legend(canvas: Canvas, room: Room, names: list[Name]) -> Room:
     """Dashes with the names of curves in lines; what is left of the room."""
     x, y = room.left + 2, room.high - TEXT - 1
@@ -69,7 +77,7 @@ def legend(canvas: Canvas, room: Room, names: list[Name]) -> Room:
         if x > room.left + 2 and x + _SAMPLE + 2 + words.width > room.right:
             x, y = room.left + 2, y - 1.8 * TEXT
         middle = y + TEXT / 2
-        canvas.line((x, middle), (x + _SAMPLE, middle), layer=THIN, dash=name.dash)
+        canvas.line((x, middle), (x + _SAMPLE, middle), layer=THIN, dash=_shown(name.dash))
         canvas.words((x + _SAMPLE + 2, y), name.text, TEXT)
         x += _SAMPLE + 8 + words.width
     return Room(room.left, room.low, room.width, y - 2 - room.low)

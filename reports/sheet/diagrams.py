@@ -233,7 +233,7 @@ def wear(canvas: Canvas, room: Room, terms: Terms, chart: ChartSpec) -> None:
     scale = round_scale(0.0, float(sums.max()) or 1.0, 0.62 * radius)
     unit = scale.unit
     hole = terms.value(chart.hole)
-    said = f"М {unit_text(unit)} МПа в мм; отверстие {fixed((hole + 180) % 360 - 180, 0)}°"
+    said = f"М {unit_text(unit)} МПа в мм; отверстие {terms.num(chart.hole)}°"
     canvas.words((room.middle[0], room.high - TEXT - 1), said, TEXT, align=0.5)
     centre = (_whole(room.middle[0]), _whole(room.low + radius + 10))
     canvas.circle(centre, radius, layer=CONTOUR)

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from reports.document.text.terms import Terms
 from reports.drawing.lettering import fitted
 from reports.drawing.primitives import AXES, CONTOUR, SIZES, THIN, Canvas, Point, polar
+from reports.inputs.firing import order_text
 from reports.shared.russian import fixed
 from reports.sheet.cell import TEXT, Room, headed
 from reports.spec.shape import Shape
@@ -16,19 +17,13 @@ _BEARING = 5.0  # half a bearing on the scheme
 _SECOND = ("F_order_kN", "M_order_Nm")
 
 
-def firing_order(terms: Terms) -> str:
-    """Cylinders in the order of their power strokes: ``1–3–4–2``."""
-    offsets = terms.model.input.crankshaft.firing_offsets_deg
-    period = Shape.of(terms.model.input).period
-    order = sorted(range(len(offsets)), key=lambda i: (offsets[i] % period, i))
-    return "–".join(str(i + 1) for i in order)
-
-
 def shaft(canvas: Canvas, room: Room, terms: Terms) -> None:
     """The shaft from the side and from the nose with the firing order."""
-    angles = terms.model.input.crankshaft.throw_angles_deg
-    order = f"Порядок работы {firing_order(terms)}"
-    room = headed(canvas, room, "Схема коленчатого вала", (order,))
+    crankshaft = terms.model.input.crankshaft
+    angles = crankshaft.throw_angles_deg
+    offsets, period = crankshaft.firing_offsets_deg, Shape.of(terms.model.input).period
+    order = (f"Порядок работы {order_text(offsets, period)}",) if len(offsets) > 1 else ()
+    room = headed(canvas, room, "Схема коленчатого вала", order)
     star = min(room.width * 0.16, room.height / 2 - 12)
     side = Room(room.left + 4, room.low, room.width - 2 * star - 34, room.height)
     _from_side(canvas, side, angles, with_weights=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+from dataclasses import replace
 
 from reports.document.figures.parts import mechanism_of, throws_of
 from reports.document.page.render import render_pdf
@@ -69,9 +70,13 @@ def sheet_pdf(items: list[Item], width: float, height: float, model: Model) -> b
     """A sheet of a size [mm] as PDF, lines and letters as such."""
     from html import escape
 
-    svg = svg_of(items, (0.0, 0.0, width, height))
+    letters = (
+        replace(item, text=fonts.printable(item.text)) if isinstance(item, Words) else item
+        for item in items
+    )
+    svg = svg_of(list(letters), (0.0, 0.0, width, height))
     page = _PAGE.format(
-        title=escape(f"Лист динамики. {model.input.engine.name}"),
+        title=escape(fonts.printable(f"Лист динамики. {model.input.engine.name}")),
         year=model.input.report.year,
         fonts=fonts.fonts_css(),
         stack=fonts.STACK,

@@ -16,8 +16,10 @@ from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.worksheet import Worksheet
 
+from kshm.nomenclature.quantity import quantity
 from reports.formula.excel import compile_formula
 from reports.formula.numeric import evaluate
+from reports.inputs.to_si.engine import smallness_of
 from reports.spec.blocks import Model
 from reports.spec.shape import Shape
 from reports.tables.loads.cylinder import cylinder_table_id
@@ -30,6 +32,8 @@ from reports.workbook.sheets import Writer
 
 SHEET = "Механизм"
 ANGLE, CYLINDER = "view_phi_deg", "view_cylinder"
+# Values whose size goes with the engine's: they have the decimals of their columns.
+_AS_IN_TABLES = {"gas_V": "volume_dm3", "torque": "Msum_Nm"}
 _FORCES = {"P": "Ps_MPa", "N": "N_MPa", "S": "S_MPa", "T": "T_MPa", "K": "K_MPa"}
 _TABLES = ("P4_1", "P4_2", "gas", "crankpin")
 _BOX = "crankpin_box.box"  # limits of the pin's diagram
@@ -92,7 +96,7 @@ def write_motion(book: Workbook, model: Model, writer: Writer) -> list[Box]:
         sheet.column_dimensions[letter].width = width
     _choices(book, sheet, model, view, own)
     _by_cylinder(sheet, writer, view, own, shape)
-    _chosen(sheet, writer, view, shape)
+    _chosen(sheet, writer, view, shape, smallness_of(model.input))
     drawn = _drawings(sheet, writer, view, shape)
     return _charts(sheet, writer, drawn)
 
@@ -170,7 +174,7 @@ def _by_cylinder(
         view.values[f"all_{key}"] = np.array([view.values[f"{key}_{i}"] for i in numbers])
 
 
-def _chosen(sheet: Worksheet, writer: Writer, view: _View, shape: Shape) -> None:
+def _chosen(sheet: Worksheet, writer: Writer, view: _View, shape: Shape, small: int) -> None:
     """What is known of the chosen cylinder: angles, forces, pressure, torque."""
 
     def at_psi(column: str) -> str:
@@ -206,6 +210,9 @@ def _chosen(sheet: Worksheet, writer: Writer, view: _View, shape: Shape) -> None
         sheet.cell(row, 1, title).style = styles.TEXT
         sheet.cell(row, 3, unit or None).style = styles.TEXT
         _put(sheet, writer, view, (row, 2), key, text)
+        if key in _AS_IN_TABLES:
+            look = styles.excel_format(quantity(_AS_IN_TABLES[key], small))
+            sheet.cell(row, 2).number_format = look
 
 
 def _shapes(shape: Shape) -> dict[str, list[tuple[str, str]]]:

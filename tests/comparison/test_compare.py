@@ -46,6 +46,13 @@ def run(*args):
     return done.exit_code, done.output
 
 
+def test_an_efficiency_that_the_cycle_finds_is_no_datum():
+    """Friction A + B·c_m: the default of 1 is taken nowhere, and the report leaves it out too."""
+    found = engines(("d-240", "cycle-petrol"))
+    (shown,) = (d for d in differences(found) if d.title == "Механический КПД")
+    assert shown.values[1] is None
+
+
 def test_values_are_those_of_each_engine_alone():
     rows = {row.key: row for row in results(engines())}
     for number, file in enumerate(sources(THREE)):

@@ -1,9 +1,12 @@
 import math
 import re
 
+import numpy as np
 import pytest
 
 from reports.document.figures.curves import Curve, Panel, curves_figure
+from reports.document.figures.labels import text_size
+from reports.document.figures.style import SMALL
 from tests.document.figure_samples import FIGURES, FORCE, PHI, T, texts
 
 
@@ -44,3 +47,28 @@ def test_not_finite_is_refused(bad):
 def test_shapes_are_checked():
     with pytest.raises(ValueError, match="Кривая «a»"):
         one(T[:-1])
+
+
+def rays(count):
+    """A Campbell diagram: rays from one point leave no room for names beside them."""
+    speed = np.array([0.0, 17160.0])
+    curves = [Curve(f"$\\nu = {2 * n}$", speed * n / 30) for n in range(1, count + 1)]
+    return curves_figure(speed, [Panel(curves, "$f$, Гц")], "$n$, мин⁻¹", angle=False)
+
+
+@pytest.mark.parametrize("count", [3, 6, 9])
+def test_all_rows_of_a_legend_stand_on_the_sheet(count):
+    drawn = rays(count)
+    assert sum("= " in text or text.strip().isdigit() for text in texts(drawn)) >= count
+    tops = [float(y) - 0.7 * float(size) for size, y in
+            re.findall(r'<text[^>]*font-size="([\d.]+)"[^>]* y="(-?[\d.]+)"', drawn)]  # fmt: skip
+    assert len(tops) > count and min(tops) >= 0
+
+
+def test_the_name_of_an_axis_keeps_off_its_last_number():
+    drawn = rays(3)
+    placed = re.findall(r"<text([^>]*)>([^<]*)</text>", drawn)
+    ((last, _),) = [p for p in placed if p[1] == "20\xa0000"]
+    ((name, _),) = [p for p in placed if p[1] == "n"]
+    start, end = (float(re.search(r' x="([\d.]+)"', look).group(1)) for look in (last, name))
+    assert end >= start + text_size("20\xa0000", SMALL)[0]

@@ -232,6 +232,11 @@ def test_solve_writes_csv_in_the_golden_shape(tmp_path: Path) -> None:
     assert len(data["tables"]["P4_1"]["rows"]) == 73
 
 
+def test_solve_writes_a_degree_beside_its_number() -> None:
+    said = kshm("solve", SAMPLES / "gots-diesel.toml").stdout
+    assert "°" in said and " °" not in said
+
+
 def test_solve_json_to_stdout_is_json_alone() -> None:
     done = kshm("solve", SAMPLES / "gots-diesel.toml", "--json", "-")
     assert done.returncode == 0

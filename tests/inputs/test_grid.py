@@ -2,6 +2,7 @@
 
 import re
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
@@ -62,4 +63,14 @@ def test_the_commands_name_the_grid(command):
     path = samples_dir() / "yamz-236.toml"
     done = CliRunner().invoke(main, [command, str(path)])
     assert done.exit_code == 0
-    assert re.search(r"Шаг таблиц 10° .*наибольший суммарный момент 2374 вместо 2557", done.stdout)
+    assert re.search(r"Шаг таблиц 10° .*наибольший суммарный момент: 2374 вместо 2557", done.stdout)
+
+
+def test_an_oil_hole_that_the_fine_step_puts_elsewhere_is_told():
+    model = stepped("gots-diesel", 30.0)
+    coarse, fine = scalars(model), scalars(stepped("gots-diesel", 1.0))
+    assert round(coarse["hole_pin_deg"]) == 270 and round(fine["hole_pin_deg"]) == 300
+    (found,) = (e for e in grid_errors(model) if e.key == "hole_pin_deg")
+    assert (round(found.coarse), round(found.fine)) == (270, 300)
+    assert np.isinf(found.percent)  # no share of an angle
+    assert not [e for e in grid_errors(stepped("yamz-236", 10.0)) if "hole" in e.key]

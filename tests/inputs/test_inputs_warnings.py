@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.shared.errors import InputError
-from tests.conftest import sample
+from tests.conftest import ROOT, sample
 
 CASES = {
     "long rod": (
@@ -99,3 +99,10 @@ def test_numbers_in_sentences_have_a_decimal_comma(changes):
         for found in re.finditer(r"\d+\.\d+(?![\d.]|\w)", line):
             before = line[: found.start()]
             assert re.search(f"(?:{TYPED.pattern})$", before) or "п." in before[-4:], line
+
+
+def test_spans_in_the_words_of_the_checks_have_a_decimal_comma():
+    """Random files rarely meet each check: the words themselves are read too."""
+    for path in sorted((ROOT / "reports").rglob("*.py")):
+        found = re.findall(r"\b(?:от|до) \d+\.\d+", path.read_text("utf-8"))
+        assert not found, f"{path}: {found}"

@@ -37,6 +37,15 @@ def test_names_of_diagrams_are_stated_once():
     assert set(sheet.USUAL) < set(sheet.DIAGRAMS)
 
 
+def test_signs_that_the_font_lacks_do_not_stop_the_sheet(tmp_path):
+    text = (samples_dir() / "d-240.toml").read_text(encoding="utf-8")
+    path = tmp_path / "own.toml"
+    path.write_text(text.replace("Дизель Д-240", "Дизель 🚀 <Д> & «240»"), encoding="utf-8")
+    code, output = run("build", path, "--only", "sheet", "-o", tmp_path / "out")
+    assert code == 0, output
+    assert "внутренняя ошибка" not in output
+
+
 def test_the_command_writes_pdf_and_dxf(tmp_path):
     code, said = run("build", source(tmp_path), "--only", "sheet", "-o", tmp_path / "out")
     assert code == 0, said

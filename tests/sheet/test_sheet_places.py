@@ -6,7 +6,7 @@ import itertools
 
 import pytest
 
-from reports.drawing.primitives import Words, box_of, overlap
+from reports.drawing.primitives import THIN, Line, Words, box_of, overlap
 from reports.inputs.sections.sheet import DIAGRAMS, USUAL, SheetSection
 from reports.sheet.layout import SIZES, cells
 from reports.sheet.stamp import HEIGHT, MARGINS, WIDTH
@@ -63,3 +63,20 @@ def test_everything_at_once():
 @pytest.mark.parametrize("name", MAKERS)
 def test_every_layout_has_a_sheet(name):
     assert faults(terms_of(made(name, step_deg=30))) == []
+
+
+def test_a_sample_in_the_legend_shows_how_its_line_is_broken():
+    canvas, *_ = drawn(terms("d-240"))
+    lines = [item for item in canvas.items if isinstance(item, Line) and len(item.points) == 2]
+    samples = [line for line in lines if line.dash and line.layer is THIN]
+    assert len(samples) > 3
+    for sample in samples:
+        (left, _), (right, _) = sample.points
+        assert right - left >= sum(sample.dash) + sample.dash[0] - 0.1
+
+
+def test_the_place_of_an_oil_hole_is_the_reports():
+    model = terms("d-240")
+    canvas, *_ = drawn(model)
+    said = [item.text for item in canvas.items if isinstance(item, Words)]
+    assert any(text.endswith(f"отверстие {model.num('hole_pin_deg')}°") for text in said)

@@ -8,14 +8,21 @@ from functools import lru_cache
 
 import formualizer
 import numpy as np
+import openpyxl
 import pytest
 from lxml import etree
 
 from kshm import solve
 from kshm.mechanics.kinematics import displacement_exact
+from reports.inputs.fields import to_mapping
+from reports.inputs.load import load_mapping
 from reports.inputs.to_si.engine import engine_and_cycle
+from reports.spec.evaluation import evaluate_model
+from reports.tables.registry import build_model
 from reports.workbook.caches import sheet_parts
 from reports.workbook.motion import SHEET
+from reports.workbook.write import workbook_bytes
+from tests.conftest import sample
 from tests.workbook.lint import MAIN
 from tests.workbook.made import book, model
 from tools.referees.by_libreoffice import LibreOffice
@@ -26,6 +33,19 @@ TOLERANCE = 1e-9
 ANGLES = range(0, 720, 10)
 _R = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
 _T = "application/vnd.openxmlformats-officedocument.spreadsheetml.worksheet+xml"
+
+
+def test_a_model_engine_shows_its_volume() -> None:
+    """A cylinder of 2.5 cm³ has no volume of «0,000 dm³»."""
+    raw = to_mapping(sample("two-stroke"))
+    raw["geometry"] |= {"bore_mm": 15.0, "stroke_mm": 14.0, "rod_length_mm": 26.0}
+    small = build_model(load_mapping(raw, source="t.toml").model)
+    data = workbook_bytes(small, evaluate_model(small))
+    sheet = openpyxl.load_workbook(io.BytesIO(data), data_only=True)[SHEET]
+    (at,) = (row for row in range(4, 32) if sheet.cell(row, TITLES).value == "Объём V")
+    cell = sheet.cell(at, 2)
+    decimals = len(cell.number_format.partition(".")[2])
+    assert cell.value * 10**decimals > 100
 
 
 @lru_cache

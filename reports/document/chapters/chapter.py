@@ -17,6 +17,7 @@ from reports.document.page.writer import TablePlan, Writer
 from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms, with_unit
 from reports.inputs.checks.grid import GridError
+from reports.inputs.firing import order_text, strokes_at
 from reports.inputs.sections.input_file import InputFile
 from reports.shared.russian import NBSP, fixed, joined, runs
 from reports.spec.blocks import Grid, Model
@@ -85,10 +86,13 @@ class Chapter:
 
     @property
     def order(self) -> str:
-        """Order in which the power strokes begin: ``1–3–4–2``."""
-        offsets = self.input.crankshaft.firing_offsets_deg
-        order = sorted(range(len(offsets)), key=lambda i: (offsets[i] % self.shape.period, i))
-        return "–".join(str(i + 1) for i in order)
+        """Order in which the power strokes begin: ``1–3–4–2``, ``(1, 2)–(3, 4)``."""
+        return order_text(self.input.crankshaft.firing_offsets_deg, self.shape.period)
+
+    @property
+    def strokes_at(self) -> dict[float, tuple[int, ...]]:
+        """Cylinders whose power strokes begin at each angle of the cycle [deg]."""
+        return strokes_at(self.input.crankshaft.firing_offsets_deg, self.shape.period)
 
     def page(self, template: str, **context: Any) -> Markup:  # noqa: ANN401
         """Render a template of the folder ``report`` with the tools and a chapter's own data."""
@@ -101,8 +105,9 @@ class Chapter:
             "table": self.writer.table,
             "at": self.example,
         }
-        own = ("input", "shape", "example", "exact", "order", "eq", "full", "sub", "ref", "book",
-               "tabs", "figs", "chart", "panels", "told", "printed_step", "whole")  # fmt: skip
+        own = ("input", "shape", "example", "exact", "order", "strokes_at", "eq", "full", "sub",
+               "ref", "book", "tabs", "figs", "chart", "panels", "told", "printed_step",
+               "whole")  # fmt: skip
         names |= {name: getattr(self, name) for name in own}
         text = self.environment.get_template(f"report/{template}.html.j2")
         return Markup(text.render(**names | context))

@@ -19,7 +19,7 @@ from reports.document.page.writer import TablePlan
 from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms
 from reports.inputs.to_si.engine import to_engine
-from reports.shared.russian import MINUS, NBSP, fixed, joined, written
+from reports.shared.russian import MINUS, NBSP, fixed, joined, short, written
 
 _MOST_ORDERS = 8
 
@@ -67,8 +67,9 @@ _DEVICES = {
     "first_shafts": "грузов валов первого порядка",
     "second_shafts": "грузов валов второго порядка",
 }
-_ORDERS = ["order", "order_amplitude", "order_cos", "order_sin", "F_order_kN", "M_order_Nm",
-           "F_left_kN", "M_left_Nm"]  # fmt: skip
+_ORDERS = ["order", "order_amplitude", "order_cos", "order_sin", "F_order_kN", "M_order_Nm"]
+_LEFT = ["F_left_kN", "M_left_Nm"]  # behind balance shafts
+_SHAFTS = {"first_shafts": "первого", "second_shafts": "второго"}
 _ORDERS_OF_BANKS = ["order", "order_amplitude", "F_order_kN", "F_order_min_kN", "F_order_dir_deg",
                     "M_order_Nm", "M_order_min_Nm", "M_order_dir_deg"]  # fmt: skip
 _TORQUE = ["order", "gas_amplitude_MPa", "gas_phase_deg", "inertia_amplitude_MPa",
@@ -86,11 +87,11 @@ def companions(chapter: Chapter) -> Markup:
         for name, (caption, keys) in _LISTS.items()
     }
     asked = _asked(chapter)
-    after = bool(asked - {"suppression"})
+    after, busy = bool(asked - {"suppression"}), asked - _idle(terms)
     tables |= _vectors(chapter, after=after) | {
-        "devices": _devices(chapter, asked),
+        "devices": _devices(chapter, busy),
         "orders": TablePlan(
-            partial(_orders, terms, banks=banks),
+            partial(_orders, terms, banks=banks, left=bool(_SHAFTS.keys() & asked)),
             "Свободные силы и моменты инерции по порядкам", keep=True,
         ),
         "torque": TablePlan(
@@ -113,12 +114,16 @@ def companions(chapter: Chapter) -> Markup:
         moves=not _is_balanced(terms, "L"),
         pulls=not _is_balanced(terms, "F"),
         counterweights="counterweight" in asked,
-        shafts=bool({"first_shafts", "second_shafts"} & asked),
-        shafts_second="second_shafts" in asked,
-        devices=joined([word for key, word in _DEVICES.items() if key in asked] or [""]),
+        shafts=[
+            (terms.num(f"balance_{key}_share"), of) for key, of in _SHAFTS.items() if key in asked
+        ],
+        idle=[of for key, of in _SHAFTS.items() if key in asked and key not in busy],
+        shafts_second="second_shafts" in busy,
+        devices=joined([word for key, word in _DEVICES.items() if key in busy] or [""]),
         round=all(_is_round(terms, f"{letter}1_before") for letter in "FL"),
         over_turn=_over_turn(terms, after=after),
         flywheel=_fine_flywheel(chapter),
+        flywheel_needed=_is_flywheel_needed(terms),
         rod_given=chapter.input.masses.rod_kg is not None,
     )
 
@@ -132,9 +137,9 @@ def _counted(terms: Terms, table: str, keys: Sequence[str]) -> TableBlock:
     return replace(block, rows=tuple((str(row[0])[:-2], *row[1:]) for row in block.rows))
 
 
-def _orders(terms: Terms, *, banks: bool) -> TableBlock:
+def _orders(terms: Terms, *, banks: bool, left: bool) -> TableBlock:
     """Forces and moments by orders; what is printed as zero has no direction."""
-    keys = _ORDERS_OF_BANKS if banks else _ORDERS
+    keys = _ORDERS_OF_BANKS if banks else [*_ORDERS, *(_LEFT if left else ())]
     block = _counted(terms, "balance_orders", keys)
     directions = {keys.index(key): keys.index(key.replace("dir_deg", unit))
                   for key, unit in (("F_order_dir_deg", "kN"), ("M_order_dir_deg", "Nm"))
@@ -163,6 +168,16 @@ def _asked(chapter: Chapter) -> set[str]:
         if key in given.asked and getattr(given, key) > 0
         for name in (key.removesuffix("_share"),)
     }
+
+
+def _idle(terms: Terms) -> set[str]:
+    """Balance shafts whose order makes no force: what they would carry is not found here."""
+    return {
+        name
+        for order, name in enumerate(_SHAFTS, 1)
+        if not any(terms.num(f"shaft{order}{side}_moment").strip(_ZERO) for side in ("", "_back")
+                   if terms.has(f"shaft{order}{side}_moment"))
+    }  # fmt: skip
 
 
 def _is_balanced(
@@ -218,13 +233,20 @@ def _devices(chapter: Chapter, asked: set[str]) -> TablePlan | None:
     return chapter.scalars("Противовесы и балансирные валы", keys, size="dense", keep=True)
 
 
+def _is_flywheel_needed(terms: Terms) -> bool:
+    """Whether the required evenness asks for a flywheel that can be printed."""
+    return bool(terms.num("I_flywheel").strip(_ZERO))
+
+
 def _fine_flywheel(chapter: Chapter) -> Markup | str:
     """Inertia of the flywheel by the fine step where the table's own cannot carry it."""
     off = {error.key: error for error in chapter.terms.grid_errors}
     if not {"I_flywheel", "W_range", "delta_speed"} & off.keys():
         return ""
     error = off.get("I_flywheel")
-    return chapter.terms.val("I_flywheel") if error is None else chapter.fine(error)
+    if error is None:
+        return chapter.terms.val("I_flywheel") if _is_flywheel_needed(chapter.terms) else ""
+    return chapter.fine(error)
 
 
 def _firing(chapter: Chapter) -> TableBlock:
@@ -240,7 +262,9 @@ def _firing(chapter: Chapter) -> TableBlock:
     rows = [
         (
             "–".join(map(str, ranked.order)),
-            ", ".join(fixed(gap, 0) for gap in np.degrees(intervals(np.array(ranked.offsets)))),
+            ", ".join(
+                short(round(gap, 2)) for gap in np.degrees(intervals(np.array(ranked.offsets)))
+            ),
             fixed(ranked.unevenness, 3),
             fixed(ranked.half_order if np.abs(ranked.half_order) > 1e-9 else 0.0, 3),
             of_digits(ranked.journal_load / 1000, load.digits),

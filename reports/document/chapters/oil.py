@@ -66,6 +66,10 @@ def oil(chapter: Chapter) -> Markup:
     return chapter.page(
         "oil",
         section=section,
+        clearances_given=all(
+            getattr(section, f"{of}_clearance_{end}_mm") is not None
+            for of in ("pin", "main") for end in ("min", "max")
+        ),
         material=MATERIALS[section.material].label,
         film=_FILM, numbers=_NUMBERS, safety_tex=_SAFETY,
         steady=TablePlan(partial(_steady, terms, cases), "Плёнка при средней нагрузке", keep=True),

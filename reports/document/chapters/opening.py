@@ -22,8 +22,8 @@ from reports.inputs.sections.gas import TableGasSection
 from reports.inputs.sections.input_file import InputFile
 from reports.shared.russian import joined
 from reports.spec.shape import Shape
-from reports.tables.gas.cycle_names import friction_by_speed, section_of
 from reports.tables.gas.diagram import is_smooth
+from reports.tables.overview.unused import unused
 
 _LISTS = ("firing_offset_", "throw_angle_", "force_offset_", "web_", "gas_point_")
 _ARMS = ("l1", "l2", "l3", "l4", "l5", "l6", "left_web", "right_web")
@@ -87,7 +87,7 @@ def input_data(chapter: Chapter) -> Markup:
     fields = chapter.model.inputs
     plans = {
         "inputs": TablePlan(
-            partial(_general, fields, _unused(model)), "Исходные данные для расчёта", size="dense"
+            partial(_general, fields, unused(model)), "Исходные данные для расчёта", size="dense"
         ),
         "phases": TablePlan(partial(_phases, fields, model), "Фазы работы цилиндров и углы колен"),
         "webs": TablePlan(partial(_webs, fields), "Щёки и их противовесы", keep=True),
@@ -109,21 +109,6 @@ def input_data(chapter: Chapter) -> Markup:
 
 def _is_listed(field: Field) -> bool:
     return field.name.startswith(_LISTS) or field.name.startswith("throw_")
-
-
-def _unused(model: InputFile) -> set[str]:
-    """Defaults that the calculation does not take: a table of data would deny the results."""
-    names = set()
-    cycle = section_of(model)
-    if cycle is not None:
-        names |= {"regime_fullness", "regime_indicated_power_kw"}
-        if friction_by_speed(cycle):
-            names.add("regime_mechanical_efficiency")
-    devices = {"counterweight_share", "first_shafts_share", "second_shafts_share", "suppression",
-               "shaft_radius_mm"}  # fmt: skip
-    if model.masses.rod_kg is not None:
-        devices.add("rod_small_end_share")
-    return names | {f"balance_{key}" for key in devices - model.balance.asked}
 
 
 def _general(fields: Sequence[Field], unused: set[str]) -> TableBlock:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from functools import partial
+from itertools import pairwise
 
 import numpy as np
 from markupsafe import Markup
@@ -14,7 +14,7 @@ from reports.document.page.blocks import Column, TableBlock, symbol_head, table_
 from reports.document.page.writer import TablePlan
 from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms
-from reports.shared.russian import fixed
+from reports.shared.russian import fixed, short
 from reports.tables.overview.summary import YES
 from reports.tables.overview.verdicts import reasons_of
 
@@ -63,13 +63,11 @@ def _powers(chapter: Chapter) -> TablePlan:
     return TablePlan(build, "Мощности расчёта цикла и динамического расчёта", keep=True)
 
 
-def _intervals(chapter: Chapter) -> str:
-    """Equal interval of the power strokes in degrees, empty if they are not equal."""
-    period = chapter.shape.period
-    offsets = sorted(value % period for value in chapter.input.crankshaft.firing_offsets_deg)
-    gaps = [b - a for a, b in zip(offsets, [*offsets[1:], offsets[0] + period], strict=True)]
-    counted = Counter(round(gap, 3) for gap in gaps)
-    return fixed(gaps[0], 0) if len(counted) == 1 else ""
+def _intervals(chapter: Chapter) -> list[str]:
+    """The different intervals between the beginnings of the power strokes [deg]."""
+    starts = list(chapter.strokes_at)
+    gaps = [b - a for a, b in pairwise([*starts, starts[0] + chapter.shape.period])]
+    return [f"{short(gap)}°" for gap in sorted({round(gap, 2) for gap in gaps})]
 
 
 def running(chapter: Chapter) -> Markup:

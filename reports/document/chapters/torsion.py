@@ -13,7 +13,7 @@ from reports.document.page.blocks import Column, TableBlock, symbol_head, table_
 from reports.document.page.spec_tables import grid_table
 from reports.document.page.writer import TablePlan
 from reports.document.text import numbers
-from reports.document.text.terms import Terms
+from reports.document.text.terms import Terms, with_unit
 from reports.shared.russian import fixed
 
 _HOLZER = (
@@ -29,6 +29,7 @@ _MOTION = (
     r"\omega = \nu\,\Omega"
 )
 _NEAR = 0.02  # of a stress: a difference that changes no conclusion
+_SURE = 4  # digits of a frequency that formulas find some per cent apart
 _MOST_ROWS = 12
 
 
@@ -82,6 +83,8 @@ def torsion(chapter: Chapter) -> Markup:
         flywheels=TablePlan(partial(_flywheels, terms, bare, other), "Два маховика", keep=True),
         change=terms.value("tor_f1_change"),
         change_text=fixed(abs(terms.value("tor_f1_change")), 1),
+        articulated=chapter.shape.articulated,
+        flywheel_needed=terms.has("I_flywheel") and terms.value("I_flywheel") > 0,
         heavier=terms.value("tor_flywheel_other") > terms.value("tor_flywheel"),
         other_helps=other.stress < (1 - _NEAR) * bare.stress,
         other_harms=other.stress > (1 + _NEAR) * bare.stress,
@@ -102,7 +105,8 @@ def concluded(chapter: Chapter) -> Markup:
     )
     verdict = "превышает допускаемую" if over else "не превышает допускаемой"
     allowed = terms.val("torsion_stress_allowed_mpa")
-    return Markup(line).format(terms.val("tor_f1_hz"), bare.text, bare.speed, verdict, allowed)
+    first = with_unit(numbers.significant(terms.value("tor_f1_hz"), _SURE), terms.unit("tor_f1_hz"))
+    return Markup(line).format(first, bare.text, bare.speed, verdict, allowed)
 
 
 def _peak(terms: Terms, which: str) -> Peak:

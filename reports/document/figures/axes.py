@@ -100,7 +100,7 @@ class Axes:
 
     def name_x(self, text: str) -> None:
         """Name and unit of the horizontal axis at its right end, in line with the numbers."""
-        place = (self.field[2] + 11, self.field[1] - 3 - 0.76 * SMALL)
+        place = (self.field[2] + self.x.beyond(), self.field[1] - 3 - 0.76 * SMALL)
         self.page.text(place, text, FONT_SIZE, align=0.0, middle=False)
 
 

@@ -131,12 +131,13 @@ def curves_figure(
         for pair, panel in zip(ranges, panels, strict=True)
     ]
     left = max(ticks.width() for ticks in y_ticks) + 8
-    right = text_size(x_title, FONT_SIZE)[0] + 14
+    right = text_size(x_title, FONT_SIZE)[0] + x_ticks.beyond() + 3
+    top = _TOP + LEGEND_ROW * _further_rows(panels[0])  # those of the others stand between them
     page = Sheet(PAGE_WIDTH, height * len(panels))
-    room = page.height - _BOTTOM - _TOP - _BETWEEN * (len(panels) - 1)
+    room = page.height - _BOTTOM - top - _BETWEEN * (len(panels) - 1)
     tall = room / len(panels)
     for index, (panel, ticks) in enumerate(zip(panels, y_ticks, strict=True)):
-        base = page.height - _TOP - tall - index * (tall + _BETWEEN)
+        base = page.height - top - tall - index * (tall + _BETWEEN)
         field = (left, base, page.width - right, base + tall)
         axes = Axes(page, field, x_ticks, ticks)
         _plot(axes, abscissa, panel)
@@ -145,6 +146,11 @@ def curves_figure(
             page.text(middle, f"{LETTERS[index]})", middle=False)
     axes.name_x(x_title)
     return page.svg()
+
+
+def _further_rows(panel: Panel) -> int:
+    """Rows of a legend, if it comes to one, above the first, for which there is room anyway."""
+    return max(len(panel.curves) - 1, 0) // _IN_ROW
 
 
 def _plot(axes: Axes, x: NDArray[np.float64], panel: Panel) -> None:

@@ -14,6 +14,7 @@ from reports.shared.russian import fixed
 _ANGLE_STEPS = (5.0, 10.0, 15.0, 30.0, 60.0, 90.0, 120.0, 180.0)
 _MOST_ANGLES = 13
 _FACTORS = (1.0, 2.0, 2.5, 5.0, 10.0)
+_BEYOND, _GAP = 11.0, 3.0  # pt from the end of an axis and from its last text to its name
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +37,10 @@ class Ticks:
     def width(self) -> float:
         """Room of the widest text [pt]."""
         return max(text_size(text, SMALL)[0] for text in self.texts)
+
+    def beyond(self) -> float:
+        """Room beyond the end of the axis that its last text and a gap after it take [pt]."""
+        return max(_BEYOND, text_size(self.texts[-1], SMALL)[0] / 2 + _GAP)
 
 
 def value_ticks(low: float, high: float, *, count: int = 6, zero: bool = True) -> Ticks:

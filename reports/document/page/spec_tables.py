@@ -10,6 +10,7 @@ from markupsafe import Markup
 
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.text import numbers
+from reports.document.text.fonts import printable
 from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms
 from reports.shared.russian import capital
@@ -73,8 +74,13 @@ def list_block(rows: Sequence[Sequence[str]]) -> TableBlock:
     )
     # Values of different kinds: Markup keeps them from being lined up as one column.
     return table_block(
-        columns, [[titled_html(a), b, Markup("{}").format(c), d] for a, b, c, d in rows]
+        columns, [[titled_html(a), b, Markup("{}").format(_printed(c)), d] for a, b, c, d in rows]
     )
+
+
+def _printed(value: str) -> str:
+    """A value as text that the font has: a name from the input may hold anything."""
+    return value if isinstance(value, Markup) else printable(value)
 
 
 def unit_cell(unit: str) -> str:

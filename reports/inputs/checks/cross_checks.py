@@ -18,7 +18,7 @@ from reports.inputs.checks.reference import check_reference
 from reports.inputs.checks.torsion import check_torsion
 from reports.inputs.findings import Finding, Path, Values, radius_and_rod
 from reports.inputs.sections.input_file import LAMBDA_MAX, LAMBDA_MIN
-from reports.inputs.units import number_text, span_text
+from reports.inputs.units import is_within, number_text, span_text
 
 LENGTH_TOLERANCE = 1e-3
 USUAL_LAMBDA = (0.15, 0.45)
@@ -74,7 +74,7 @@ def _ratio(ratio: float, path: Path) -> Iterator[Finding]:
     elif not LAMBDA_MIN <= ratio <= LAMBDA_MAX:
         what = f"λ = r/L = {text} вне допустимых пределов"
         yield Finding(path, what, f"допустимо λ {span_text(LAMBDA_MIN, LAMBDA_MAX)}")
-    elif not USUAL_LAMBDA[0] <= ratio <= USUAL_LAMBDA[1]:
+    elif not is_within(ratio, USUAL_LAMBDA):
         what = f"λ = {text} необычно"
         hint = f"обычно {span_text(USUAL_LAMBDA[0], USUAL_LAMBDA[1])}"
         yield Finding(path, what, hint, warning=True)

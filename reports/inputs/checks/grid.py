@@ -9,7 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from kshm.arrays import Tables
+from kshm.mechanics.wear import ray_sums
 from kshm.nomenclature.quantity import Quantity, quantity
+from kshm.results.solution import Solution
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.solved import solved
 from reports.inputs.to_si.engine import smallness_of
@@ -25,8 +27,8 @@ _KINDS = tuple(
     for kind in (
         "M_(mean|max|min)", "I_flywheel|delta_speed|W_range", "N_i_calc|p_i_area|W_cycle",
         "Rpin[_0-9]*_max(_kN)?|Rmain[0-9]+_max(_kN)?|B_max", "dM_(main|pin)[0-9]+",
-        "Rpin[_0-9]*_mean|Rmain[0-9]+_mean|B_mean", "Rpin[_0-9]*_min|Rmain[0-9]+_min",
-        "Malpha_(max|min|swing|mean)",
+        "hole_pin[0-9]*_deg", "Rpin[_0-9]*_mean|Rmain[0-9]+_mean|B_mean",
+        "Rpin[_0-9]*_min|Rmain[0-9]+_min", "Malpha_(max|min|swing|mean)",
     )
 )  # fmt: skip
 
@@ -51,8 +53,8 @@ class GridError:
 
     @property
     def percent(self) -> float:
-        """Difference from the fine step's value [%]; infinite from nothing."""
-        if self.fine == 0:
+        """Difference from the fine step's value [%]; infinite from nothing and between angles."""
+        if self.fine == 0 or self.quantity.unit == "deg":
             return float(np.sign(self.coarse)) * np.inf
         return 100 * (self.coarse - self.fine) / abs(self.fine)
 
@@ -66,15 +68,19 @@ def grid_errors(model: InputFile) -> tuple[GridError, ...]:
     if model.calculation.step_deg <= FINE:
         return ()
     try:
-        scalars = solved(model).scalars, solved(refined(model)).scalars
+        rough, exact = solved(model), solved(refined(model))
     except (ValueError, InputError):
         return ()
-    coarse, fine = map(_results, scalars)
+    coarse, fine = _results(rough.scalars), _results(exact.scalars)
     small = smallness_of(model)
     found = [
-        GridError(key, value, fine[key], small, _moved(key, *scalars))
+        GridError(key, value, fine[key], small, _moved(key, rough.scalars, exact.scalars))
         for key, value in coarse.items()
-        if _is_off(value, fine[key], max(map(abs, _family(coarse, key))))
+        if (
+            _is_pressed(key, rough, exact, model.calculation.wear_rays)
+            if key.startswith("hole")
+            else _is_off(value, fine[key], max(map(abs, _family(coarse, key))))
+        )
     ]
     return tuple(sorted(found, key=lambda error: (_rank(error.key), -abs(error.percent))))
 
@@ -117,6 +123,15 @@ def _is_off(coarse: float, fine: float, scale: float) -> bool:
     return bool(np.isfinite(apart)) and apart > max(MOST / 100 * abs(fine), 1e-6 * scale)
 
 
+def _is_pressed(hole: str, coarse: Solution, fine: Solution, rays: int) -> bool:
+    """Whether by the fine step another ray of the pin is less loaded than the grid's."""
+    pin = hole.removesuffix("_deg")
+    forces = fine.columns["crankpin" + pin.replace("hole_pin", "_").rstrip("_")]
+    sums = ray_sums(-forces["Krod_MPa"], -forces["T_MPa"], forces["Rpin_MPa"], rays)
+    taken = sums[round(coarse.scalars[f"{pin}_ray"]) - 1]
+    return bool(taken - sums.min() > 1e-6 * sums.mean())
+
+
 def grid_remark(model: InputFile) -> str:
     """The differences in one line; empty where there are none."""
     return remark_on(grid_errors(model), model)
@@ -139,5 +154,5 @@ def remark_on(errors: Sequence[GridError], model: InputFile) -> str:
 def _said(error: GridError) -> str:
     q = error.quantity
     coarse, fine = (written(value, q.digits) for value in (error.coarse, error.fine))
-    unit = f"{NBSP}{q.unit_label}" if q.unit_label else ""
-    return f"{q.title} {coarse} вместо {fine}{unit}"
+    unit = q.unit_label if q.unit_label in ("", "°") else f"{NBSP}{q.unit_label}"
+    return f"{q.title}: {coarse} вместо {fine}{unit}"

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from kshm.engine.arrangement import Arrangement, throw_angle
 from reports.inputs.findings import Finding, Values, radius_and_rod
 from reports.inputs.firing import OPPOSED_BANK_DEG, arrangement, fitting_angle
-from reports.inputs.units import number_text
+from reports.inputs.units import number_text, span_text
 
 ANGLE_TOLERANCE_DEG = 0.01
 USUAL_OFFSET = 0.25  # k = e/r; the book names 0.05…0.20
@@ -201,7 +201,7 @@ def _offset(values: Values) -> Iterator[Finding]:
         yield Finding(("geometry", "stroke_mm"), what, hint, warning=True)
     if abs(offset) > USUAL_OFFSET * radius:
         what = f"относительное смещение k = e/r = {number_text(round(offset / radius, 4))} необычно"
-        yield Finding(path, what, "обычно от 0.05 до 0.2", warning=True)
+        yield Finding(path, what, f"обычно {span_text(0.05, 0.2)}", warning=True)
 
 
 def _articulated(values: Values) -> Iterator[Finding]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from reports.inputs.findings import Finding, Values, radius_and_rod
 from reports.inputs.sections.masses import ESTIMATE_EXTRA, SWUNG, WEIGHED
-from reports.inputs.units import number_text, span_text
+from reports.inputs.units import is_within, number_text, span_text
 
 USUAL_SHARE = (0.2, 0.3)
 DIRECT = ("reciprocating_kg", "rod_big_end_kg")
@@ -149,7 +149,7 @@ def _centre(values: Values) -> Iterator[Finding]:
             yield Finding(("masses", key), what, f"длина шатуна {number_text(pair[1])} мм")
             return
         share = 1 - place / pair[1]
-    if share is not None and not USUAL_SHARE[0] <= share <= USUAL_SHARE[1]:
+    if share is not None and not is_within(share, USUAL_SHARE):
         what = f"доля массы шатуна у пальца {number_text(round(share, 4))} необычна"
         hint = f"обычно {span_text(USUAL_SHARE[0], USUAL_SHARE[1])}"
         yield Finding(("masses", key), what, hint, warning=True)
@@ -179,7 +179,7 @@ def _swung(values: Values) -> Iterator[Finding]:
         what = "по качаниям момент инерции шатуна отрицателен"
         yield Finding(path, what, "проверьте n_A, n_C, r_1 и l_3")
         return
-    if pair is not None and not USUAL_SHARE[0] <= 1 - centre / pair[1] <= USUAL_SHARE[1]:
+    if pair is not None and not is_within(1 - centre / pair[1], USUAL_SHARE):
         share = number_text(round(1 - centre / pair[1], 4))
         what = f"доля массы шатуна у пальца {share} необычна"
         yield Finding(
@@ -200,4 +200,5 @@ def _inertia(values: Values) -> Iterator[Finding]:
     if not 0.02 <= ratio <= 0.5:
         what = f"I_ш/(m_ш·l²) = {number_text(round(ratio, 4))} необычно"
         path = ("masses", "rod_inertia_kg_m2")
-        yield Finding(path, what, "обычно от 0.02 до 0.5: проверьте кг·м²", warning=True)
+        hint = f"обычно {span_text(0.02, 0.5)}: проверьте кг·м²"
+        yield Finding(path, what, hint, warning=True)

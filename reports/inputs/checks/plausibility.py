@@ -20,7 +20,7 @@ from reports.inputs.findings import Finding, Path
 from reports.inputs.sections.gas import CycleGasSection, GasSection, TableGasSection
 from reports.inputs.sections.input_file import InputFile, Regime
 from reports.inputs.to_si.geometry import Sizes
-from reports.inputs.units import number_text
+from reports.inputs.units import is_within, number_text
 
 _MOST_OFF = 0.5  # share of the sizes that disagree with the bore when the bore is wrong
 
@@ -115,7 +115,7 @@ def _values(part: Any, keys: list[str], path: Path) -> Iterator[tuple[Path, floa
 
 def _finding(path: Path, band: Band, value: float, others: int = 0) -> Finding:
     unit = f" {band.unit}" if band.unit and band.unit != "°" else band.unit
-    more = f", в списке ещё {others} таких" if others else ""
+    more = f", в списке таких ещё {others}" if others else ""
     what = f"{band.words} = {_short(value)}{unit} необычно{more}"
     hint = f"обычно от {_short(band.low)} до {_short(band.high)}{unit} ({band.source})"
     return Finding(path, what, f"{hint}; проверьте единицу и запятую", warning=True)
@@ -126,7 +126,7 @@ def _short(value: float) -> str:
 
 
 def _judged(path: Path, band: Band, value: float) -> Iterator[Finding]:
-    if not band.low <= value <= band.high:
+    if not is_within(value, (band.low, band.high)):
         yield _finding(path, band, value)
 
 

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from pydantic import model_validator
+
 from reports.inputs.meta import Strictly, number
 from reports.inputs.units import MM, NONE
+
+_SHARES = {"counterweight_share", "first_shafts_share", "second_shafts_share"}
 
 
 class BalanceSection(Strictly):
@@ -37,6 +41,14 @@ class BalanceSection(Strictly):
     web_thickness_share: float = number(
         "Толщина щеки к диаметру цилиндра", "h/D", NONE, 0.03, 1, 0.175
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _only_what_is_named(cls, given: object) -> object:
+        """Who names one device has no others: their usual shares are for who names none."""
+        if isinstance(given, dict) and _SHARES & given.keys():
+            return dict.fromkeys(_SHARES, 0.0) | given
+        return given
 
     @property
     def asked(self) -> set[str]:

@@ -219,7 +219,7 @@ def _specific(model: InputFile) -> ScalarTable:
                    note=shown, of="verdict"),
         ]  # fmt: skip
     if given.reciprocating_kg is None:
-        inside = "rod_share >= 0.2 and rod_share <= 0.3"
+        inside = "round(rod_share, 6) >= 0.2 and round(rod_share, 6) <= 0.3"
         scalars.append(
             Scalar("rod_share_fits", f'"{YES}" if {inside} else "{NO}"', "Гоц, 2.2",
                    note="доля массы шатуна на поршневом пальце 0,2…0,3", of="verdict")

@@ -195,7 +195,7 @@ def checks(model: InputFile, shape: Shape) -> ScalarTable:
     if model.masses.reciprocating_kg is None:
         tests.append(
             ("share", "Доля массы шатуна на поршневом пальце 0,2…0,3",
-             "m_1/masses_rod_kg", "{value} >= 0.2 and {value} <= 0.3")
+             "m_1/masses_rod_kg", "round({value}, 6) >= 0.2 and round({value}, 6) <= 0.3")
         )  # fmt: skip
     scalars = []
     for key, title, value, test in tests:

@@ -338,7 +338,8 @@ def _flywheel(train: Train, section: TorsionSection, shape: Shape) -> str:
     if shape.articulated:
         return f"{share} | {GUESS}: 8 моментов инерции колен"
     return (
-        f"I_flywheel if I_flywheel > 0 else {share} | оценка: маховик для требуемой неравномерности"
+        f"I_flywheel if I_flywheel > 0 else {share} | оценка: маховик для требуемой "
+        "неравномерности; если он не нужен — 8 моментов инерции колен, без источника"
     )
 
 

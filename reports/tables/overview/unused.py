@@ -1,0 +1,26 @@
+"""Defaults of the input that the calculation does not take."""
+
+from __future__ import annotations
+
+from reports.inputs.sections.input_file import InputFile
+from reports.tables.gas.cycle_names import friction_by_speed, section_of
+
+_DEVICES = frozenset({"counterweight_share", "first_shafts_share", "second_shafts_share",
+                      "suppression", "shaft_radius_mm"})  # fmt: skip
+
+
+def unused(model: InputFile) -> set[str]:
+    """Names of their fields: a table of data with them would deny the results."""
+    devices = set(_DEVICES)
+    if model.masses.rod_kg is not None:
+        devices.add("rod_small_end_share")
+    return given_by_cycle(model) | {f"balance_{key}" for key in devices - model.balance.asked}
+
+
+def given_by_cycle(model: InputFile) -> set[str]:
+    """Those that a calculation of the cycle finds itself."""
+    cycle = section_of(model)
+    if cycle is None:
+        return set()
+    efficiency = {"regime_mechanical_efficiency"} if friction_by_speed(cycle) else set()
+    return {"regime_fullness", "regime_indicated_power_kw"} | efficiency

@@ -169,7 +169,7 @@ def _by_rows(
     if verdict == BROKEN:
         reason = _errors(item, student)
     return replace(made, verdict=verdict, rows=rows, paid=paid, reason=reason,
-                   coarse=_coarse(item, student))  # fmt: skip
+                   coarse=say.COARSE in letters or _coarse(item, student))  # fmt: skip
 
 
 def _word(kind: str, letter: str, good: bool, fixed: bool) -> str:
@@ -188,6 +188,8 @@ def _word(kind: str, letter: str, good: bool, fixed: bool) -> str:
         return BROKEN
     if not good:
         return WRONG
+    if letter == say.COARSE:  # here the rounding does not show
+        return RIGHT
     return STILL if letter == say.STILL else TYPED
 
 

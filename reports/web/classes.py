@@ -149,7 +149,7 @@ class Classes(Queue):
                  "page": folder / "results" / row.get("page", "")}  # fmt: skip
         told = {
             "title": about["title"], "student": book.student.full, "file": book.file,
-            "handed": work.exists(), "open": bool(row.get("page")), "points": row.get("points"),
-            "status": row.get("status", ""),
+            "handed": work.exists() or bool(row.get("file")), "open": bool(row.get("page")),
+            "points": row.get("points"), "status": row.get("status", ""),
         }  # fmt: skip
         return Shown(told, files, {"work": work})

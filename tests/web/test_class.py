@@ -48,7 +48,7 @@ def points(page: Any) -> dict[str, str]:
     """Surname → what the gradebook on the page shows."""
     rows = page.locator("#class table tbody tr").all()
     cells = [[cell.inner_text() for cell in row.locator("td").all()] for row in rows]
-    return {row[0].split()[0]: row[2] for row in cells}
+    return {row[0].split()[1]: row[2] for row in cells}  # after the number
 
 
 def not_issued(page: Any, served: Served, roster: str, seed: str) -> str:
@@ -184,7 +184,7 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     assert 0 < float(found["Петров"].replace(",", ".")) < 100
     assert float(found["Кузнецов"].replace(",", ".")) < 100
     waiting = teacher.locator("tr.odd").all_inner_texts()
-    assert [row.split()[0] for row in waiting] == ["Кузнецов"]  # a person has to look
+    assert [row.split()[:2] for row in waiting] == [["4.", "Кузнецов"]]  # a person has to look
     assert axe.faults(teacher) == []
     photo(teacher, "teacher")
     tall = heights(teacher)
@@ -218,6 +218,10 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     assert axe.faults(student) == []
     photo(student, "student")
     assert min(heights(student).values()) >= 44
+    told = [
+        ask.get(f"{served.page}{link.replace('s/', 'api/student/', 1)}").json() for link in links
+    ]
+    assert [each["handed"] for each in told] == [True] * 4 + [False]  # in Moodle as well as here
     answer = ask.get(f"{served.page}{links[2].replace('s/', 'api/student/', 1)}page")
     assert "Сидорова" in answer.text() and "Петров" not in answer.text()
     assert answer.headers["content-security-policy"].startswith("sandbox")

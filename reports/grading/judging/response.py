@@ -92,7 +92,7 @@ class Response:
             if any(
                 run.formula is not None and rounds(run.formula) for run in self._with_helpers(node)
             )
-            or any(full(number) != number for number in self.student.own_numbers(node))
+            or (self._full_constants and _has_pi(self.student.own_numbers(node)))
         ]
         return self._run(wanted, rounded=False) if wanted else {}
 
@@ -370,6 +370,10 @@ class Response:
             return bench.values(node, self.student.placement.places[node].rows)
         except UnknownFormula:
             return None
+
+
+def _has_pi(numbers: Sequence[float]) -> bool:
+    return any(full(number) != number for number in numbers)
 
 
 def _differ(first: float, second: float) -> bool:

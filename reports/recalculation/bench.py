@@ -160,11 +160,22 @@ def _qualified(formula: Formula, sheet: str) -> Formula:
 
 
 @lru_cache(maxsize=20_000)
+def rounds(formula: Formula) -> bool:
+    """Whether a formula rounds: by a function, or by a typed π of some digits."""
+    return not formula.functions.isdisjoint(ROUNDINGS) or any(
+        kind == "number" and full(float(value)) != float(value) for kind, value in formula.pattern
+    )
+
+
+@lru_cache(maxsize=20_000)
 def unrounded(formula: Formula) -> Formula:
-    """A formula without its ROUND, ROUNDUP and ROUNDDOWN."""
-    if formula.functions.isdisjoint(ROUNDINGS):
+    """A formula without its ROUND, ROUNDUP and ROUNDDOWN, and with all digits of π."""
+    if not rounds(formula):
         return formula
-    tokens = list(formula.pattern)
+    tokens = [
+        (kind, repr(full(float(value))) if kind == "number" else value)
+        for kind, value in formula.pattern
+    ]
     at = 0
     while at < len(tokens) - 1:
         if tokens[at][0] == "name" and tokens[at][1].upper() in ROUNDINGS:
@@ -195,6 +206,15 @@ def unrounded_grid(grid: Grid) -> Grid:
 
 
 ROUNDINGS = frozenset(("ROUND", "ROUNDUP", "ROUNDDOWN"))
+# What people type in for π, for degrees in radians and for revolutions in radians.
+_OF_PI = tuple(np.pi * share for share in (1, 2, 1 / 2, 1 / 4, 1 / 30, 1 / 60, 1 / 180, 1 / 360))
+_FULL = (*_OF_PI, 30 / np.pi, 60 / np.pi, 180 / np.pi)
+_NEAR = 2e-4  # 57,3 and 0,01745 are digits enough, 3,14 is a mistake
+
+
+def full(number: float) -> float:
+    """A number, or what it is the first digits of: π and its usual multiples."""
+    return next((x for x in _FULL if 1e-14 < abs(number / x - 1) < _NEAR), number)
 
 
 def _arguments(tokens: Sequence[tuple[str, str]], start: int) -> tuple[int, int]:

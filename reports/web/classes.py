@@ -64,9 +64,8 @@ class Classes(Queue):
         request.session["teacher"] = True
 
     def _find(self, name: str) -> Path:
-        for path in self.folder.glob("*/about.json"):  # never a path from the name
-            if path.parent.name == name:
-                return path.parent
+        if name.isalnum() and (self.folder / name / "about.json").exists():  # never a path
+            return self.folder / name
         raise HTTPException(404, "нет такой группы")
 
     def _inside(self, request: Request) -> Path:
@@ -82,15 +81,17 @@ class Classes(Queue):
         return {"classes": sorted(found, key=lambda each: str(each.get("date")), reverse=True)}
 
     async def _issue(self, request: Request) -> Data:
-        folder, data = self._inside(request) / secrets.token_hex(8), await body(request)
-        files = {name: text for name in _TEXTS if (text := str(data.get(name) or "")).strip()}
-        base = await ask(request, engine.read_toml, files.get("base.toml", ""))
+        folder, data = self._inside(request), await body(request)
+        files = {name: str(data.get(name) or "") for name in _TEXTS}
+        base = await ask(request, engine.read_toml, files["base.toml"])
         await ask(request, engine.as_toml, base["raw"])  # without its ranges it is an input too
+        lost = (p.parent for p in folder.glob("*/done.json") if not p.with_name("issued").exists())
+        folder = next(lost, folder / secrets.token_hex(8))  # in the place of what has failed
         make_dir(folder / "works")
         title = one_line(str(data.get("title")), 120) or "Группа"
         date = datetime.now().isoformat(timespec="seconds")
         write_json(folder / "about.json", {"title": title, "open": False, "date": date})
-        more = ["--rubric", "rubric.toml"] if "rubric.toml" in files else []
+        more = ["--rubric", "rubric.toml"] if files["rubric.toml"].strip() else []
         command = ["issue", "base.toml", "--roster", "roster.csv", "-o", "issued", *_SECRET]
         self.put(folder.name, files, [*command, f"--seed={data.get('seed')}", *more])
         return {"name": folder.name}
@@ -148,7 +149,7 @@ class Classes(Queue):
                  "page": folder / "results" / row.get("page", "")}  # fmt: skip
         told = {
             "title": about["title"], "student": book.student.full, "file": book.file,
-            "handed": work.exists(), "open": bool(row.get("page")), "points": row.get("points"),
-            "status": row.get("status", ""),
+            "handed": work.exists() or bool(row.get("file")), "open": bool(row.get("page")),
+            "points": row.get("points"), "status": row.get("status", ""),
         }  # fmt: skip
         return Shown(told, files, {"work": work})

@@ -104,6 +104,72 @@ def test_a_doubtful_work_is_accepted_by_a_person(tmp_path):
     assert not rows[2]["manual"]
 
 
+@pytest.mark.parametrize("word", ["+", "0"])
+def test_a_decision_is_about_the_file_that_was_looked_at(tmp_path, word):
+    """Who was accepted, or failed, does not settle it by handing in another file."""
+    where, out = submitted(tmp_path / "in"), tmp_path / "out"
+    decided = run(where, out, ("2", "всё", word, ""))[2]["points"]
+    earlier = (where / "2.xlsx").read_bytes()
+    for data in (filled_book(classroom.handout(2), classroom.assignment(2), UNKNOWN),
+                 filled_book(classroom.handout(2), classroom.assignment(2))):  # fmt: skip
+        (where / "2.xlsx").write_bytes(data)
+        assert data != earlier
+        for rows in (run(where, out), run(where, out)):  # the gradebook of the first has a «+»
+            assert rows[2]["points"] is None
+            assert "решите о нём заново" in rows[2]["remark"]
+    cell = decision_cell(out, 2)
+    assert cell.value is None
+    assert decide_in_gradebook(where, out, 2, "+")[2]["points"] == 100
+    (where / "2.xlsx").write_bytes(earlier)  # what was handed in first counts again
+    assert run(where, out)[2]["points"] == decided
+    assert run(where, out, ("2", "всё", "-", ""))[2]["points"] == 100
+
+
+@pytest.mark.parametrize("word", [950, "8O", "сто", "nan", -1])
+def test_what_is_no_decision_in_the_gradebook_is_told_and_kept(tmp_path, word):
+    where, out = submitted(tmp_path / "in"), tmp_path / "out"
+    run(where, out)
+    with pytest.raises(InputError) as caught:
+        decide_in_gradebook(where, out, 2, word)
+    (problem,) = caught.value.problems
+    assert "строка 3" in problem.where and str(word) in problem.where
+    assert decision_cell(out, 2).value == word
+
+
+def test_a_decision_on_a_file_of_nobody_is_told(tmp_path):
+    where, out = submitted(tmp_path / "in"), tmp_path / "out"
+    (where / "чья.xlsx").write_bytes(b"")
+    run(where, out)
+    with pytest.raises(InputError, match="без владельца"):
+        decide_in_gradebook(where, out, 5, 10)
+
+
+def test_decisions_on_one_class_are_not_taken_for_another(tmp_path):
+    where, out = submitted(tmp_path / "in"), tmp_path / "out"
+    run(where, out, ("2", "всё", "10", "списано"))
+    other = classroom.issue_class(tmp_path / "other", 2)
+    with pytest.raises(InputError, match="другой группы"):
+        grade(tmp_path / "other/issued", where, out, secret_file=tmp_path / "other/secret.key")
+    assert other.register.books[1].ticket != classroom.book(2).ticket
+    assert run(where, out)[2]["points"] == 10
+
+
+def decision_cell(out: Path, number: int):
+    """Where the points of a decision are written."""
+    sheet = load_workbook(out / "gradebook.xlsx")["Оценки"]
+    head = [cell.value for cell in sheet[1]]
+    return sheet.cell(number + 1, head.index("Решение: баллы") + 1)
+
+
+def decide_in_gradebook(where: Path, out: Path, number: int, word: object) -> dict:
+    at = decision_cell(out, number)
+    book = at.parent.parent
+    at.value = word
+    book.move_sheet("Оценки", 1)  # as a person may leave it
+    book.save(out / "gradebook.xlsx")
+    return run(where, out)
+
+
 def test_what_is_no_decision_is_refused(tmp_path):
     where, out = submitted(tmp_path / "in"), tmp_path / "out"
     run(where, out)

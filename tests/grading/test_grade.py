@@ -60,6 +60,52 @@ def test_moodles_zip_is_read_as_it_is(tmp_path):
     assert grades["Сидорова Имя"][4] == ""  # a person looks first
 
 
+def zipped(**members: bytes) -> bytes:
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w") as archive:
+        for name, data in members.items():
+            archive.writestr(zipfile.ZipInfo(name, (2001, 1, 1, 0, 0, 0)), data)
+    return stream.getvalue()
+
+
+def under_windows(data: bytes, name: str) -> bytes:
+    """A zip whose member x.xlsx is called as a Russian Windows calls it: without a flag."""
+    return data.replace(b"x" * len(name), name.encode("cp866"))
+
+
+def test_zips_of_students_are_opened(tmp_path):
+    classroom.register()
+    where, name = tmp_path / "in", "Сидорова Ёлка.xlsx"
+    where.mkdir()
+    second = right(2)
+    inner = zipped(**{"работа.xlsx": second})
+    odd = under_windows(zipped(**{"x" * len(name): right(3)}), name)
+    (where / "Иванов.zip").write_bytes(zipped(**{"моя/работа.xlsx": right(1), "Thumbs.db": b"x"}))
+    (where / "все.zip").write_bytes(zipped(**{"Петров.zip": inner, "три.zip": odd}))
+    (where / "пусто.zip").write_bytes(zipped())
+    (where / "много.zip").write_bytes(zipped(**{f"{i}.xlsx": b"" for i in range(201)}))
+    (where / "битый.zip").write_bytes(odd[:200])
+    found = {item.key: item for item in collect(where)}
+    assert list(found) == [
+        "Иванов.zip/моя/работа.xlsx", "битый.zip", "все.zip/Петров.zip/работа.xlsx",
+        f"все.zip/три.zip/{name}", "много.zip", "пусто.zip",
+    ]  # fmt: skip
+    assert found["все.zip/Петров.zip/работа.xlsx"].read() == second
+    assert all(item.time.year > 2001 for item in found.values())  # not what the student's zip says
+    rows = run(where, tmp_path / "out")["rows"]
+    assert [row["points"] for row in rows[:4]] == [100, 100, 100, None]
+    assert sum(row["manual"] for row in rows) == 3
+
+
+def test_a_moodle_zip_in_a_folder_keeps_its_times(tmp_path):
+    name = "Иванов Имя_101_assignsubmission_file_"
+    data = zipped(**{f"{name}/a.zip": zipped(**{"a.xlsx": b"1"}), f"{name}/b.xlsx": b"2"})
+    (tmp_path / "moodle.zip").write_bytes(data)
+    found = collect(tmp_path)
+    assert [(item.time.year, item.moodle_id) for item in found] == [(2001, "101")] * 2
+    assert [item.read() for item in found] == [b"1", b"2"]
+
+
 def test_the_last_of_several_files_counts_and_copies_are_noticed(tmp_path):
     classroom.register()
     submitted = tmp_path / "submitted"

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from reports.grading.issuing.handout import TICKET_NAME, TICKET_TITLE
+from reports.grading.issuing.register import Register
+from reports.grading.issuing.roster import Student
 from reports.grading.reading.matching import Match, find_by_name, find_owner
 from reports.grading.reading.submissions import Submission
 from reports.recalculation.grid import Column, Grid
@@ -95,3 +98,34 @@ def test_a_file_that_cannot_be_read_is_known_by_name():
     register = classroom.register()
     assert find_by_name(register, submission("Петров.xlsx")).book is register.books[1]
     assert find_by_name(register, submission("x.xlsx")) == Match(None, (), ())
+
+
+@pytest.mark.parametrize("first", ["Сергей", ""])
+@pytest.mark.parametrize(
+    ("surname", "file"),
+    [("..", "р.xlsx"), ("-2+3", "р.xlsx"), ("И", "Кинематика и динамика.xlsx"),
+     ("По", "Работа по ДВС.xlsx"), ("李", "р.xlsx"), ("Əліев", "лиев.xlsx")],
+)  # fmt: skip
+def test_a_name_of_few_letters_is_not_found_in_everything(surname, first, file):
+    register = renamed(Student("x", surname, first))
+    other = register.books[0]
+    match = find_owner(register, submission(file), grid_with(other.ticket), Parts())
+    assert match.book is other
+    assert match.doubts == ()
+    assert find_by_name(register, submission(file)) == Match(None, (), ())
+
+
+@pytest.mark.parametrize(
+    ("surname", "file"),
+    [("Əліев", "Əліев.xlsx"), ("李", "李 Сергей.xlsx"), ("По", "По Сергей.xlsx")],
+)
+def test_names_of_any_letters_are_found(surname, file):
+    register = renamed(Student("x", surname, "Сергей"))
+    assert find_by_name(register, submission(file)).book is register.books[1]
+
+
+def renamed(student: Student) -> Register:
+    """The class with another second student."""
+    register = classroom.register()
+    books = [replace(b, student=student) if i == 1 else b for i, b in enumerate(register.books)]
+    return replace(register, books=type(register.books)(books))

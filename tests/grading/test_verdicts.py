@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from openpyxl import Workbook
 
 from kshm.nomenclature.quantity import quantity
 from reports.grading.issuing.rubric import Tolerance
@@ -103,3 +104,20 @@ def test_the_tolerance_is_half_a_unit_of_the_last_printed_digit(key, largest, al
     item = SimpleNamespace(id=f"t.{key}", quantity=quantity(key))
     found = tolerance(item, np.array([0.0, largest]), student)
     assert found == pytest.approx(allowed, rel=1e-6)
+
+
+@pytest.mark.parametrize("original", ["empty", "filled"])
+def test_a_copy_of_a_sheet_that_is_filled_instead_is_for_a_person(original):
+    def copied(book: Workbook, layout: Layout) -> None:
+        copy = book.copy_worksheet(book["П3.1"])
+        copy.title = "П3.1 (2)"
+        sheet = copy if original == "filled" else book["П3.1"]
+        for line in sheet.iter_rows(min_row=6, min_col=2):
+            for cell in line:
+                cell.value = None
+
+    result = graded(edit=copied)
+    found = {item for item, verdict in classroom.verdicts(result).items() if verdict == "unknown"}
+    told = {item["id"] for item in result["items"] if item["id"].startswith("P3_1.")}
+    assert found == (told if original == "empty" else set())
+    assert bool(result["manual"]) == (original == "empty")

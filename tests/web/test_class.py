@@ -48,7 +48,29 @@ def points(page: Any) -> dict[str, str]:
     """Surname → what the gradebook on the page shows."""
     rows = page.locator("#class table tbody tr").all()
     cells = [[cell.inner_text() for cell in row.locator("td").all()] for row in rows]
-    return {row[0].split()[0]: row[2] for row in cells}
+    return {row[0].split()[1]: row[2] for row in cells}  # after the number
+
+
+def not_issued(page: Any, served: Served, roster: str, seed: str) -> str:
+    """The name of a class that could not be issued."""
+    door, ask = f"{served.page}api/teacher", page.context.request
+    data = {"title": "?", "base.toml": classroom.base_text(), "roster.csv": roster, "seed": seed}
+    name: str = ask.post(door, data=data, headers=MARK).json()["name"]
+    for _ in range(WAIT // 100):
+        if ask.get(f"{door}/{name}").json()["state"] == "failed":
+            return name
+        page.wait_for_timeout(100)
+    raise AssertionError(ask.get(f"{door}/{name}").json())
+
+
+def heights(page: Any) -> dict[str, int]:
+    """What is pressed on the page, as high as it is on a phone."""
+    page.set_viewport_size({"width": 390, "height": 900})
+    found: dict[str, int] = page.evaluate("""Object.fromEntries([...document.querySelectorAll(
+        "main :is(button, select, summary, .\\\\<button\\\\>, .tool-bar > label)")]
+        .filter(e => e.offsetHeight).map(e => [e.innerText.slice(0, 30), e.offsetHeight]))""")
+    page.set_viewport_size({"width": 1280, "height": 900})
+    return found
 
 
 def decide(page: Any, who: str, what: str, worth: str, remark: str = "") -> None:
@@ -80,6 +102,14 @@ def test_the_printed_address_is_a_door_for_the_instructor_alone(
 
 def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: Path) -> None:
     files = {"base": classroom.base_text(), "roster": classroom.roster_text(5)}
+    failed = [
+        not_issued(teacher, served, files["roster"], "1e3"),
+        not_issued(teacher, served, "Кто;Где\nЯ;тут\n", "1"),
+    ]
+    assert failed[0] == failed[1] == stored(served).name  # one takes the place of another
+    teacher.reload()
+    teacher.wait_for_selector("#class .bad li")
+    teacher.click("#newClass summary")
     teacher.fill("#title", "ДВС-1 <b>")
     for name, text in files.items():
         teacher.set_input_files(
@@ -154,9 +184,11 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     assert 0 < float(found["Петров"].replace(",", ".")) < 100
     assert float(found["Кузнецов"].replace(",", ".")) < 100
     waiting = teacher.locator("tr.odd").all_inner_texts()
-    assert [row.split()[0] for row in waiting] == ["Кузнецов"]  # a person has to look
+    assert [row.split()[:2] for row in waiting] == [["4.", "Кузнецов"]]  # a person has to look
     assert axe.faults(teacher) == []
     photo(teacher, "teacher")
+    tall = heights(teacher)
+    assert len(tall) > 8 and min(tall.values()) >= 44, tall
 
     # The page of a work, the decision about what the program could not judge, Moodle's file.
     with teacher.expect_popup() as popup:
@@ -185,6 +217,11 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     assert "баллы: 100" in student.inner_text("#state")
     assert axe.faults(student) == []
     photo(student, "student")
+    assert min(heights(student).values()) >= 44
+    told = [
+        ask.get(f"{served.page}{link.replace('s/', 'api/student/', 1)}").json() for link in links
+    ]
+    assert [each["handed"] for each in told] == [True] * 4 + [False]  # in Moodle as well as here
     answer = ask.get(f"{served.page}{links[2].replace('s/', 'api/student/', 1)}page")
     assert "Сидорова" in answer.text() and "Петров" not in answer.text()
     assert answer.headers["content-security-policy"].startswith("sandbox")

@@ -88,7 +88,7 @@ def _grade_here(part: Part) -> Answers:
         for number, (item, data) in enumerate(part.submissions):
             path = Path(name) / f"{number}.bin"
             path.write_bytes(data)
-            moved.append(replace(item, path=path, member=None))
+            moved.append(replace(item, path=path, members=None))
         outcomes = grade_all(moved, register, workers=1, timeout_s=part.timeout_s)
         found = {o.submission.key: (o.result, o.page, o.problem) for o in outcomes}
         return [(item.key, *found[item.key]) for item in moved]

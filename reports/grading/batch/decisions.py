@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import copy
 import json
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -18,15 +18,20 @@ from reports.shared.files import write_text
 
 FILE = "decisions.json"
 WHOLE = ""  # in the place of an item: the whole work
+FORMER = "*"  # the same before a file: a whole work in the place of which another one counts now
 ACCEPT, WITHDRAW = "+", "-"  # in the place of points
 _MOST = 500  # signs of a remark
 _WHOLE_WORDS = ("", "-", "всё", "все", "работа", "*")
-_TABLE_HEADS = ("Решение: баллы", "Решение: примечание")
+_ANOTHER = "после решения преподавателя сдан другой файл: решите о нём заново"
+_SHEET, _TABLE_HEADS = "Оценки", ("Решение: баллы", "Решение: примечание")
 
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """Points for an item or a whole work; None accepts the points of the program."""
+    """Points for an item or a whole work; None accepts the points of the program.
+
+    ``file`` is the SHA-256 of the whole work: what is handed in later has not been looked at.
+    """
 
     number: int
     item: str
@@ -34,6 +39,7 @@ class Decision:
     remark: str
     author: str
     date: str
+    file: str = ""
 
 
 def load_decisions(folder: Path) -> list[Decision]:
@@ -78,7 +84,9 @@ def decided(
             hint = "имена столбцов — на странице студента в results/*.json: P3_1.s_mm"
             raise InputError(Problem(item, "в работе нет такого столбца", hint))
         if points.strip() == WITHDRAW:
-            made.pop((book.number, item), None)
+            for key in [key for key in made if key[0] == book.number]:
+                if key[1] == item or (item == WHOLE and key[1].startswith(FORMER)):
+                    del made[key]
             continue
         value = None if points.strip() == ACCEPT else _points(points, register.rubric.maximum)
         made[book.number, item] = Decision(
@@ -116,51 +124,92 @@ def _student(register: Register, works: Sequence[Work], who: str) -> Issued:
     return hits[0]
 
 
-def from_gradebook(path: Path, kept: Sequence[Decision]) -> list[Decision]:
-    """Decisions with those that a person has written into the gradebook."""
-    from openpyxl import load_workbook
+def from_gradebook(path: Path, kept: Sequence[Decision], maximum: float) -> list[Decision]:
+    """Decisions with those that a person has written into the gradebook.
 
-    if not path.exists():
-        return list(kept)
-    try:
-        book = load_workbook(path, read_only=True, data_only=True)
-        lines = list(book.worksheets[0].iter_rows(values_only=True))
-        author = book.properties.lastModifiedBy or "ведомость"
-        date = datetime.fromtimestamp(int(path.stat().st_mtime)).isoformat(timespec="minutes")
-        book.close()
-    except Exception:  # a gradebook that someone has broken is written anew
-        return list(kept)
+    Raises:
+        InputError: what is written there is no decision.
+    """
+    lines, author, date = _lines(path)
     if not lines or any(head not in lines[0] for head in ("Вариант", *_TABLE_HEADS)):
         return list(kept)
     number_at, points_at, remark_at = (lines[0].index(head) for head in ("Вариант", *_TABLE_HEADS))
     made = {(entry.number, entry.item): entry for entry in kept}
-    for line in lines[1:]:
-        number, points, remark = line[number_at], line[points_at], line[remark_at]
+    problems: list[Problem] = []
+    for row, line in enumerate(lines[1:], 2):
+        number, points = line[number_at], str("" if line[points_at] is None else line[points_at])
+        text = one_line(str(line[remark_at] or ""), _MOST)
         if not isinstance(number, (int, float)):
+            if points.strip():
+                hint = "назовите файл фамилией студента и проверьте ещё раз"
+                where = f"{path.name}, строка {row}"
+                problems.append(Problem(where, "решение о файле без владельца", hint))
             continue
         key = int(number), WHOLE
         earlier = made.get(key)
-        text = one_line(str(remark or ""), _MOST)
-        if points is None or str(points).strip() == "":
+        if not points.strip():
             if earlier is not None and not text:  # taken out by hand
                 del made[key]
             continue
         try:
-            accept = str(points).strip() == ACCEPT
-            value = None if accept else float(str(points).replace(",", "."))
-        except ValueError:
+            value = None if points.strip() == ACCEPT else _points(points, maximum)
+        except InputError as error:
+            where = f"{path.name}, строка {row}: «{one_line(points, 40)}»"
+            problems += [replace(problem, where=where) for problem in error.problems]
             continue
         if earlier is None or (earlier.points, earlier.remark) != (value, text):
             made[key] = Decision(*key, value, text, one_line(author, 100), date)
+    if problems:
+        raise InputError(problems)
     return list(made.values())
 
 
-def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, Any]:
-    """A result as the person has decided; without decisions the same."""
-    own = [entry for entry in decisions if entry.number == result.get("number")]
-    if not own:
+def _lines(path: Path) -> tuple[list[tuple[Any, ...]], str, str]:
+    """Rows of a gradebook, who saved it and when; none where there is no such book."""
+    from openpyxl import load_workbook
+
+    if not path.exists():
+        return [], "", ""
+    try:
+        book = load_workbook(path, read_only=True, data_only=True)
+        sheet = book[_SHEET] if _SHEET in book.sheetnames else book.worksheets[0]
+        lines = list(sheet.iter_rows(values_only=True))
+        author = book.properties.lastModifiedBy or "ведомость"
+        date = datetime.fromtimestamp(int(path.stat().st_mtime)).isoformat(timespec="minutes")
+        book.close()
+    except Exception:  # a gradebook that someone has broken is written anew
+        return [], "", ""
+    return lines, author, date
+
+
+def bound(decisions: Sequence[Decision], counted: Mapping[int, Work]) -> list[Decision]:
+    """Decisions on whole works with their files, those on files that no longer count apart."""
+
+    def of(entry: Decision) -> Decision:
+        work = counted.get(entry.number)
+        if work is None or not (entry.item == WHOLE or entry.item.startswith(FORMER)):
+            return entry
+        file = entry.file or work.sha256
+        return replace(entry, item=WHOLE if file == work.sha256 else FORMER + file, file=file)
+
+    return [of(entry) for entry in decisions]
+
+
+def applied(
+    result: dict[str, Any], decisions: Sequence[Decision], *, counts: bool = True
+) -> dict[str, Any]:
+    """A result as the person has decided; without decisions the same.
+
+    Where another file was decided on, the one that ``counts`` waits for a person.
+    """
+    known = [entry for entry in decisions if entry.number == result.get("number")]
+    own = [entry for entry in known if not entry.item.startswith(FORMER)]
+    if not known:
         return result
     made = copy.deepcopy(result)
+    if counts and len(own) < len(known) and all(entry.item != WHOLE for entry in own):
+        made["manual"].append(_ANOTHER)
+        made["doubts"].append(_ANOTHER)
     made["decisions"] = [asdict(entry) for entry in own]
     lines = {line["id"]: line for line in made["items"]}
     settled = set()

@@ -14,6 +14,7 @@ from typing import Any
 from reports.grading.batch.cluster import grade_far
 from reports.grading.batch.decisions import (
     applied,
+    bound,
     decided,
     from_gradebook,
     load_decisions,
@@ -29,7 +30,7 @@ from reports.grading.judging.works import Shared, Work, work_of
 from reports.grading.pages.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
 from reports.grading.pages.moodle import feedback_zip, filled, read_worksheet
 from reports.grading.pages.pages import class_page, student_page
-from reports.grading.pages.summary import summarise, table_rows
+from reports.grading.pages.summary import choose, summarise, table_rows
 from reports.grading.reading.submissions import Submission, collect
 from reports.shared.aside import processors
 from reports.shared.errors import InputError, Problem
@@ -91,6 +92,7 @@ def grade(
         Marker(register).assignment(register.books[0])  # the rubric must fit the engine
     submissions = collect(submitted)
     _refuse_overlap(submitted, folder, issued)
+    _refuse_another_class(folder, register)
     make_dir(folder)
     batch = _Batch(register, folder)
     batch.start(submissions)
@@ -182,17 +184,22 @@ class _Batch:
     def decide(self, options: Options) -> None:
         """Decisions kept, written into the gradebook and given with the command."""
         kept = load_decisions(self.folder)
-        found = from_gradebook(self.folder / "gradebook.xlsx", kept)
+        rubric = self.register.rubric
+        found = from_gradebook(self.folder / "gradebook.xlsx", kept, rubric.maximum)
         works = list(self.works.values())
+        counted = choose(works, rubric.attempts.count)
         found = decided(found, self.register, works, options.decisions, options.author)
+        found = bound(found, counted)
         if found or kept:
             save_decisions(self.folder, found)
         touched = {entry.number for entry in (*kept, *found)}
         for work in works:
             if work.number in touched:
                 path = self.folder / RESULTS / f"{Path(work.page).stem}.json"
-                result = applied(json.loads(path.read_text(encoding="utf-8")), found)
-                write_text(self.folder / work.page, student_page(result, self.register.rubric))
+                counts = counted[work.number] is work if work.number in counted else False
+                raw = json.loads(path.read_text(encoding="utf-8"))
+                result = applied(raw, found, counts=counts)
+                write_text(self.folder / work.page, student_page(result, rubric))
                 self._keep(result)
 
     def start(self, submissions: Sequence[Submission]) -> None:
@@ -345,3 +352,14 @@ def _refuse_overlap(submitted: Path, folder: Path, issued: Path) -> None:
         if source.is_dir() and (target == source or source in target.parents):
             what = f"результаты легли бы в папку {place}"
             raise InputError(Problem(str(folder), what, "укажите другую папку ключом -o"))
+
+
+def _refuse_another_class(folder: Path, register: Register) -> None:
+    """Decisions on one class are not those on the students with the same numbers of another."""
+    try:
+        earlier = load_register(folder / RESULTS / FILE)
+    except InputError:
+        return
+    if {book.ticket for book in earlier.books}.isdisjoint(book.ticket for book in register.books):
+        what = "здесь результаты и решения другой группы или другой выдачи"
+        raise InputError(Problem(str(folder), what, "укажите другую папку ключом -o"))

@@ -17,7 +17,8 @@ _HEADS = {
     "surname": ("фамилия", "surname", "last name", "lastname", "фамилия студента"),
     "name": ("имя", "имя и отчество", "имя отчество", "name", "first name", "firstname"),
     "patronymic": ("отчество", "middle name"),
-    "full": ("фио", "ф.и.о.", "студент", "student", "full name", "полное имя", "фамилия и имя"),
+    "full": ("фио", "ф.и.о.", "ф. и. о.", "фио студента", "студент", "student", "full name",
+             "полное имя", "фамилия и имя", "фамилия имя отчество", "фамилия, имя, отчество"),
     "group": ("группа", "group", "groups", "группы"),
     "id": ("номер", "шифр", "id", "id number", "индивидуальный номер", "логин", "login",
            "username", "зачетка", "зачётка", "номер зачетки", "номер зачётки"),
@@ -49,7 +50,7 @@ def read_roster(path: Path) -> list[Student]:
         InputError: everything that is wrong with it.
     """
     text = _text(path)
-    sample = text.partition("\n")[0]
+    sample = text.lstrip("\r\n").partition("\n")[0]
     delimiter = max(";,\t", key=sample.count)
     try:
         rows = list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True))
@@ -57,6 +58,8 @@ def read_roster(path: Path) -> list[Student]:
         raise _refused(path, "это не CSV: не закрыта кавычка", "сохраните список заново") from None
     rows = [[_clean(cell) for cell in row] for row in rows]
     numbered = [(i, row) for i, row in enumerate(rows, 1) if any(row)]
+    if numbered and numbered[0][1][0].casefold() == "sep=":  # Excel's word on the delimiter
+        del numbered[0]
     if not numbered:
         raise _refused(path, "список пуст", "нужны столбцы: Фамилия;Имя;Группа")
     columns = _columns(numbered[0][1])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 from reports.grading.reading.student import Student
 from reports.recalculation.formulas import Formula
@@ -10,8 +11,11 @@ from reports.recalculation.grid import Run
 
 _ALIKE = 3  # formulas that differ in nothing but their numbers, to be a list of numbers
 _MANY = 8  # long numbers in one formula, to be a list of numbers
+_CASES = 5  # numbers among which a formula chooses, or cases that it tells apart
+_SHORT = 3  # digits of a number that may be chosen so
+_DIGITS = 20  # of a text that is a list
 _LONG = 5  # digits of a number that nobody knows by heart
-_TYPED = 4  # digits of a number in a list that is read; angles have fewer
+_TYPED = 4  # digits, the comma with them, of a number in a list that is read; angles have fewer
 
 
 def reads_a_list(student: Student, node: str) -> bool:
@@ -19,7 +23,7 @@ def reads_a_list(student: Student, node: str) -> bool:
     if listed(student.helpers(node)):
         return True
     read = student.own_numbers(node)
-    long = {abs(value) for value in read if _digits(f"{value!r}") >= _TYPED}
+    long = {v for v in read if _digits(f"{v!r}") + (not v.is_integer()) >= _TYPED}
     return len(long) >= _ALIKE and len(read) >= student.assignment.length(node) // 2
 
 
@@ -31,7 +35,7 @@ def listed(runs: Sequence[Run]) -> set[int]:
         if run.formula is None:
             continue
         alike.setdefault(_skeleton(run.formula), []).append(run)
-        if _long_numbers(run.formula) >= _MANY:
+        if _long_numbers(run.formula) >= _MANY or _chooses(run.formula):
             found.add(id(run))
     for group in alike.values():
         numbers = {
@@ -52,6 +56,28 @@ def _long_numbers(formula: Formula) -> int:
     return len(
         {value for kind, value in formula.pattern if kind == "number" and _digits(value) >= _LONG}
     )
+
+
+@lru_cache(maxsize=20_000)
+def _chooses(formula: Formula) -> bool:
+    """Whether a formula picks its value out of many, whatever they are called: CHOOSE, IF, {}."""
+    tokens = [token for token in formula.pattern if token[0] != "space"]
+    signless = [t for i, t in enumerate(tokens)
+                if t != ("op", "-") or (i and tokens[i - 1] not in _BEFORE)]  # fmt: skip
+    arguments = sum(
+        kind == "number" and _digits(value) >= _SHORT and before in _BEFORE and after in _AFTER
+        for before, (kind, value), after in zip(signless, signless[1:], signless[2:], strict=False)
+    )
+    texts = (value for kind, value in tokens if kind == "text")
+    return (
+        arguments >= _CASES
+        or tokens.count(("op", "=")) >= _CASES
+        or any(sum(map(str.isdigit, text)) >= _DIGITS for text in texts)
+    )
+
+
+_BEFORE = frozenset(("op", sign) for sign in "(,;{")
+_AFTER = frozenset(("op", sign) for sign in "),;}")
 
 
 def _digits(number: str) -> int:

@@ -21,11 +21,12 @@ from reports.grading.judging.tolerances import close, tolerance
 from reports.grading.judging.trials import Trial
 from reports.grading.reading.student import Student
 from reports.recalculation.bench import (
-    ROUNDINGS,
     Bench,
     Cells,
+    full,
     pinned,
     rounded_to,
+    rounds,
     unrounded_grid,
 )
 from reports.recalculation.grid import Run
@@ -34,7 +35,7 @@ from reports.recalculation.language import UnknownFormula
 Array = NDArray[np.float64]
 
 # What is said of a cell.
-RIGHT, ROUNDED, PARTLY, STILL, WRONG, NOTHING, UNKNOWN, PASTED = "prtsw-ul"
+RIGHT, ROUNDED, COARSE, PARTLY, STILL, WRONG, NOTHING, UNKNOWN, PASTED = "prctsw-ul"
 _INSIDE = 2e-3  # share of a column that roundings inside a formula may cost
 
 
@@ -89,9 +90,9 @@ class Response:
             node
             for node in self._tried
             if any(
-                run.formula is not None and not run.formula.functions.isdisjoint(ROUNDINGS)
-                for run in self._with_helpers(node)
+                run.formula is not None and rounds(run.formula) for run in self._with_helpers(node)
             )
+            or (self._full_constants and _has_pi(self.student.own_numbers(node)))
         ]
         return self._run(wanted, rounded=False) if wanted else {}
 
@@ -104,7 +105,7 @@ class Response:
         student = self.student
         first = pinned(student.grid, self.cells(self.trials[0], everything=True))
         if not rounded:
-            first = unrounded_grid(first)
+            first = unrounded_grid(pinned(first, self._full_constants))
         bench = Bench(first, {node: student.runs(node) for node in nodes}, rounded=rounded)
         found: dict[str, list[Array] | str] = {node: [] for node in nodes}
         for trial in self.trials:
@@ -168,6 +169,15 @@ class Response:
             if hit is not None:
                 found.setdefault(hit[0], []).append((sheet, number, row, hit[1]))
         return found
+
+    @cached_property
+    def _full_constants(self) -> list[Cells]:
+        """Cells of the student's own with π of some digits, with all of them."""
+        return [
+            Cells(sheet, column, (row,), (full(value),))
+            for sheet, column, row, value in self.student.own_constants
+            if full(value) != value
+        ]
 
     # --- what it says -----------------------------------------------------------------
 
@@ -239,11 +249,13 @@ class Response:
             word = ""
             if all(good[0][i] for i in at):
                 word = RIGHT
-            elif roughly is not None and all(roughly[i] for i in at):
+            elif roughly is not None and all(roughly[1][i] for i in at):
                 word = ROUNDED
+            coarse = roughly is not None and all(roughly[0][i] for i in at)
             for i in at:
                 letter = self._word(i, word, values, right, good, listed=id(run) in lists)
-                if letter == PARTLY or (letter == word and not good[1][i]):
+                letter = COARSE if coarse and letter == PARTLY else letter
+                if letter in (PARTLY, COARSE) or (letter == word and not good[1][i]):
                     pasted = reads_a_list(self.student, node) if pasted is None else pasted
                     letter = PASTED if pasted else letter
                 letters[i] = letter
@@ -291,12 +303,13 @@ class Response:
 
     def _rounded_good(
         self, item: Item, node: str, values: Sequence[Array], right: Sequence[Array]
-    ) -> NDArray[np.bool_] | None:
-        """Where a formula would be right without its roundings, and these are fine enough."""
+    ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]] | None:
+        """Where a formula would be right without its roundings, and where they are fine enough."""
         plain = self._unrounded.get(node)
         if not plain or isinstance(plain, str):
             return None
-        found = self._good(item, plain, right)[0]
+        exact = self._good(item, plain, right)[0]
+        found = exact.copy()
         half = self.student.assignment.rubric.tolerance.units * 10.0**-item.quantity.digits.decimals
         whole = [rounded_to(r.formula) for r in self.student.runs(node) if r.formula is not None]
         coarse = any(d is not None and d < item.quantity.digits.decimals for d in whole)
@@ -305,7 +318,7 @@ class Response:
                 largest = float(np.nanmax(np.abs(wanted))) if wanted.size else 0.0
                 allowed = half if coarse else max(half, _INSIDE * largest)
                 found &= close(item, own, wanted, allowed * (1 + 1e-9))
-        return found
+        return exact, found
 
     @cached_property
     def tampered(self) -> list[str]:
@@ -357,6 +370,10 @@ class Response:
             return bench.values(node, self.student.placement.places[node].rows)
         except UnknownFormula:
             return None
+
+
+def _has_pi(numbers: Sequence[float]) -> bool:
+    return any(full(number) != number for number in numbers)
 
 
 def _differ(first: float, second: float) -> bool:

@@ -12,8 +12,9 @@ from reports.grading.issuing.assignment import Item
 from reports.grading.judging import response as say
 from reports.grading.judging.response import Response
 from reports.grading.judging.tolerances import close, tolerance
-from reports.grading.reading.ground import circles, is_void, resting_on
+from reports.grading.reading.ground import circles, filled_copy, is_void, resting_on
 from reports.grading.reading.student import LOST, Answer, Student, known_values
+from reports.recalculation.bench import rounded_to
 from reports.recalculation.evaluate import BLANK, ERROR, TEXT
 from reports.recalculation.language import UnknownFormula
 
@@ -109,7 +110,8 @@ def _of_cells(item: Item, student: Student, response: Response) -> Judgement:
         rows = _where([kind == LOST for kind in kinds])
         return replace(made, verdict=UNKNOWN, rows=rows, reason="ячейки не найдены в книге")
     if set(kinds) == {BLANK}:
-        return replace(made, verdict=EMPTY)
+        why = filled_copy(student, item.nodes[0])
+        return replace(made, verdict=UNKNOWN if why else EMPTY, reason=why)
     if not student.assignment.formulas_demanded(item) and typed.all():
         return _free(made, student)
     return _by_rows(made, student, response, kinds, letters)
@@ -169,7 +171,7 @@ def _by_rows(
     if verdict == BROKEN:
         reason = _errors(item, student)
     return replace(made, verdict=verdict, rows=rows, paid=paid, reason=reason,
-                   coarse=_coarse(item, student))  # fmt: skip
+                   coarse=say.COARSE in letters or _coarse(item, student))  # fmt: skip
 
 
 def _word(kind: str, letter: str, good: bool, fixed: bool) -> str:
@@ -188,6 +190,8 @@ def _word(kind: str, letter: str, good: bool, fixed: bool) -> str:
         return BROKEN
     if not good:
         return WRONG
+    if letter == say.COARSE:  # here the rounding does not show
+        return RIGHT
     return STILL if letter == say.STILL else TYPED
 
 
@@ -232,8 +236,6 @@ def _errors(item: Item, student: Student) -> str:
 
 def _coarse(item: Item, student: Student) -> bool:
     """Whether a column is wrong only because it is rounded more than the book prints."""
-    from reports.recalculation.bench import rounded_to
-
     digits = [
         rounded_to(run.formula)
         for node in item.nodes

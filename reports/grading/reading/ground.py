@@ -70,6 +70,32 @@ def is_void(student: Student, node: str) -> bool:
     return nothing > len(answer.kinds) / 2
 
 
+def filled_copy(student: Student, node: str) -> str:
+    """Which own copy of its sheet has something in the cells of a node, empty where none has."""
+    place = student.placement.places.get(node)
+    known = {other.sheet for other in student.placement.places.values()}
+    if place is None or place.span is None:
+        return ""
+    heads = _texts(student, place.sheet)
+    for sheet in student.grid.sheets:
+        column = student.grid.column(sheet, place.column)
+        filled = column.runs_in(place.span.first, place.span.last) or any(
+            row in column.constants for row in place.rows
+        )
+        if sheet not in known and filled and len(heads & _texts(student, sheet)) > len(heads) / 2:
+            return f"не заполнено, но заполнена копия листа: «{sheet}»"
+    return ""
+
+
+def _texts(student: Student, sheet: str) -> set[tuple[int, int, str]]:
+    return {
+        (number, row, value)
+        for number, column in student.grid.sheets[sheet].items()
+        for row, value in column.constants.items()
+        if isinstance(value, str)
+    }
+
+
 def resting_on(student: Student, nodes: frozenset[str]) -> frozenset[str]:
     """Nodes whose values would be other ones if some nodes had the right values."""
     cells: list[Cells] = []

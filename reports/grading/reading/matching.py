@@ -134,8 +134,8 @@ def _by_name(register: Register, submission: Submission) -> tuple[Issued, str] |
             continue
         hits = [book for book in register.books if book.folder in submission.key.split("/")]
         hits = hits or [book for book in register.books if _file_stem(book) in submission.key]
-        hits = hits or [book for book in register.books if _names(book) <= words]
-        hits = hits or [book for book in register.books if _words(book.student.surname) <= words]
+        hits = hits or [book for book in register.books if _stand_in(_names(book), words)]
+        hits = hits or [book for book in register.books if _stand_in(_surname(book), words)]
         if len(hits) == 1:
             return hits[0], f"{where}: «{text[:120]}»"
     return None
@@ -146,8 +146,18 @@ def _file_stem(book: Issued) -> str:
 
 
 def _names(book: Issued) -> set[str]:
-    first = book.student.name.split(" ")[0]
-    return _words(f"{book.student.surname} {first}")
+    first = _words(book.student.name.split(" ")[0])
+    return first | _words(book.student.surname) if first else set()
+
+
+def _surname(book: Issued) -> set[str]:
+    """The words of a surname that is no word by chance: «И», «По», «Но» are surnames, too."""
+    words = _words(book.student.surname)
+    return words if any(len(word) > 2 for word in words) else set()
+
+
+def _stand_in(name: set[str], words: set[str]) -> bool:
+    return bool(name) and name <= words
 
 
 def _words(text: str) -> set[str]:
@@ -157,4 +167,4 @@ def _words(text: str) -> set[str]:
 
 
 def _split(text: str) -> Iterable[str]:
-    return (word for word in re.split(r"[^a-z]+", text) if word)
+    return (word for word in re.split(r"[\W\d_]+", text) if word)

@@ -36,11 +36,11 @@ const loaded = name => file => act(door(`file/${name}`), file, `${file.name}: з
 const link = (path, title, more) => html`<a href=${door(`file/${path}`)} ...${more}>${title}</a>`;
 
 const gradebook = rows => table("Ведомость", rows.map(each => {
-  const points = each.points ?? each.provisional, judged = each.number && each.page;
+  const {number, student, page} = each, points = each.points ?? each.provisional;
   const shown = each.points === null && points !== null ? `(${printed(points)})` : printed(points);
-  return row([[judged ? link(each.page, each.student, {target: "_blank"}) : each.student], [each.status],
-    [shown, "n"], [each.remark], [judged && decision(each)]],
-  {key: each.number ?? each.student, class: each.manual ? "odd warn color" : ""});
+  const who = number ? `${number}. ${student}` : student; // there are namesakes
+  return row([[page ? link(page, who, {target: "_blank"}) : who], [each.status],
+    [shown, "n"], [each.remark], [number && page && decision(each)]], {key: who, class: each.manual ? "odd warn color" : ""});
 }), html`<thead><tr>${["Студент", "Состояние", "Баллы", "Примечание", "Решение"].map(title =>
   html`<th scope="col">${title}</th>`)}</tr></thead>`);
 
@@ -69,8 +69,8 @@ const issued = ({open, students, rows, files}) => html`
     name.endsWith(".html") ? {target: "_blank"} : {download: name}))}</p>
   ${rows.length > 0 && gradebook(rows)}
   <details id="links" open><summary>Ссылки студентов</summary>
-    <ul>${students.map(each => html`<li><a href=${`s/${each.link}/`}>${each.name}</a>
-      ${each.group && `, ${each.group}`}${each.handed && " — сдал здесь"}</li>`)}</ul></details>`;
+    <ol>${students.map(each => html`<li><a href=${`s/${each.link}/`}>${each.name}</a>
+      ${each.group && `, ${each.group}`}${each.handed && " — сдал здесь"}</li>`)}</ol></details>`;
 
 const asked = (title, name, more) => html`<label>${title} <input id=${name.split(".")[0]} name=${name} ...${more} /></label>`;
 

@@ -71,6 +71,27 @@ def _times(
     return edit
 
 
+def _picked(text: str) -> Callable[[Desk], dict[str, object]]:
+    """A short list of numbers in one formula, scaled by the input data as the right one is.
+
+    The numbers of a half turn stand in ``@``, by cases in ``#``, as digits of a text in ``~``.
+    """
+
+    def change(here: Desk) -> dict[str, object]:
+        numbers = [round(v, 2) for v in here.column(J1)]
+        speed = here.issued.drawn["regime.speed_rpm"]
+        plain, cases = (
+            ",".join(map(repr, numbers)),
+            "+".join(f"(A{{r}}={30 * i})*{v}" for i, v in enumerate(numbers)),
+        )
+        digits = "".join(f"{v:+010.2f}" for v in numbers)
+        whole = text.replace("@", plain).replace("#", cases).replace("~", digits)
+        rows_ = [whole.replace("{r}", str(row)) for row in rows()[: len(numbers)]]
+        return {J1: [f"=({one})*(regime_speed_rpm/{speed})^2" for one in rows_]}
+
+    return change
+
+
 def _only_mine(here: Desk) -> dict[str, object]:
     speed = here.issued.drawn["regime.speed_rpm"]
     return {S1: literals(f"=IF(regime_speed_rpm={speed},{{v}},D{{r}})", here.column(S1))}
@@ -227,6 +248,10 @@ CHEATS = (
     ),
     Work("choose", _choose, unpaid=(S1,)),
     Work("a list of numbers", _list, unpaid=(S1,)),
+    Work("choose, scaled", _picked("CHOOSE(A{r}/30+1,@)"), unpaid=(J1,)),
+    Work("an array, scaled", _picked("INDEX({@},A{r}/30+1)"), unpaid=(J1,)),
+    Work("cases, scaled", _picked("#"), unpaid=(J1,)),
+    Work("digits of a text, scaled", _picked('MID("~",A{r}/3+1,10)'), unpaid=(J1,)),
     Work("an array of numbers", _array_list, unpaid=(S1,)),
     Work("scaled by omega", _scaled("omega", "omega"), unpaid=(J1,)),
     Work("scaled by n", _scaled("regime_speed_rpm", "regime.speed_rpm"), unpaid=(J1,)),

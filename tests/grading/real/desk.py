@@ -15,7 +15,7 @@ from reports.workbook.layout import Layout
 from tests.grading.classroom import registered
 from tests.grading.real.written import RUBRIC
 
-COUNT = 140
+COUNT = 150
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from kshm.nomenclature.quantity import quantity
 from tests.grading.forms import insert
 from tests.grading.real.books import Cells, Work, rows
 from tests.grading.real.desk import Desk
-from tests.grading.real.written import COLUMNS, FIRST, ROWS, SCALARS
+from tests.grading.real.written import COLUMNS, FIRST, LAM, OMEGA, ROWS, SCALARS
 
 LAST = FIRST + ROWS - 1
 _RAD = "A{r}*PI()/180"
@@ -55,6 +55,25 @@ def _rounded_inside(desk: Desk) -> dict[str, Cells]:
         "P3_1.j2_m_s2": f"=r_crank*omega^2*lam*(2*{cos}^2-1)",
         "P4_1.T_MPa": f"=D{{r}}*({sin}+{cos}*ROUND(TAN(J{{r}}),4))",
     }
+
+
+def _digits_of_pi(desk: Desk) -> dict[str, Cells]:
+    """π, and what turns degrees into radians, by as many digits as one knows by heart."""
+    return {
+        "omega": "=2*3.1416*regime_speed_rpm/60",
+        "K_r": "=C26*C5*(regime_speed_rpm/9.55)^2/1000",
+        "P3_2.omega_rod_exact_1_s": f"={OMEGA}*{LAM}*COS(A{{r}}*0.01745)/COS(B{{r}})",
+        "P3_2.omega_rod_approx_1_s": f"={OMEGA}*{LAM}*COS(A{{r}}/57.3)",
+        "P3_2.eps_rod_exact_1_s2": COLUMNS["P3_2.eps_rod_exact_1_s2"].replace("PI()", "3.1416"),
+        "P3_2.eps_rod_approx_1_s2": f"=-({OMEGA}^2)*{LAM}*SIN(A{{r}}/57.296)",
+        "P4_3_1.block_x_MPa": "=I{r}*SIN(A{r}/57.3)-H{r}*COS(A{r}/57.3)",
+    }
+
+
+def _digits_in_a_cell(book: Workbook, desk: Desk) -> None:
+    book["П3.2"]["N1"] = 57.3
+    for row in range(FIRST, 19):
+        book["П3.2"].cell(row, 6).value = f"=-({OMEGA}^2)*{LAM}*SIN(A{row}/$N$1)"
 
 
 def _by_name(desk: Desk) -> dict[str, Cells]:
@@ -281,6 +300,8 @@ HONEST = (
     Work("saved as Excel does", form="excel"),
     Work("another algebra", _other_algebra),
     Work("names", _by_name, form="excel"),
+    Work("few digits of pi", _digits_of_pi),
+    Work("few digits of pi in a cell", edit=_digits_in_a_cell),
     Work("helper columns", edit=_helper_columns),
     Work("a helper sheet", edit=_helper_sheet, form="office"),
     Work("look-ups over whole columns", _look_ups),

@@ -5,7 +5,6 @@ from __future__ import annotations
 import gc
 import os
 import shutil
-from collections.abc import Iterator
 from functools import lru_cache
 from pathlib import Path
 from tempfile import mkdtemp
@@ -209,8 +208,6 @@ def group_of(item: pytest.Item) -> str:
         return "reports"
     if {"browser", "served"} & set(getattr(item, "fixturenames", ())):
         return "browser"  # one Chromium, one server
-    if "cluster" in getattr(item, "fixturenames", ()):
-        return "cluster"
     return min(samples_of(item), default=item.nodeid.partition("::")[0])
 
 
@@ -257,17 +254,6 @@ def libreoffice() -> LibreOffice:
     if find_soffice() is None:
         missing("LibreOffice", "libreoffice-calc-nogui")
     return LibreOffice()
-
-
-@pytest.fixture(scope="session")
-def cluster() -> Iterator[object]:
-    """Two workers, each a process of its own; a dead one is started again."""
-    distributed = pytest.importorskip("distributed")  # a second, which the quick tests spare
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None,
-        silence_logs=50,
-    ) as made:  # fmt: skip
-        yield made
 
 
 @pytest.fixture

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import io
 import os
+import re
 import signal
+import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+from starlette.testclient import TestClient
 
 from reports.cli import main
 from reports.grading.batch import cluster as cluster_module
@@ -19,11 +24,25 @@ from reports.shared.errors import KshmError
 from reports.shared.resources import samples_dir
 from reports.studies import run as run_module
 from reports.studies.run import Options, sweep
+from reports.web.app import Settings, create_app
 from tests.grading import classroom
 from tests.grading.fill import filled_book
+from tests.web.conftest import Page
+from tests.web.test_files import made
 
 BASE = samples_dir() / "gots-diesel.toml"
 VARY = ("regime.speed_rpm=1500:4400:10", "geometry.bore_mm=84:92:6")
+
+
+@pytest.fixture(scope="module")
+def cluster() -> Iterator[Any]:
+    """Two workers, each a process of its own; a dead one is started again."""
+    distributed = pytest.importorskip("distributed")  # a second, which the quick tests spare
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None,
+        silence_logs=50,
+    ) as made:  # fmt: skip
+        yield made
 
 
 def killer(cluster: Any) -> tuple[Callable[..., Iterator[Any]], list[int]]:
@@ -108,6 +127,31 @@ def test_reports_are_built_on_the_cluster_byte_for_byte(cluster: Any, tmp_path: 
         assert stop.value.code == 0
     assert tree(tmp_path / "far") == tree(tmp_path / "near")
     assert sorted(tree(tmp_path / "far")) == ["a.xlsx", "b.xlsx"]
+
+
+def told(book: bytes) -> tuple[str, list[float]]:
+    """A workbook's parts without the values of its cells, and those values."""
+    archive = zipfile.ZipFile(io.BytesIO(book))
+    text = "".join(archive.read(name).decode() for name in archive.namelist() if "xml" in name)
+    value = re.compile(r"<(v|c:v)>(-?[0-9.]+(?:[eE][-+]?[0-9]+)?)</\1>")
+    return value.sub("", text), [float(found) for _, found in value.findall(text)]
+
+
+def test_the_page_s_files_are_built_on_the_cluster(cluster: Any, tmp_path: Path) -> None:
+    def calculated() -> set[str]:
+        return {event[0] for event in cluster.scheduler.transition_log if event[2] == "memory"}
+
+    before, books = calculated(), []
+    for far in (cluster.scheduler_address, None):
+        settings = Settings(tmp_path / str(bool(far)), per_s=1e6, workers=1, dask=far)
+        with TestClient(create_app(settings), base_url="http://localhost") as client:
+            page = Page(client)
+            job, _ = made(page, raw=page.sample(), kind="xlsx")
+            books.append(client.get(f"/api/files/{job}/engine.xlsx").content)
+    assert len(calculated() - before) == 1  # the cluster made the one, this machine the other
+    (far_text, far_values), (near_text, near_values) = map(told, books)
+    assert far_text == near_text
+    np.testing.assert_allclose(far_values, near_values, rtol=1e-9, atol=1e-9)  # last digits differ
 
 
 def test_inputs_whose_results_would_be_one_are_refused(

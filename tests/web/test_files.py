@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import io
-import re
 import time
 import tomllib
 import zipfile
-from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
 from reports.commands.engine import build
-from reports.web.app import Settings, create_app
 from reports.web.jobs import OFFERED
 from tests.web.conftest import MARK, Page
 
@@ -80,28 +76,3 @@ def test_bad_values_make_no_job(page: Page) -> None:
 def test_only_what_was_made_is_given(page: Page, client: TestClient, name: str) -> None:
     job, _ = made(page, raw=page.sample(), kind="json")
     assert client.get(f"/api/files/{job}/{name}").status_code == 404
-
-
-def told(book: bytes) -> tuple[str, list[float]]:
-    """A workbook's parts without the values of its cells, and those values."""
-    archive = zipfile.ZipFile(io.BytesIO(book))
-    text = "".join(archive.read(name).decode() for name in archive.namelist() if "xml" in name)
-    value = re.compile(r"<(v|c:v)>(-?[0-9.]+(?:[eE][-+]?[0-9]+)?)</\1>")
-    return value.sub("", text), [float(found) for _, found in value.findall(text)]
-
-
-def test_files_are_built_on_a_cluster(cluster: Any, tmp_path: Path) -> None:
-    def calculated() -> set[str]:
-        return {event[0] for event in cluster.scheduler.transition_log if event[2] == "memory"}
-
-    before, books = calculated(), []
-    for far in (cluster.scheduler_address, None):
-        settings = Settings(tmp_path / str(bool(far)), per_s=1e6, workers=1, dask=far)
-        with TestClient(create_app(settings), base_url="http://localhost") as client:
-            page = Page(client)
-            job, _ = made(page, raw=page.sample(), kind="xlsx")
-            books.append(client.get(f"/api/files/{job}/engine.xlsx").content)
-    assert len(calculated() - before) == 1  # the cluster made the one, this machine the other
-    (far_text, far_values), (near_text, near_values) = map(told, books)
-    assert far_text == near_text
-    np.testing.assert_allclose(far_values, near_values, rtol=1e-9, atol=1e-9)  # last digits differ

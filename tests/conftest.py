@@ -123,7 +123,6 @@ SLOW = (
     "tests/web/test_browser.py",
     "tests/web/test_class.py",
     "tests/web/test_files.py::test_a_comparison",
-    "tests/web/test_files.py::test_files_are_built",
     "tests/web/test_files.py::test_workbook",
     "tests/web/test_hostile.py::test_hostile_books",
     "tests/web/test_queue.py::test_a_killed",

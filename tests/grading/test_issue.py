@@ -12,7 +12,7 @@ from openpyxl import load_workbook
 
 from reports.exports.build import load_input
 from reports.grading.issuing.handout import _live_cells, fill_cells
-from reports.grading.issuing.issue import issue
+from reports.grading.issuing.issue import issue, latin
 from reports.grading.issuing.register import load_register
 from reports.grading.issuing.roster import read_roster
 from reports.grading.issuing.rubric import Rubric, load_rubric
@@ -35,6 +35,18 @@ def test_a_roster_in_any_usual_form(tmp_path, encoding, delimiter):
     found = read_roster(path)
     assert [student.full for student in found] == ["Иванов Иван", "Пётр Ёлкин Анна"]
     assert found[0].group == "ДВС-1"
+
+
+@pytest.mark.parametrize(
+    ("name", "spelt"),
+    [
+        ("Қасымов Нұрлан", "kasymov nurlan"), ("Ґалаґан Їжак", "galagan izhak"),
+        ("Ўладзімір", "uladzimir"), ("Ёжиков Йорданов", "ezhikov yordanov"),
+        ("И\u0306орданов", "yordanov"), ("Müller Şahin", "muller sahin"), ("李 Wei", "李 wei"),
+    ],
+)  # fmt: skip
+def test_names_of_neighbours_are_spelt_in_latin(name, spelt):
+    assert latin(name) == spelt
 
 
 @pytest.mark.parametrize("delimiter", [";", ",", "\t"])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import re
+import unicodedata
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -26,6 +27,7 @@ from reports.shared.files import atomic_dir
 from reports.shared.progress import Progress
 from reports.tables.registry import build_model
 
+# Russian letters and those of neighbours.
 _LATIN = dict(
     zip(
         "абвгдеёжзийклмнопрстуфхцчшщъыьэюя",
@@ -33,7 +35,7 @@ _LATIN = dict(
          "s", "t", "u", "f", "kh", "ts", "ch", "sh", "shch", "", "y", "", "e", "yu", "ya"),
         strict=True,
     )
-)  # fmt: skip
+) | dict(zip("іїєґўәғқңөұүһҳҷҗӯ", "iieguagknouuhhjju", strict=True))  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,8 +137,12 @@ def _slug(name: str) -> str:
 
 
 def latin(text: str) -> str:
-    """Small letters, Russian ones spelt in Latin."""
-    return "".join(_LATIN.get(char, char) for char in text.casefold())
+    """Small letters, Cyrillic ones spelt in Latin, without accents."""
+    plain = unicodedata.normalize("NFC", text.casefold())
+    spelled = "".join(_LATIN.get(char, char) for char in plain)
+    return "".join(
+        char for char in unicodedata.normalize("NFKD", spelled) if not unicodedata.combining(char)
+    )
 
 
 def _batch(base: Base, seed: int) -> str:

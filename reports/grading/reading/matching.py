@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import unicodedata
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -162,8 +161,7 @@ def _stand_in(name: set[str], words: set[str]) -> bool:
 
 def _words(text: str) -> set[str]:
     """Words in Latin letters, so that Иванов is found in ivanov_kr.xlsx."""
-    plain = latin(unicodedata.normalize("NFC", text).casefold())
-    return set(_split(plain))
+    return set(_split(latin(text)))
 
 
 def _split(text: str) -> Iterable[str]:

@@ -20,7 +20,7 @@ from starlette.responses import HTMLResponse, Response
 from starlette.routing import Mount
 from starlette.staticfiles import StaticFiles
 
-from reports.grading.issuing.ticket import make_secret, read_secret
+from reports.grading.issuing.ticket import SECRET, kept_secret
 from reports.inputs.described import Data
 from reports.inputs.sections.cycle import KINDS
 from reports.inputs.sections.input_file import LAYOUTS, STROKES
@@ -53,18 +53,13 @@ async def choices(_: Request) -> Data:
             "files": {kind: title for kind, (title, _) in OFFERED.items()}}  # fmt: skip
 
 
-def server_secret(folder: Path) -> bytes:
-    """What makes links unguessable: made once, then kept beside the files."""
-    path = folder / "secret.key"
-    return read_secret(path) if path.exists() else make_secret(path)
-
-
 def create_app(settings: Settings) -> Guard:
     """The whole application, the guard before it."""
     if not settings.data.exists():
         make_dir(settings.data)
         settings.data.chmod(0o700)
-    secret, count = server_secret(settings.data), settings.workers or processors()
+    # What makes links unguessable, kept beside the files.
+    secret, count = kept_secret(settings.data / SECRET), settings.workers or processors()
     jobs = Jobs(settings.data / "jobs", secret, settings.dask, count)
     classes = Classes(settings.data / "classes", secret, settings.dask)
 

@@ -17,6 +17,7 @@ from starlette.routing import Route
 
 from reports.grading.batch.grade import PAGES
 from reports.grading.issuing.register import FILE, load_register
+from reports.grading.issuing.ticket import SECRET, kept_secret
 from reports.inputs.described import Data
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.files import make_dir, read_json, write_json, write_zip
@@ -25,7 +26,7 @@ from reports.web.doors import Rate, Shown, ask, body, caller, get, post, shown
 from reports.web.jobs import Queue
 
 _TEXTS = ("base.toml", "roster.csv", "rubric.toml")
-_SECRET = ("--secret", "secret.key")
+_SECRET = ("--secret", SECRET)
 
 
 def token_of(secret: bytes) -> str:
@@ -88,6 +89,7 @@ class Classes(Queue):
         lost = (p.parent for p in folder.glob("*/done.json") if not p.with_name("issued").exists())
         folder = next(lost, folder / secrets.token_hex(8))  # in the place of what has failed
         make_dir(folder / "works")
+        kept_secret(folder / SECRET)
         title = one_line(str(data.get("title")), 120) or "Группа"
         date = datetime.now().isoformat(timespec="seconds")
         write_json(folder / "about.json", {"title": title, "open": False, "date": date})

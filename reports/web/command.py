@@ -37,7 +37,8 @@ def serve(port: int, host: str, folder: Path, public: str, dask: str | None) -> 
     bound = _bound(host, port)
     import uvicorn
 
-    from reports.web.app import create_app, server_secret
+    from reports.grading.issuing.ticket import SECRET, kept_secret
+    from reports.web.app import create_app
     from reports.web.classes import token_of
     from reports.web.doors import Settings
 
@@ -46,7 +47,7 @@ def serve(port: int, host: str, folder: Path, public: str, dask: str | None) -> 
     app = create_app(Settings(folder.resolve(), hosts, public, dask))
     shown = public.rstrip("/") or f"http://{'127.0.0.1' if host == '0.0.0.0' else host}:{port}"
     click.echo(f"Страница: {shown}/")
-    click.echo(f"Преподавателю: {shown}/teacher#{token_of(server_secret(folder))}")
+    click.echo(f"Преподавателю: {shown}/teacher#{token_of(kept_secret(folder / SECRET))}")
     click.echo("Остановить: Ctrl-C", err=True)
     config = uvicorn.Config(
         app, log_level="warning", access_log=False, server_header=False,

@@ -117,6 +117,7 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
         )
     teacher.click("#issue button")
     teacher.wait_for_selector("#links a >> nth=4", timeout=WAIT)
+    assert "секрет" not in teacher.inner_text("body").lower()  # the server keeps it
     every = zipfile.ZipFile(io.BytesIO(taken(teacher, "a[download='issued.zip']")))
     assert len(every.namelist()) == 5
     links = [a.get_attribute("href") for a in teacher.query_selector_all("#links a")]

@@ -10,7 +10,8 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from reports.web.app import STATIC, Settings, create_app, server_secret
+from reports.grading.issuing.ticket import SECRET, kept_secret
+from reports.web.app import STATIC, Settings, create_app
 from reports.web.classes import token_of
 from reports.web.doors import MOST_JSON, Rate
 from tests.grading import classroom, hostile
@@ -225,7 +226,7 @@ def test_hostile_books(client: TestClient) -> None:
 
 def test_a_seed_is_no_option(page: Page, client: TestClient) -> None:
     data = client.app.app.state.settings.data  # type: ignore[attr-defined]
-    page.post("/api/login", {"token": token_of(server_secret(data))})
+    page.post("/api/login", {"token": token_of(kept_secret(data / SECRET))})
     wanted = {"title": "x", "base.toml": classroom.base_text(), "seed": "1 --rubric /etc/passwd",
               "roster.csv": classroom.roster_text(1)}  # fmt: skip
     name = page.post("/api/teacher", wanted)["name"]
@@ -316,5 +317,5 @@ def test_in_a_network_an_address_is_known_and_a_name_is_not(
 def test_secrets_lie_closed(client: TestClient) -> None:
     data = client.app.app.state.settings.data  # type: ignore[attr-defined]
     assert (data / "secret.key").stat().st_mode & 0o077 == 0
-    secret = server_secret(data)
+    secret = kept_secret(data / SECRET)
     assert token_of(secret) not in secret.hex()

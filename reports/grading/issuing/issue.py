@@ -17,7 +17,7 @@ from reports.grading.issuing.leaks import check_for_leaks
 from reports.grading.issuing.register import FILE, Issued, Register, ticket_of
 from reports.grading.issuing.roster import Student, read_roster
 from reports.grading.issuing.rubric import Rubric, load_rubric
-from reports.grading.issuing.ticket import make_secret, read_secret, secret_path
+from reports.grading.issuing.ticket import kept_secret, secret_path
 from reports.grading.issuing.variants import Base, Variant, draw_variants, load_base
 from reports.inputs.fields import iter_fields, tables_shape
 from reports.inputs.load import load_mapping
@@ -75,7 +75,7 @@ def issue(
     place = secret_path(secret_file)
     _refuse_inside(place, folder)
     fresh = not place.exists()
-    secret = make_secret(place) if fresh else read_secret(place)
+    secret = kept_secret(place)
     batch = _batch(base, seed)
     with Progress("Выдача вариантов") as progress, atomic_dir(folder) as temporary:
         books = []

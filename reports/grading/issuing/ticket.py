@@ -16,6 +16,7 @@ from reports.shared.errors import InputError, Problem
 from reports.shared.files import reason
 
 ENVIRONMENT = "KSHM_SECRET"
+SECRET = "secret.key"
 PATTERN = re.compile(r"K[A-Z2-7]{24}")
 _LENGTH = 32
 
@@ -27,7 +28,7 @@ def secret_path(given: Path | None) -> Path:
     if os.environ.get(ENVIRONMENT):
         return Path(os.environ[ENVIRONMENT])
     home = Path(os.environ.get("XDG_CONFIG_HOME") or Path.home() / ".config")
-    return home / "kshm" / "secret.key"
+    return home / "kshm" / SECRET
 
 
 def read_secret(path: Path) -> bytes:
@@ -51,6 +52,11 @@ def read_secret(path: Path) -> bytes:
 
 def _no_secret(path: Path) -> Problem:
     return Problem(str(path), "это не файл секрета kshm", "укажите другой файл ключом --secret")
+
+
+def kept_secret(path: Path) -> bytes:
+    """The secret of a file, a new one where there is none; InputError if it is none."""
+    return read_secret(path) if path.exists() else make_secret(path)
 
 
 def make_secret(path: Path) -> bytes:

@@ -1,8 +1,11 @@
 """The HTML report in headless Chromium, on a phone and on a screen."""
 
+import re
+
 import pytest
 
-from tests.browser import measure, photograph
+from tests.browser import measure, photograph, print_out
+from tests.document.pdftools import pages_of
 from tests.document.report_samples import html_page
 
 
@@ -27,3 +30,12 @@ def test_a_page_that_is_too_wide_is_noticed(tmp_path):
 def test_the_page_can_be_photographed(tmp_path):
     picture = photograph(html_page("one"), 390, 2000, tmp_path / "p.png", tmp_path / "w")
     assert picture.stat().st_size > 20_000
+
+
+def test_what_the_browser_prints_reads_as_the_report_does(tmp_path):
+    """The year is at the foot of the title page, and no number is missing in the abstract."""
+    pdf = print_out(html_page("one"), tmp_path / "p.pdf", tmp_path / "w").read_bytes()
+    title, *others = (" ".join(page.split()) for page in pages_of(pdf, tmp_path))
+    assert re.search(r"Проверил:? .*20\d\d( 1)?$", title), title
+    (abstract,) = (page for page in others if "РЕФЕРАТ" in page and "записка" in page)
+    assert re.search(r"записка \d+ рис\.", abstract), abstract

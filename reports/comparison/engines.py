@@ -196,9 +196,10 @@ def _gathered(model: InputFile) -> Iterator[tuple[str, tuple[Field, str | int | 
         own = path[2:] if path[0] == "regimes" else path
         if not any(isinstance(part, int) for part in own):
             label = (field.choices or {}).get(str(field.value), field.value)
+            title = field.title
             if path[0] == "regimes":
-                field = replace(field, title=f"{field.section}: {uncapital(field.title)}")
-            yield field.name, (field, label)
+                title = f"{field.section}: {uncapital(title)}"
+            yield field.name, (replace(field, title=title), label)
         else:
             key = ".".join(str(part) for part in path if not isinstance(part, int))
             key += f".{path[1]}" if path[0] == "regimes" else ""

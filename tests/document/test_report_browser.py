@@ -1,12 +1,14 @@
 """The HTML report in headless Chromium, on a phone and on a screen."""
 
 import re
+from pathlib import Path
 
 import pytest
 
+from reports.document.report import report_html
 from tests.browser import measure, photograph, print_out
 from tests.document.pdftools import pages_of
-from tests.document.report_samples import html_page
+from tests.document.report_samples import html_page, terms_of, text_of
 
 
 @pytest.mark.parametrize("width", [390, 1280])
@@ -39,3 +41,11 @@ def test_what_the_browser_prints_reads_as_the_report_does(tmp_path):
     assert re.search(r"Проверил:? .*20\d\d( 1)?$", title), title
     (abstract,) = (page for page in others if "РЕФЕРАТ" in page and "записка" in page)
     assert re.search(r"записка \d+ рис\.", abstract), abstract
+
+
+def test_the_frame_takes_no_page_numbers_from_the_browser():
+    """The sheets of a browser have no frame, hence no number in it: the usual one stays."""
+    source = terms_of(text_of("one").replace("[report]\n", '[report]\nframe = "eskd"\n', 1))
+    page = report_html(source.model, source.values, source=Path("t.toml"))
+    assert "counter(page)" in page
+    assert "form2" not in page

@@ -39,6 +39,21 @@ def regimes(chapter: Chapter) -> Markup:
     )
 
 
+def concluded(chapter: Chapter) -> Markup:
+    """The chapter's result in a line of the conclusion: which regime governs what."""
+    if not chapter.input.regimes:
+        return Markup("")
+    by_regime: dict[str, list[str]] = {}
+    for part, name in _governing(chapter):
+        by_regime.setdefault(name, []).append(part)
+    told = [Markup("«{}» ({})").format(name, "; ".join(p)) for name, p in by_regime.items()]
+    count = len(chapter.input.regimes) + 1
+    words = "режим" if len(told) == 1 else "режимы"
+    verb = "определяет" if len(told) == 1 else "определяют"
+    line = "из {} режимов работы расчёт {} {}: {}"
+    return Markup(line).format(count, verb, words, Markup(", ").join(told))
+
+
 def _inputs(chapter: Chapter) -> TableBlock:
     rows = [
         [

@@ -14,7 +14,7 @@ from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.shared.errors import InputError, Problem
-from reports.shared.russian import capital
+from reports.shared.russian import capital, uncapital
 from reports.studies.plan import Axis, Plan, span_text
 from reports.studies.points import Chunk
 from reports.studies.quantities import Wanted, described, format_of, symbol_of
@@ -188,7 +188,7 @@ class StudyBook:
             title, unit = described(name)
             title = capital(title)
             if all(curve.name for curve in curves):
-                title += f"; кривые: {self.plan.axes[1].title.lower()}"
+                title += f"; кривые: {uncapital(self.plan.axes[1].title)}"
             ends = (float(min(x.values)), float(max(x.values)))
             chart = curves_chart(
                 title, _headed(x.title, x.unit), _headed(symbol_of(name), unit), curves, ends

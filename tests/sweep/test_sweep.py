@@ -262,6 +262,16 @@ def test_the_workbook_reads_as_a_person_does(tmp_path: Path) -> None:
     assert ordinate == "Mmax, Н·м"
 
 
+def test_an_abbreviation_in_a_title_stays_in_capitals(tmp_path: Path) -> None:
+    target = tmp_path / "a.xlsx"
+    vary = ("regime.speed_rpm=3000:4400:2", "cycle.compressor_efficiency=0.6:0.7:2")
+    base = samples_dir() / "cycle-turbo-diesel.toml"
+    sweep(base, vary, target, quantities=("M_mean",))
+    (chart,) = openpyxl.load_workbook(target)["Диаграммы"]._charts
+    title = "".join(run.t for part in chart.title.tx.rich.p for run in part.r)
+    assert title.endswith("; кривые: КПД компрессора")
+
+
 def test_a_study_without_a_result_has_no_empty_chart(tmp_path: Path) -> None:
     target = tmp_path / "a.xlsx"
     sweep(BASE, ("geometry.rod_length_mm=30:40:2",), target, quantities=("M_max",))

@@ -207,5 +207,6 @@ def test_a_command_that_gives_up_is_silent_about_its_second_process(tmp_path):
         "    aside(lambda: time.sleep(60))\n"
         "    time.sleep(0.5)\n"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=30)
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=30, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")

@@ -16,6 +16,7 @@ from reports.document.text.symbols import inline_html
 from reports.document.text.terms import input_text
 from reports.formula.tex import input_symbol_tex
 from reports.shared.russian import capital
+from reports.shared.signs import printable
 from reports.tables.loads.comparison import regime_titles
 
 _PARTS = (
@@ -46,7 +47,10 @@ def concluded(chapter: Chapter) -> Markup:
     by_regime: dict[str, list[str]] = {}
     for part, name in _governing(chapter):
         by_regime.setdefault(name, []).append(part)
-    told = [Markup("«{}» ({})").format(name, "; ".join(p)) for name, p in by_regime.items()]
+    told = [
+        Markup("«{}» ({})").format(printable(name), "; ".join(parts))
+        for name, parts in by_regime.items()
+    ]
     count = len(chapter.input.regimes) + 1
     words = "режим" if len(told) == 1 else "режимы"
     verb = "определяет" if len(told) == 1 else "определяют"

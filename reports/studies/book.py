@@ -156,10 +156,12 @@ class StudyBook:
                     WriteOnlyCell(sheet, v) for v in (found.largest, found.smallest)
                 )
                 largest.number_format = smallest.number_format = format_of(name)
-                at = found.at_largest, found.at_smallest
-                if _level((found.smallest, found.largest)) is not None:
-                    at = ((_NOWHERE,) * len(keys),) * 2
-                sheet.append([name, title, unit, largest, *at[0], smallest, *at[1]])
+                still = _level((found.smallest, found.largest)) is not None
+                places = [
+                    (_NOWHERE,) * len(keys) if still else at
+                    for at in (found.at_largest, found.at_smallest)
+                ]
+                sheet.append([name, title, unit, largest, *places[0], smallest, *places[1]])
 
     def _charts(self) -> dict[str, list[float]]:
         """One chart a quantity; the numbers of their ranges."""

@@ -109,6 +109,15 @@ def measure(page: str, width: int, folder: Path, *, boxes: str = ".tbox") -> dic
     return found
 
 
+def print_out(page: str, target: Path, folder: Path) -> Path:
+    """Print a page as a person does from the browser; its PDF."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "page.html").write_text(page, encoding="utf-8")
+    with _served(folder) as address:
+        _run(folder, f"{address}/page.html", "--no-pdf-header-footer", f"--print-to-pdf={target}")
+    return target
+
+
 def photograph(page: str, width: int, height: int, target: Path, folder: Path) -> Path:
     """A picture of the page's beginning, ``width`` × ``height`` px."""
     folder.mkdir(exist_ok=True)

@@ -42,7 +42,9 @@ if TYPE_CHECKING:
 @click.option("--layout", type=click.Choice(["inline", "v", "opposed"]),
               help="Рядный, V-образный или оппозитный.")  # fmt: skip
 @click.option("--strokes", type=click.Choice(["4", "2"]), help="Тактность.")
-@click.option("--kind", type=click.Choice(["diesel", "petrol"]), help="Дизель или бензиновый.")
+@click.option(
+    "--kind", type=click.Choice(["diesel", "petrol"]), help="Дизель или с искровым зажиганием."
+)
 @click.option("--power", "power_kw", type=float, metavar="кВт", help="Эффективная мощность, кВт.")
 @click.option("--speed", "speed_rpm", type=float, metavar="МИН⁻¹", help="Частота вращения, мин⁻¹.")
 @verbose_option

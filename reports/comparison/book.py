@@ -22,6 +22,7 @@ from reports.workbook.styles import FONT, excel_format
 DATA, RESULTS, FIGURES, CURVES = "Данные", "Сравнение", "Диаграммы", "Кривые"
 _HEAD = 3  # rows of titles above the values
 _CHART_ROWS = 17
+_PERCENT = "[<-99.9]0.0###;0.0"  # −100.0 would be read as nothing left
 
 
 class _Book:
@@ -108,7 +109,7 @@ def _results(made: _Book) -> None:
                 continue
             first, own = (Cell(RESULTS, number, 4 + i).coordinate for i in (0, place))
             at = Cell(RESULTS, number, 3 + count + place)
-            made.formula(sheet, at, f"=({own}/{first}-1)*100", change, "0.0")
+            made.formula(sheet, at, f"=({own}/{first}-1)*100", change, _PERCENT)
     number += 2
     sheet.cell(number, 1, "Выводы").font = Font(name=FONT, bold=True)
     for sentence in conclusions(labels, rows):

@@ -23,6 +23,7 @@ from reports.comparison.engines import (
 from reports.exports.build import load_input
 from reports.inputs.load import Loaded
 from reports.shared.errors import InputError, Problem
+from reports.shared.russian import uncapital
 
 if TYPE_CHECKING:
     from reports.document.chapters.chapter import Chapter
@@ -104,7 +105,7 @@ class ComparisonChapter:
             groups.setdefault(row.group, []).append(row)
         tables = [
             (f"compare_{number}",
-             TablePlan(partial(results_block, self.labels, rows), f"Сравнение: {_small(group)}",
+             TablePlan(partial(results_block, self.labels, rows), f"Сравнение: {uncapital(group)}",
                        size=size, lined=True))
             for number, (group, rows) in enumerate(groups.items(), 1)
         ]  # fmt: skip
@@ -122,7 +123,3 @@ class ComparisonChapter:
             figures=figures,
             sentences=conclusions(self.labels, self.rows),
         )
-
-
-def _small(title: str) -> str:
-    return title[:1].lower() + title[1:]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,7 +13,7 @@ from reports.inputs.fields import Field, iter_fields
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import smallness_of
 from reports.shared.errors import InputError, Problem
-from reports.shared.russian import capital
+from reports.shared.russian import capital, uncapital
 from reports.spec.charts import PHI
 from reports.spec.shape import pin_name, pin_table
 from reports.tables.overview.unused import given_by_cycle
@@ -62,10 +62,13 @@ class Row:
         return self.about.unit_label
 
     def change(self, number: int) -> float | None:
-        """Difference of an engine from the first one [%], if the first has a base for it."""
+        """Difference of an engine from the first one [%], if the first has a base for it.
+
+        A value of the other sign is no part of the base: per cent would say nothing of it.
+        """
         base, value = self.values[0], self.values[number]
         largest = max(abs(known) for known in self.values if known is not None)
-        if base is None or value is None or abs(base) <= _NOUGHT * largest:
+        if base is None or value is None or abs(base) <= _NOUGHT * largest or base * value < 0:
             return None
         return (value / base - 1) * 100
 
@@ -190,9 +193,13 @@ def _gathered(model: InputFile) -> Iterator[tuple[str, tuple[Field, str | int | 
         path = field.path
         if path[0] in _NOT_COMPARED or path == ("engine", "name") or field.name in found:
             continue
-        if not any(isinstance(part, int) for part in path):
+        own = path[2:] if path[0] == "regimes" else path
+        if not any(isinstance(part, int) for part in own):
             label = (field.choices or {}).get(str(field.value), field.value)
-            yield field.name, (field, label)
+            title = field.title
+            if path[0] == "regimes":
+                title = f"{field.section}: {uncapital(title)}"
+            yield field.name, (replace(field, title=title), label)
         else:
             key = ".".join(str(part) for part in path if not isinstance(part, int))
             key += f".{path[1]}" if path[0] == "regimes" else ""

@@ -28,6 +28,8 @@ from reports.shared.russian import MINUS, NBSP, comma, fixed, grouped, short
 
 _TITLE = "Сравнение двигателей"
 _MOST_PERCENT = 900
+_LEAST_PERCENT = -99.95  # from here on −100,0 would be printed of what is not nought
+_NONE_LEFT = -99.9999  # and here nothing is left that a table could show
 _FEW = 4  # engines that fit beside the words at the usual size
 
 
@@ -130,9 +132,9 @@ def results_block(labels: Sequence[str], rows: Sequence[Row]) -> TableBlock:
 
 def _change(percent: float | None) -> str:
     """The difference in brackets: of ten times and more nobody reads per cent."""
-    if percent is None or percent <= -_MOST_PERCENT:
+    if percent is None:
         return ""
-    if percent >= _MOST_PERCENT:
+    if percent >= _MOST_PERCENT or _NONE_LEFT < percent < _LEAST_PERCENT:
         return f"(×{NBSP}{grouped(short(float(f'{1 + percent / 100:.3g}')))})"
     text = fixed(percent, 1)
     return f"({text} %)" if text.startswith(MINUS) else f"(+{text} %)"

@@ -19,6 +19,7 @@ from reports.inputs import cells, load_regimes, messages
 from reports.inputs.cell_words import in_cells
 from reports.inputs.checks import cross_checks
 from reports.inputs.checks.plausibility import check_plausibility
+from reports.inputs.checks.signs import check_signs
 from reports.inputs.diagram_file import files_of, with_points
 from reports.inputs.fields import Path, key_text
 from reports.inputs.findings import Finding, Values
@@ -153,7 +154,7 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
         if run is not None and run.design is not None:
             found = run.design.bore, run.design.stroke
     known = {key for key, _ in reader.warnings}  # a line for each key
-    odd = check_plausibility(model, sizes_of(model, found))
+    odd = [*check_plausibility(model, sizes_of(model, found)), *check_signs(model)]
     reader.take(finding for finding in odd if key_text(finding.path) not in known)
     return reader.loaded(model)
 

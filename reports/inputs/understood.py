@@ -25,6 +25,8 @@ _ONE_WORD = {  # besides the labels of the choices
     "нет": "no",
     "дизельный": "diesel",
     "бензин": "petrol",
+    "бензиновый": "petrol",
+    "искровой": "petrol",
     "солярка": "diesel",
     "четырехтактный": "4",
     "двухтактный": "2",

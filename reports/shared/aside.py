@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
 import sys
 from collections.abc import Callable
 from multiprocessing.connection import Connection
 from typing import TypeVar
+
+from reports.shared.interrupt import held
 
 Result = TypeVar("Result")
 
@@ -41,7 +44,9 @@ def aside(work: Callable[[], Result]) -> Callable[[], Result]:
     context = multiprocessing.get_context("fork")
     answer, question = context.Pipe(duplex=False)
     process = context.Process(target=_done, args=(work, question), daemon=True)
-    process.start()
+    # Ctrl-C is for the process that the person has started; SIGTERM waits until it is answered.
+    with held(signal.SIGINT, signal.SIGTERM):
+        process.start()
     question.close()
 
     def result() -> Result:
@@ -60,6 +65,9 @@ def aside(work: Callable[[], Result]) -> Callable[[], Result]:
 
 
 def _done(work: Callable[[], object], question: Connection) -> None:
+    # When the first process ends, this one has nothing to clean up and nothing to say.
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGTERM])
     try:
         value: tuple[bool, object] = (False, work())
     except Exception as error:

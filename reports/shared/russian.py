@@ -90,6 +90,11 @@ def capital(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
+def uncapital(text: str) -> str:
+    """Start with a small letter, for the middle of a sentence; "КПД" and "λ" stay as they are."""
+    return text if text[1:2].isupper() else text[:1].lower() + text[1:]
+
+
 def joined(items: Sequence[object], last_by: str = " и ") -> str:
     """Things as a sentence counts them up: «1, 2 и 4»."""
     *most, last = map(str, items or ("",))

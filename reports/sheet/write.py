@@ -14,6 +14,7 @@ from reports.drawing.parts import Mechanism, Throw, mechanism_drawing, throw_dra
 from reports.drawing.primitives import Item, Words, bounds, moved
 from reports.drawing.svg import svg_of
 from reports.inputs.checks.grid import fine_columns
+from reports.shared.signs import printable
 from reports.sheet.layout import sheet_items
 from reports.spec.blocks import Model
 from reports.spec.evaluation import Values
@@ -71,12 +72,12 @@ def sheet_pdf(items: list[Item], width: float, height: float, model: Model) -> b
     from html import escape
 
     letters = (
-        replace(item, text=fonts.printable(item.text)) if isinstance(item, Words) else item
+        replace(item, text=printable(item.text)) if isinstance(item, Words) else item
         for item in items
     )
     svg = svg_of(list(letters), (0.0, 0.0, width, height))
     page = _PAGE.format(
-        title=escape(fonts.printable(f"Лист динамики. {model.input.engine.name}")),
+        title=escape(printable(f"Лист динамики. {model.input.engine.name}")),
         year=model.input.report.year,
         fonts=fonts.fonts_css(),
         stack=fonts.STACK,

@@ -14,10 +14,10 @@ from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.shared.errors import InputError, Problem
-from reports.shared.russian import capital
+from reports.shared.russian import capital, uncapital
 from reports.studies.plan import Axis, Plan, span_text
 from reports.studies.points import Chunk
-from reports.studies.quantities import Wanted, described, format_of
+from reports.studies.quantities import Wanted, described, format_of, symbol_of
 from reports.workbook.caches import finish
 from reports.workbook.charts import curves_chart
 from reports.workbook.drawn import Curve
@@ -31,6 +31,7 @@ MOST_CHARTS = 24
 DATA, SUMMARY, CHARTS = "Результаты", "Сводка", "Диаграммы"
 _FIRST = 3  # rows of keys and titles stand above
 _CHART_ROWS = 17
+_NOWHERE = "не меняется"  # the place of an extreme of what stays the same
 # Shown where nothing is asked for.
 _USUAL = ("M_mean", "M_max", "M_e", "N_i_calc", "Rpin_max", "q_pin_max", "worst_main_load")
 
@@ -155,8 +156,12 @@ class StudyBook:
                     WriteOnlyCell(sheet, v) for v in (found.largest, found.smallest)
                 )
                 largest.number_format = smallest.number_format = format_of(name)
-                sheet.append([name, title, unit, largest, *found.at_largest,
-                              smallest, *found.at_smallest])  # fmt: skip
+                still = _level((found.smallest, found.largest)) is not None
+                places = [
+                    (_NOWHERE,) * len(keys) if still else at
+                    for at in (found.at_largest, found.at_smallest)
+                ]
+                sheet.append([name, title, unit, largest, *places[0], smallest, *places[1]])
 
     def _charts(self) -> dict[str, list[float]]:
         """One chart a quantity; the numbers of their ranges."""
@@ -171,6 +176,8 @@ class StudyBook:
             column = len(self.plan.axes) + 1 + names.index(name)
             curves = []
             for label, first, count in self._runs():
+                if not any(map(math.isfinite, values[first : first + count])):
+                    continue  # none of its combinations has a result: a key would name no curve
                 rows = (_FIRST + first, _FIRST + first + count - 1)
                 curve = Curve(
                     label, column_range(DATA, 1, *rows), column_range(DATA, column, *rows)
@@ -178,12 +185,16 @@ class StudyBook:
                 ranges[curve.x] = [float(value) for value in x.values[:count]]
                 ranges[curve.y] = values[first : first + count]
                 curves.append(curve)
+            if not curves:
+                continue
             title, unit = described(name)
             title = capital(title)
-            if len(curves) > 1:
-                title += f"; кривые: {self.plan.axes[1].title.lower()}"
+            if all(curve.name for curve in curves):
+                title += f"; кривые: {uncapital(self.plan.axes[1].title)}"
             ends = (float(min(x.values)), float(max(x.values)))
-            chart = curves_chart(title, _headed(x.title, x.unit), _headed(name, unit), curves, ends)
+            chart = curves_chart(
+                title, _headed(x.title, x.unit), _headed(symbol_of(name), unit), curves, ends
+            )
             level = _level(values)
             if level is not None:  # else the axis would show rounding
                 span = abs(level) / 10 or 1.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -162,7 +163,17 @@ def described(name: str) -> tuple[str, str]:
         "min_deg": "угол наименьшего", "mean": "среднее",
     }  # fmt: skip
     unit = "°" if part.endswith("deg") else about.unit_label
-    return f"{about.title} ({table}), {kinds[part]}", unit
+    return f"{about.title} ({_numbered(table)}), {kinds[part]}", unit
+
+
+def symbol_of(name: str) -> str:
+    """Symbol of a name as the report has it; the name itself where there is none."""
+    return quantity(name.split(".")[1] if "." in name else name).symbol or name
+
+
+def _numbered(table: str) -> str:
+    """The number of a table of the textbook as it is printed: ``P4_3_1`` is П4.3.1."""
+    return f"П{table[1:].replace('_', '.')}" if re.fullmatch(r"P\d(_\d+)+", table) else table
 
 
 def format_of(name: str) -> str:

@@ -256,3 +256,33 @@ def test_the_page_says_where_its_numbers_come_from():
     page = comparison_page(engines(), media="screen")
     for words in ("Чем отличаются исходные данные", "Выводы", "файл d-240.toml", "(+"):
         assert words in page
+
+
+@pytest.mark.parametrize(
+    ("base", "value", "shown"),
+    [
+        (0.4, 0.0001, "(× 0,00025)"),  # not −100,0 %: something is left
+        (0.4, 0.0, "(−100,0 %)"),
+        (0.4, 0.0004, "(−99,9 %)"),
+        (-131.0, 2.0, ""),  # of the other sign
+        (131.0, -2.0, ""),
+        (-131.0, -26.2, "(−80,0 %)"),
+    ],
+)
+def test_a_difference_says_what_is_left(base, value, shown):
+    block = results_block(("А", "Б"), [row("M_e", base, value)])
+    _, _, rest = str(block.rows[0][2]).partition("<br>")
+    assert rest.replace("\xa0", " ") == shown
+
+
+def test_data_of_a_regime_are_said_to_be_of_it():
+    """A person reads which regime a speed belongs to, and a choice in words."""
+    found = differences(engines(("d-240", "gots-regimes")))
+    titles = [difference.title for difference in found]
+    assert len(titles) == len(set(titles))
+    assert "Режим 2: частота вращения" in titles
+    assert "Газы режима 3: давление впуска" in titles
+    words = {value for each in found for value in each.values if isinstance(value, str)}
+    assert "polytropic" not in words
+    (speed,) = (d for d in found if d.title == "Режим 2: частота вращения")
+    assert speed.values == (None, 2400)

@@ -89,7 +89,7 @@ def test_one_line_says_which_input_and_which_way(
     [
         (DIESEL, {"cycle.max_pressure_mpa": GONE}, "cycle.max_pressure_mpa", "не задан"),
         (PETROL, {"cycle.max_pressure_mpa": 8.0}, "cycle.max_pressure_mpa", "лишний ключ"),
-        (DIESEL, {"cycle.h2_co_ratio": 0.5}, "cycle.h2_co_ratio", "бензиновому"),
+        (DIESEL, {"cycle.h2_co_ratio": 0.5}, "cycle.h2_co_ratio", "с искровым зажиганием"),
         (DIESEL, {"cycle.stroke_bore": GONE}, "cycle.stroke_bore", "не задан"),
         (DIESEL, {"cycle.compressor_efficiency": GONE}, "cycle.compressor_efficiency", "не задан"),
         (PETROL, {"cycle.cooler_drop_k": 30}, "cycle.cooler_drop_k", "boost_ratio"),

@@ -1,9 +1,14 @@
 """The HTML report in headless Chromium, on a phone and on a screen."""
 
+import re
+from pathlib import Path
+
 import pytest
 
-from tests.browser import measure, photograph
-from tests.document.report_samples import html_page
+from reports.document.report import report_html
+from tests.browser import measure, photograph, print_out
+from tests.document.pdftools import pages_of
+from tests.document.report_samples import html_page, terms_of, text_of
 
 
 @pytest.mark.parametrize("width", [390, 1280])
@@ -27,3 +32,20 @@ def test_a_page_that_is_too_wide_is_noticed(tmp_path):
 def test_the_page_can_be_photographed(tmp_path):
     picture = photograph(html_page("one"), 390, 2000, tmp_path / "p.png", tmp_path / "w")
     assert picture.stat().st_size > 20_000
+
+
+def test_what_the_browser_prints_reads_as_the_report_does(tmp_path):
+    """The year is at the foot of the title page, and no number is missing in the abstract."""
+    pdf = print_out(html_page("one"), tmp_path / "p.pdf", tmp_path / "w").read_bytes()
+    title, *others = (" ".join(page.split()) for page in pages_of(pdf, tmp_path))
+    assert re.search(r"Проверил:? .*20\d\d( 1)?$", title), title
+    (abstract,) = (page for page in others if "РЕФЕРАТ" in page and "записка" in page)
+    assert re.search(r"записка \d+ рис\.", abstract), abstract
+
+
+def test_the_frame_takes_no_page_numbers_from_the_browser():
+    """The sheets of a browser have no frame, hence no number in it: the usual one stays."""
+    source = terms_of(text_of("one").replace("[report]\n", '[report]\nframe = "eskd"\n', 1))
+    page = report_html(source.model, source.values, source=Path("t.toml"))
+    assert "counter(page)" in page
+    assert "form2" not in page

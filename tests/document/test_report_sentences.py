@@ -345,7 +345,11 @@ def test_a_short_report_promises_no_appendix():
 @pytest.mark.usefixtures("nothing_is_drawn")
 @pytest.mark.parametrize(
     ("name", "said", "word"),
-    [("mwm-6", "превышает допускаемую", "КРУТИЛЬНЫЕ"), ("d-240-bearings", "плёнка", "ПЛЁНКА")],
+    [
+        ("mwm-6", "превышает допускаемую", "КРУТИЛЬНЫЕ"),
+        ("d-240-bearings", "плёнка", "ПЛЁНКА"),
+        ("gots-regimes", "из 3 режимов работы расчёт определяют режимы: «", "КРИВОШИПНО"),
+    ],
 )
 def test_the_conclusion_tells_of_every_chapter(name, said, word):
     page = page_of(name, "course")

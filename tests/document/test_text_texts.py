@@ -6,19 +6,21 @@ from markupsafe import Markup
 from reports.document.page.render import render
 from reports.document.text import fonts, texts
 from reports.document.text.fonts import fonts_css
+from reports.shared import signs
 from tests.document.pdftools import pages_of
 
 
 def test_foreign_signs_become_a_box_and_controls_go():
-    assert fonts.printable("Имя 🚗\x00\x07 ok\u202e") == "Имя □ ok"
-    assert fonts.printable("тонкий\u2009пробел\u202f!") == "тонкий\u00a0пробел\u00a0!"
-    assert fonts.printable("e\u0301") == "é"
+    assert signs.printable("Имя 🚗\x00\x07 ok\u202e") == "Имя □ ok"
+    assert signs.printable("тонкий\u2009пробел\u202f!") == "тонкий\u00a0пробел\u00a0!"
+    assert signs.printable("e\u0301") == "é"
+    assert signs.printable("⚙\ufe0f") == signs.printable("⚙")
 
 
 @given(st.text())
 def test_nothing_outside_the_font_remains(text):
-    shown = fonts.printable(text)
-    assert all(ord(char) in fonts.coverage() or char in "\n\t\u00ad" for char in shown)
+    shown = signs.printable(text)
+    assert all(ord(char) in signs.coverage() or char in "\n\t\u00ad" for char in shown)
 
 
 def test_raised_signs_become_superscripts():

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
+from reports.shared import signs
 from reports.shared.errors import InputError
 from tests.conftest import ROOT, sample
 
@@ -106,3 +107,31 @@ def test_spans_in_the_words_of_the_checks_have_a_decimal_comma():
     for path in sorted((ROOT / "reports").rglob("*.py")):
         found = re.findall(r"\b(?:от|до) \d+\.\d+", path.read_text("utf-8"))
         assert not found, f"{path}: {found}"
+
+
+def test_a_sign_that_the_report_cannot_print_is_said_with_its_field(raw):
+    """Once for each field, in files and in lists; usual foreign letters are no oddity."""
+    raw["engine"]["name"] = "Мотор 🚗🔥🔥 ≤ µ ½ Škoda – «Ё»"
+    raw["report"] = {"student": "Иванов 漢", "city": "Łódź", "group": "⚙\ufe0f-21"}
+    loaded = load_mapping(raw, source="f.toml")
+    assert [problem.line() for problem in loaded.warnings] == [
+        "f.toml: report.student: в шрифте отчёта нет: 漢 (U+6F22); уберите или замените, иначе "
+        "напечатается □",
+        "f.toml: report.group: в шрифте отчёта нет: ⚙ (U+2699); уберите или замените, иначе "
+        "напечатается □",
+        "f.toml: engine.name: в шрифте отчёта нет: 🚗 (U+1F697), 🔥 (U+1F525); уберите или "
+        "замените, иначе напечатается □",
+    ]
+    assert loaded.model.report.city == "Łódź"
+
+
+@given(st.text(max_size=20))
+def test_a_text_is_complained_of_when_a_box_would_be_printed(text):
+    shown = signs.printable(text.replace(signs.REPLACEMENT, ""))
+    assert (signs.REPLACEMENT in shown) == bool(signs.unprintable(text))
+
+
+def test_what_nearly_all_texts_consist_of_is_in_the_font():
+    usual = [chr(code) for code in range(32, 0x2200) if signs.USUAL.fullmatch(chr(code))]
+    assert len(usual) > 150
+    assert {ord(sign) for sign in usual} <= signs.coverage()

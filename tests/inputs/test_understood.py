@@ -74,6 +74,7 @@ WORDS = [
     ("engine.strokes", "двухтактный", 2),
     ("cycle.kind", "Дизель", "diesel"),
     ("cycle.kind", "бензиновый", "petrol"),
+    ("cycle.kind", "С искровым зажиганием", "petrol"),
     ("cycle.pumping", "да", "yes"),
     ("cycle.pumping", "Нет", "no"),
     ("cycle.rounding", "вверх", "up"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+import subprocess
 import sys
 import time
 import zipfile
@@ -13,6 +14,7 @@ from types import FrameType
 import pytest
 
 from reports.shared import files, interrupt
+from reports.shared.aside import can_split
 from tests.robustness.command import leftovers, small_input, started
 
 OLD, NEW = b"old" * 1000, b"new" * 2000
@@ -192,3 +194,19 @@ def whole_times(tmp_path_factory):
         assert started(name, source, *keys, folder / "out").wait() in (0, 1)
         times[name] = time.monotonic() - begin
     return times
+
+
+@pytest.mark.skipif(not can_split(), reason="one processor: nothing is done aside")
+def test_a_command_that_gives_up_is_silent_about_its_second_process(tmp_path):
+    """The end of the first process ends the second one in the middle of its work."""
+    code = (
+        "import time\n"
+        "from reports.shared.aside import aside\n"
+        "from reports.shared.interrupt import stoppable\n"
+        "with stoppable():\n"
+        "    aside(lambda: time.sleep(60))\n"
+        "    time.sleep(0.5)\n"
+    )
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=30, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")

@@ -42,8 +42,10 @@ def test_signs_that_the_font_lacks_do_not_stop_the_sheet(tmp_path):
     path = tmp_path / "own.toml"
     path.write_text(text.replace("Дизель Д-240", "Дизель 🚀 <Д> & «240»"), encoding="utf-8")
     code, output = run("build", path, "--only", "sheet", "-o", tmp_path / "out")
-    assert code == 0, output
+    assert code == 1, output  # there is something to look at
+    assert "engine.name: в шрифте отчёта нет: 🚀 (U+1F680)" in output
     assert "внутренняя ошибка" not in output
+    assert len(list((tmp_path / "out").iterdir())) == len(ENDINGS)
 
 
 def test_the_command_writes_pdf_and_dxf(tmp_path):

@@ -243,3 +243,38 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
     assert "сочетаний 2" in said.out
     assert "Без результата: 1" in said.err
     assert "Studied" in repr(Studied(1, 0))
+
+
+def test_the_workbook_reads_as_a_person_does(tmp_path: Path) -> None:
+    """A curve without results has no key, a constant no place of its extremes, an axis a symbol."""
+    target = tmp_path / "a.xlsx"
+    vary = ("regime.speed_rpm=3000:4400:3", "geometry.rod_length_mm=40:160:3")
+    sweep(BASE, vary, target, quantities=("S_stroke", "M_max", "P4_1.N_MPa"))
+    book = openpyxl.load_workbook(target)
+    lines = {row[0]: row for row in book["Сводка"].iter_rows(values_only=True)}
+    assert lines["S_stroke"][4:6] == lines["S_stroke"][7:9] == ("не меняется",) * 2
+    assert lines["M_max"][4] in (3000, 3700, 4400)
+    assert "(П4.1)" in lines["P4_1.N_MPa.max"][1]
+    charts = book["Диаграммы"]._charts
+    for chart in charts:
+        assert [series.tx.v for series in chart.series] == ["100 мм", "160 мм"]
+    ordinate = charts[1].y_axis.title.tx.rich.p[0].r[0].t
+    assert ordinate == "Mmax, Н·м"
+
+
+def test_an_abbreviation_in_a_title_stays_in_capitals(tmp_path: Path) -> None:
+    target = tmp_path / "a.xlsx"
+    vary = ("regime.speed_rpm=3000:4400:2", "cycle.compressor_efficiency=0.6:0.7:2")
+    base = samples_dir() / "cycle-turbo-diesel.toml"
+    sweep(base, vary, target, quantities=("M_mean",))
+    (chart,) = openpyxl.load_workbook(target)["Диаграммы"]._charts
+    title = "".join(run.t for part in chart.title.tx.rich.p for run in part.r)
+    assert title.endswith("; кривые: КПД компрессора")
+
+
+def test_a_study_without_a_result_has_no_empty_chart(tmp_path: Path) -> None:
+    target = tmp_path / "a.xlsx"
+    sweep(BASE, ("geometry.rod_length_mm=30:40:2",), target, quantities=("M_max",))
+    book = openpyxl.load_workbook(target)
+    assert not book["Диаграммы"]._charts
+    assert all(row[-1] for row in book["Результаты"].iter_rows(min_row=3, values_only=True))

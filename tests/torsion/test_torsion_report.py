@@ -59,3 +59,10 @@ def test_estimates_are_called_so() -> None:
     assert "разброс" in text
     assert "до их замены данными двигателя выводы предварительные" in text
     assert "Крутильные колебания вала" in text
+
+
+@pytest.mark.parametrize(("inertia", "said"), [(1e-4, True), (1.2, False)])
+def test_a_flywheel_lighter_than_a_throw_is_called_implausible(inertia: float, said: bool) -> None:
+    """However it came to be: frequencies of such a shaft belong to no engine."""
+    text = page("d-240", ("flywheel_kg_m2", inertia))
+    assert ("неправдоподобно лёгок" in text) == said

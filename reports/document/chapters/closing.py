@@ -8,7 +8,7 @@ from functools import partial
 
 from markupsafe import Markup
 
-from reports.document.chapters import facts, oil, torsion
+from reports.document.chapters import facts, oil, regimes, torsion
 from reports.document.chapters.chapter import BOOK, Chapter
 from reports.document.chapters.journals import least_ray
 from reports.document.chapters.profiles import chosen, told
@@ -191,7 +191,9 @@ def conclusion(chapter: Chapter) -> Markup:
 def _further(chapter: Chapter) -> list[Markup]:
     """Results of the chapters that not every report has."""
     names = chosen(chapter.input.report)
-    lines = {"torsion": torsion.concluded, "oil": oil.concluded}
+    lines = {
+        "torsion": torsion.concluded, "oil": oil.concluded, "regimes": regimes.concluded,
+    }  # fmt: skip
     return [line for name, of in lines.items() if name in names and (line := of(chapter))]
 
 

@@ -16,6 +16,7 @@ from reports.document.text.symbols import inline_html
 from reports.document.text.terms import input_text
 from reports.formula.tex import input_symbol_tex
 from reports.shared.russian import capital
+from reports.shared.signs import printable
 from reports.tables.loads.comparison import regime_titles
 
 _PARTS = (
@@ -37,6 +38,24 @@ def regimes(chapter: Chapter) -> Markup:
         loads=TablePlan(partial(_loads, chapter), "Силы и нагрузки по режимам", size="dense"),
         governing=_governing(chapter),
     )
+
+
+def concluded(chapter: Chapter) -> Markup:
+    """The chapter's result in a line of the conclusion: which regime governs what."""
+    if not chapter.input.regimes:
+        return Markup("")
+    by_regime: dict[str, list[str]] = {}
+    for part, name in _governing(chapter):
+        by_regime.setdefault(name, []).append(part)
+    told = [
+        Markup("«{}» ({})").format(printable(name), "; ".join(parts))
+        for name, parts in by_regime.items()
+    ]
+    count = len(chapter.input.regimes) + 1
+    words = "режим" if len(told) == 1 else "режимы"
+    verb = "определяет" if len(told) == 1 else "определяют"
+    line = "из {} режимов работы расчёт {} {}: {}"
+    return Markup(line).format(count, verb, words, Markup(", ").join(told))
 
 
 def _inputs(chapter: Chapter) -> TableBlock:

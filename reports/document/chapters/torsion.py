@@ -85,11 +85,18 @@ def torsion(chapter: Chapter) -> Markup:
         change_text=fixed(abs(terms.value("tor_f1_change")), 1),
         articulated=chapter.shape.articulated,
         flywheel_needed=terms.has("I_flywheel") and terms.value("I_flywheel") > 0,
+        light_flywheel="" if section.masses else _lighter_than(terms, chapter.shape.throws),
         heavier=terms.value("tor_flywheel_other") > terms.value("tor_flywheel"),
         other_helps=other.stress < (1 - _NEAR) * bare.stress,
         other_harms=other.stress > (1 + _NEAR) * bare.stress,
         work=_energy(terms),
     )  # fmt: skip
+
+
+def _lighter_than(terms: Terms, throws: int) -> str:
+    """The lightest throw if the flywheel is lighter still: no flywheel is; else empty."""
+    lightest = min((f"torJ{k + 2}" for k in range(throws)), key=terms.value)
+    return lightest if terms.value("tor_flywheel") < terms.value(lightest) else ""
 
 
 def concluded(chapter: Chapter) -> Markup:

@@ -10,10 +10,10 @@ from markupsafe import Markup
 
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.text import numbers
-from reports.document.text.fonts import printable
 from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms
 from reports.shared.russian import capital
+from reports.shared.signs import printable
 from reports.spec.blocks import Grid
 
 _NO_ANGLE = 1e-6  # deg

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import base64
 import functools
-import unicodedata
-from pathlib import Path
 from typing import TYPE_CHECKING
+
+from reports.shared.signs import fonts_dir
 
 if TYPE_CHECKING:
     from matplotlib.ft2font import FT2Font
@@ -15,7 +15,6 @@ SCHEME = "kshm-font"
 FAMILY = "STIXGeneral"
 UPRIGHT = "STIXGeneralUpright"
 STACK = f"{FAMILY}, {UPRIGHT}"
-REPLACEMENT = "\u25a1"
 
 # family, style, weight, file.  UPRIGHT serves the signs that the slanted and bold
 # faces lack (≈ ≤ √ ∑ …) from the regular face, so that no system font is ever asked.
@@ -39,16 +38,6 @@ _MATHS_FACES = (
     ("STIXSizeFiveSym", "normal", "normal", "STIXSizFiveSymReg.ttf"),
 )
 _FILES = frozenset(face[3] for face in _TEXT_FACES + _MATHS_FACES)
-
-# Signs that STIX lacks and a report needs; the raised ones only where no markup can stand.
-_SUBSTITUTES = {"\u207b": "\u2212", "\u207a": "+", "\u2011": "-", "\u2015": "\u2014"}
-
-
-def fonts_dir() -> Path:
-    """Folder of matplotlib's TrueType fonts."""
-    import matplotlib
-
-    return Path(matplotlib.get_data_path()) / "fonts" / "ttf"
 
 
 @functools.cache
@@ -91,12 +80,6 @@ def fonts_css(*, embedded: bool = False) -> str:
 
 
 @functools.cache
-def coverage() -> frozenset[int]:
-    """Code points that STIXGeneral in its regular face can show."""
-    return frozenset(_regular().get_charmap())
-
-
-@functools.cache
 def face(family: str, style: str = "normal", weight: str = "normal") -> FT2Font:
     """The font of a family, style and weight; the regular one where the family lacks it."""
     from matplotlib.ft2font import FT2Font
@@ -104,10 +87,6 @@ def face(family: str, style: str = "normal", weight: str = "normal") -> FT2Font:
     files = {(name, *looks): file for name, *looks, file in _TEXT_FACES + _MATHS_FACES}
     file = files.get((family, style, weight)) or files.get((family, "normal", "normal"))
     return FT2Font(str(fonts_dir() / (file or "STIXGeneral.ttf")))
-
-
-def _regular() -> FT2Font:
-    return face(FAMILY)
 
 
 @functools.cache
@@ -128,29 +107,3 @@ def text_em(text: str, *, slanted: bool = False, bold: bool = False) -> float:
         return sum(map(advance, text))
     look = ("italic" if slanted else "normal", "bold" if bold else "normal")
     return sum(advance(char, *look) for char in text)
-
-
-@functools.lru_cache(maxsize=4096)
-def printable(text: str) -> str:
-    """Make foreign text safe to print: no control characters, nothing the font lacks.
-
-    Control, formatting and private characters go, thin spaces become no-break spaces, and
-    what STIX cannot show (emoji, rare scripts) becomes □, so that neither the look nor the
-    set of fonts depends on the machine.
-    """
-    if text.isascii() and text.isprintable():
-        return text
-    shown = coverage()
-    result = []
-    for char in unicodedata.normalize("NFC", text):
-        if char in "\u2009\u202f\u2007\u200a":
-            result.append("\u00a0")
-        elif char in _SUBSTITUTES:
-            result.append(_SUBSTITUTES[char])
-        elif char in "\n\t" or char == "\u00ad":
-            result.append(char)
-        elif char == "\r" or unicodedata.category(char) in {"Cc", "Cf", "Cs", "Co", "Cn"}:
-            continue
-        else:
-            result.append(char if ord(char) in shown else REPLACEMENT)
-    return "".join(result)

@@ -8,8 +8,8 @@ import re
 
 from markupsafe import Markup, escape
 
-from reports.document.text.fonts import printable
 from reports.shared.russian import MINUS, NBSP
+from reports.shared.signs import printable
 
 _RAISED = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079\u207a\u207b"
 _LEVEL = f"0123456789+{MINUS}"

@@ -55,10 +55,10 @@ def _engine(values: Values) -> Iterator[Finding]:
     if kind == "diesel":
         yield from _together(values, "для дизеля p_z задаётся", True, ("max_pressure_mpa",))
         yield from _together(
-            values, "нужен только бензиновому двигателю", False, (), ("h2_co_ratio",)
+            values, "нужен только двигателю с искровым зажиганием", False, (), ("h2_co_ratio",)
         )
     elif kind == "petrol":
-        why = "у бензинового двигателя p_z получается из расчёта"
+        why = "у двигателя с искровым зажиганием p_z получается из расчёта"
         yield from _together(values, why, False, (), ("max_pressure_mpa",))
     fuel = values.get("cycle", "fuel")
     if fuel == "own":

@@ -25,7 +25,7 @@ from reports.inputs.units import (
     Unit,
 )
 
-KINDS = {"diesel": "дизель", "petrol": "бензиновый"}
+KINDS = {"diesel": "дизель", "petrol": "с искровым зажиганием"}  # whatever its fuel
 FUEL_NAMES = {
     "diesel": "дизельное топливо",
     "petrol": "бензин",

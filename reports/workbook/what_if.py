@@ -65,7 +65,7 @@ def _part(
         sheet.cell(row, 3, value)
         writer.formula(sheet, row, 4, formula, value)
         # Noise of the last digits is no change; of what was nothing there is no part to tell.
-        from_nothing = f'IF(ABS({now})<1E-9,0,"{_NO_PART}")'
+        from_nothing = f'IF(ROUND({now},9)=0,0,"{_NO_PART}")'
         difference = f"=IF({was}=0,{from_nothing},ROUND(({now}/{was}-1)*100,6))"
         writer.formula(sheet, row, 5, difference, 0.0)
         for column, form in ((3, look), (4, look), (5, "0.00")):

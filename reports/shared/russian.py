@@ -86,8 +86,8 @@ def written(value: float, digits: Digits, *, more: int = 0) -> str:
 
 
 def capital(text: str) -> str:
-    """The text with its first letter large."""
-    return text[:1].upper() + text[1:]
+    """The text with its first letter large; a symbol stays what it is, λ and not Λ."""
+    return text[:1].upper() + text[1:] if "а" <= text[:1] <= "ё" else text
 
 
 def uncapital(text: str) -> str:

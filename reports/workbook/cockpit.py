@@ -19,7 +19,7 @@ from reports.workbook import styles
 from reports.workbook.chapters import chapter_of, heading
 from reports.workbook.charts import HIGH, WIDE, make_chart, ranges_of
 from reports.workbook.inputs import shown
-from reports.workbook.layout import Cell, column_range
+from reports.workbook.layout import INPUT_SHEET, Cell, column_range
 from reports.workbook.links import link
 from reports.workbook.places import (
     GAP,
@@ -109,12 +109,14 @@ def _verdict(sheet: Worksheet, model: Model, writer: Writer, row: int) -> int:
         return row
     passed = sum(values[key] == YES for key in keys) == len(keys)
     good, bad = "все выполнены", "не все, см. «Проверки»"
+    # A verdict that is an error is neither.
+    unknown = f"не посчитаны, см. «{INPUT_SHEET}»"
     first, last = (writer.layout.cells[key] for key in (keys[0], keys[-1]))
     run = column_range(first.sheet, first.column, first.row, last.row)
     sheet.cell(row, 1, "Проверки расчёта").style = styles.TEXT
-    writer.formula(
-        sheet, row, 2, f'=IF(COUNTIF({run},"{NO}")=0,"{good}","{bad}")', good if passed else bad
-    )
+    failed = f'IF(COUNTIF({run},"{NO}")>0,"{bad}","{unknown}")'
+    formula = f'=IF(COUNTIF({run},"{YES}")={len(keys)},"{good}",{failed})'
+    writer.formula(sheet, row, 2, formula, good if passed else bad)
     sheet.cell(row, 2).style = styles.LINE
     return row + 1
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
+
+from openpyxl.formatting.rule import CellIsRule
 from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.worksheet import Worksheet
 
@@ -38,6 +41,7 @@ def write_inputs(sheet: Worksheet, model: Model, layout: Layout) -> None:
         target.style = styles.STRUCTURE if item.structural else styles.INPUT
         target.number_format = "@" if isinstance(item.value, str) else "General"
         _validate(sheet, item, cell.coordinate)
+    _mark_wrong(sheet, model, layout)
 
 
 def shown(item: Field) -> float | int | str:
@@ -110,3 +114,18 @@ def _validate(sheet: Worksheet, item: Field, coordinate: str) -> None:
     rule.showErrorMessage = True
     sheet.add_data_validation(rule)
     rule.add(coordinate)
+
+
+def _mark_wrong(sheet: Worksheet, model: Model, layout: Layout) -> None:
+    """Red where a number is beyond its range: what is deleted or pasted no validation stops.
+
+    A text is larger than every number, and a cell left empty is zero.
+    """
+    cells: dict[tuple[float, float], list[str]] = defaultdict(list)
+    for item in model.inputs:
+        if item.minimum is not None and item.maximum is not None:
+            place = layout.cells[item.name].coordinate
+            cells[item.minimum, item.maximum].append(place)
+    for limits, places in cells.items():
+        rule = CellIsRule("notBetween", [f"{limit!r}" for limit in limits], **styles.wrong())
+        sheet.conditional_formatting.add(" ".join(places), rule)

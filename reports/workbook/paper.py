@@ -8,6 +8,7 @@ from math import ceil, floor, isfinite
 
 import numpy as np
 from openpyxl.utils import get_column_letter
+from openpyxl.worksheet.pagebreak import Break
 from openpyxl.worksheet.worksheet import Worksheet
 
 from kshm.nomenclature.quantity import Quantity
@@ -39,6 +40,7 @@ _RANGE_WIDTHS = {1: 76, 2: 4, 4: 16, SOURCE_COLUMN: 42}
 UPRIGHT = 1290  # px: wider sheets lie
 _PAPER = {"portrait": (690, 1010), "landscape": (1030, 670)}  # px: A4 less its margins
 _LEAST = 0.45  # scale below which a sheet rather takes more pages, down and across
+_SURE = 0.93  # part of the paper that no program's own widths of columns go beyond
 _SQUEEZED = 0.3  # what is made smaller by less than this saves a page
 
 
@@ -159,16 +161,45 @@ def set_page(sheet: Worksheet, boxes: Sequence[Box], *, charts_alone: bool = Fal
         # A few rows too many go onto the page before, or stand on one of their own.
         spare = floor(sheets) and sheets <= floor(sheets) * (1 + _SQUEEZED)
         pages = floor(sheets) if spare else 0
-    if across > 1:
-        sheet.print_title_cols = "A:A"
     page.fitToWidth, page.fitToHeight = across, pages
     sheet.sheet_properties.pageSetUpPr.fitToPage = True
+    if across > 1 and (boxes or not _part(sheet, height)):
+        sheet.print_title_cols = "A:A"
     sheet.print_area = area(Cell("", 1, 1), last)
     margins = sheet.page_margins
     margins.left, margins.right, margins.top, margins.bottom = 0.6, 0.3, 0.5, 0.6
     margins.header = margins.footer = 0.3
     sheet.oddHeader.right.text = "&F"
     sheet.oddFooter.center.text = "&A — лист &P из &N"
+
+
+def _part(sheet: Worksheet, height: int) -> bool:
+    """Each of the tables side by side upright on pages of its own; whether there are several.
+
+    Fitted to pages a sheet is cut anywhere: Excel then passes over the breaks that are set.
+    """
+    starts = [cell.column for cell in sheet[HEADER_ROW - 1] if cell.value]
+    if len(starts) < 2:
+        return False
+    ends = [*starts[1:], sheet.max_column + 1]
+    widest = max(
+        sum(column_px(sheet, i) for i in range(start, end))
+        for start, end in zip(starts, ends, strict=True)
+    )
+    w, h = (_SURE * side for side in _PAPER["portrait"])
+    scale = min(w / widest, 1)
+    if scale < _LEAST:
+        return False
+    down = floor(height * scale / h)
+    if down and height * scale <= down * h * (1 + _SQUEEZED):
+        scale = min(scale, down * h / height)
+    page = sheet.page_setup
+    page.orientation, page.scale = "portrait", floor(100 * scale)
+    page.fitToWidth = page.fitToHeight = None
+    sheet.sheet_properties.pageSetUpPr.fitToPage = False
+    for start in starts[1:]:
+        sheet.col_breaks.append(Break(id=start - 1))
+    return True
 
 
 def _widths(sheet: Worksheet, widths: Mapping[int, float]) -> None:

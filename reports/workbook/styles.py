@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from openpyxl.cell.cell import Cell
 from openpyxl.styles import Alignment, Border, Font, NamedStyle, PatternFill, Protection, Side
 from openpyxl.workbook import Workbook
@@ -36,6 +38,11 @@ _COLOURS = {
     HEADER: "D9E2F3",
     ANSWER: "E2EFDA",
 }
+
+
+def wrong() -> dict[str, Any]:
+    """How a conditional format shows what is not in order."""
+    return {"font": Font(bold=True, color="9C0006"), "fill": PatternFill(bgColor="FFC7CE")}
 
 
 def excel_format(quantity: Quantity) -> str:

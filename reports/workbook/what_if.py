@@ -15,7 +15,7 @@ from reports.spec.blocks import Model
 from reports.workbook import styles
 from reports.workbook.cockpit import RESULTS, known
 from reports.workbook.layout import HEADER_ROW, NOTE_ROW, Cell
-from reports.workbook.places import raise_row
+from reports.workbook.places import raise_row, wrap_across
 from reports.workbook.sheets import Writer
 
 SHEET = "Что если"
@@ -25,6 +25,7 @@ _NOTE = (
     "Измените жёлтую ячейку на листе «Исходные данные»: здесь видно, что от этого изменилось. "
     "Вернуть: впишите на том листе число из столбца «Было»."
 )
+_NO_PART = "—"
 
 
 def write_what_if(book: Workbook, model: Model, writer: Writer) -> None:
@@ -33,6 +34,7 @@ def write_what_if(book: Workbook, model: Model, writer: Writer) -> None:
     for letter, width in _WIDTHS.items():
         sheet.column_dimensions[letter].width = width
     sheet.cell(NOTE_ROW, 2, _NOTE).style = styles.NOTE
+    wrap_across(sheet, NOTE_ROW, 2, len(_HEAD))
     sheet.freeze_panes = Cell(SHEET, HEADER_ROW + 1, 1).coordinate
     for column, text in enumerate(_HEAD, 1):
         sheet.cell(HEADER_ROW, column, text).style = styles.HEADER
@@ -62,8 +64,9 @@ def _part(
         was, now = (Cell(SHEET, row, column).coordinate for column in (3, 4))
         sheet.cell(row, 3, value)
         writer.formula(sheet, row, 4, formula, value)
-        # Noise of the last digits is no change.
-        difference = f"=IF({was}=0,0,ROUND(({now}/{was}-1)*100,6))"
+        # Noise of the last digits is no change; of what was nothing there is no part to tell.
+        from_nothing = f'IF(ROUND({now},9)=0,0,"{_NO_PART}")'
+        difference = f"=IF({was}=0,{from_nothing},ROUND(({now}/{was}-1)*100,6))"
         writer.formula(sheet, row, 5, difference, 0.0)
         for column, form in ((3, look), (4, look), (5, "0.00")):
             sheet.cell(row, column).style = styles.FORMULA

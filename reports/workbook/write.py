@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from lxml.etree import SerialisationError
 from openpyxl import Workbook
 from openpyxl.formatting.rule import CellIsRule
-from openpyxl.styles import Font, PatternFill
+from openpyxl.styles import PatternFill
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.worksheet import Worksheet
@@ -152,11 +152,9 @@ def _colour_verdicts(sheet: Worksheet, good: str, bad: str) -> None:
         Cell(sheet.title, row, UNIT_COLUMN) for row in (HEADER_ROW, HEADER_ROW + _MOST_CHECKS)
     )
     place = area(first, last)
-    green, red = PatternFill(bgColor="C6EFCE"), PatternFill(bgColor="FFC7CE")
+    green = PatternFill(bgColor="C6EFCE")
     sheet.conditional_formatting.add(place, CellIsRule("equal", [f'"{good}"'], fill=green))
-    sheet.conditional_formatting.add(
-        place, CellIsRule("equal", [f'"{bad}"'], fill=red, font=Font(bold=True, color="9C0006"))
-    )
+    sheet.conditional_formatting.add(place, CellIsRule("equal", [f'"{bad}"'], **styles.wrong()))
 
 
 def _remarks(sheet: Worksheet, remarks: Sequence[str]) -> None:

@@ -7,9 +7,13 @@ import re
 import subprocess
 from pathlib import Path
 
+import pytest
 from openpyxl import load_workbook
 
-from tests.workbook.made import book
+from reports.workbook.layout import HEADER_ROW
+from reports.workbook.places import column_px
+from tests.conftest import sample_names
+from tests.workbook.made import book, coarse_book
 from tools.referees.by_libreoffice import LibreOffice
 
 MOST_PAGES = 60
@@ -32,3 +36,21 @@ def test_tables_repeat_their_headers() -> None:
     assert len(tables) > 20
     assert all(sheet.print_title_rows for sheet in tables)
     assert all(sheet.oddFooter.center.text for sheet in sheets)
+
+
+@pytest.mark.parametrize("name", sample_names())
+def test_no_page_begins_within_a_table_beside_others(name: str) -> None:
+    """Its rest would stand under the beginning of the first one's title."""
+    for sheet in load_workbook(io.BytesIO(coarse_book(name))).worksheets:
+        starts = [cell.column for cell in sheet[HEADER_ROW - 1] if cell.value]
+        if sheet.sheet_properties.pageSetUpPr.fitToPage:
+            assert len(starts) < 2 or sheet.page_setup.fitToWidth == 1, sheet.title
+            continue
+        breaks = [found.id + 1 for found in sheet.col_breaks.brk]
+        assert breaks == starts[1:]
+        assert not sheet.print_title_cols
+        assert sheet.page_setup.orientation == "portrait"
+        ends = [*breaks, sheet.max_column + 1]
+        for start, end in zip([1, *breaks], ends, strict=True):
+            width = sum(column_px(sheet, i) for i in range(start, end))
+            assert width * sheet.page_setup.scale / 100 <= 690

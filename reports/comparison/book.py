@@ -11,7 +11,15 @@ from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.comparison.conclusions import conclusions
-from reports.comparison.engines import X_TITLE, Chart, Compared, charts, differences, results
+from reports.comparison.engines import (
+    LEAST_PERCENT,
+    X_TITLE,
+    Chart,
+    Compared,
+    charts,
+    differences,
+    results,
+)
 from reports.workbook.caches import finish
 from reports.workbook.charts import curves_chart
 from reports.workbook.drawn import Curve
@@ -22,7 +30,6 @@ from reports.workbook.styles import FONT, excel_format
 DATA, RESULTS, FIGURES, CURVES = "Данные", "Сравнение", "Диаграммы", "Кривые"
 _HEAD = 3  # rows of titles above the values
 _CHART_ROWS = 17
-_PERCENT = "[<-99.9]0.0###;0.0"  # −100.0 would be read as nothing left
 
 
 class _Book:
@@ -109,7 +116,8 @@ def _results(made: _Book) -> None:
                 continue
             first, own = (Cell(RESULTS, number, 4 + i).coordinate for i in (0, place))
             at = Cell(RESULTS, number, 3 + count + place)
-            made.formula(sheet, at, f"=({own}/{first}-1)*100", change, _PERCENT)
+            look = "0.0###" if change < LEAST_PERCENT else "0.0"
+            made.formula(sheet, at, f"=({own}/{first}-1)*100", change, look)
     number += 2
     sheet.cell(number, 1, "Выводы").font = Font(name=FONT, bold=True)
     for sentence in conclusions(labels, rows):

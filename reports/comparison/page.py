@@ -11,6 +11,7 @@ from markupsafe import Markup
 from kshm.nomenclature.quantity import quantity
 from reports.comparison.conclusions import conclusions
 from reports.comparison.engines import (
+    LEAST_PERCENT,
     X_TITLE,
     Chart,
     Compared,
@@ -28,7 +29,6 @@ from reports.shared.russian import MINUS, NBSP, comma, fixed, grouped, short
 
 _TITLE = "Сравнение двигателей"
 _MOST_PERCENT = 900
-_LEAST_PERCENT = -99.95  # from here on −100,0 would be printed of what is not nought
 _NONE_LEFT = -99.9999  # and here nothing is left that a table could show
 _FEW = 4  # engines that fit beside the words at the usual size
 
@@ -134,7 +134,7 @@ def _change(percent: float | None) -> str:
     """The difference in brackets: of ten times and more nobody reads per cent."""
     if percent is None:
         return ""
-    if percent >= _MOST_PERCENT or _NONE_LEFT < percent < _LEAST_PERCENT:
+    if percent >= _MOST_PERCENT or _NONE_LEFT < percent < LEAST_PERCENT:
         return f"(×{NBSP}{grouped(short(float(f'{1 + percent / 100:.3g}')))})"
     text = fixed(percent, 1)
     return f"({text} %)" if text.startswith(MINUS) else f"(+{text} %)"

@@ -92,7 +92,8 @@ def capital(text: str) -> str:
 
 def uncapital(text: str) -> str:
     """Start with a small letter, for the middle of a sentence; "КПД" and "λ" stay as they are."""
-    return text if text[1:2].isupper() else text[:1].lower() + text[1:]
+    word = "А" <= text[:1] <= "Я" and not text[1:2].isupper()
+    return text[:1].lower() + text[1:] if word else text
 
 
 def joined(items: Sequence[object], last_by: str = " и ") -> str:

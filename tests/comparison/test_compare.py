@@ -275,6 +275,15 @@ def test_a_difference_says_what_is_left(base, value, shown):
     assert rest.replace("\xa0", " ") == shown
 
 
+@pytest.mark.parametrize(("percent", "look"), [(-99.97, "0.0###"), (-99.9, "0.0"), (-26.0, "0.0")])
+def test_the_book_says_what_is_left_by_a_plain_format(monkeypatch, percent, look):
+    """Under a condition some programs leave the minus out."""
+    monkeypatch.setattr(Row, "change", lambda self, number: percent)
+    sheet = openpyxl.load_workbook(io.BytesIO(book_bytes(engines(THREE[:2]))))[RESULTS]
+    texts = (cell for cells in sheet.iter_rows() for cell in cells if isinstance(cell.value, str))
+    assert {cell.number_format for cell in texts if cell.value.endswith("-1)*100")} == {look}
+
+
 def test_data_of_a_regime_are_said_to_be_of_it():
     """A person reads which regime a speed belongs to, and a choice in words."""
     found = differences(engines(("d-240", "gots-regimes")))

@@ -8,7 +8,7 @@ import formualizer
 import openpyxl
 import pytest
 
-from reports.shared.russian import capital
+from reports.shared.russian import capital, uncapital
 from reports.tables.overview.summary import NO
 from reports.workbook.layout import INPUT_SHEET, Layout
 from reports.workbook.what_if import SHEET
@@ -77,3 +77,6 @@ def test_what_was_nothing_and_is_something_is_a_change() -> None:
 def test_a_symbol_is_no_word_to_begin_with_a_large_letter() -> None:
     assert capital("λ в обычных пределах") == "λ в обычных пределах"
     assert capital("ёмкость") == "Ёмкость"
+    assert uncapital("T в конце сжатия") == "T в конце сжатия"
+    assert uncapital("КПД компрессора") == "КПД компрессора"
+    assert uncapital("Частота вращения") == "частота вращения"

@@ -12,7 +12,7 @@ REPLACEMENT = "\u25a1"
 _SUBSTITUTES = {"\u207b": "\u2212", "\u207a": "+", "\u2011": "-", "\u2015": "\u2014"}
 _THIN = "\u2009\u202f\u2007\u200a"
 # What nearly all texts consist of: the font is not opened for them.
-USUAL = re.compile(r"[ -~А-Яа-яЁё«»–—…№°·×]*")
+USUAL = re.compile(r"[ -~А-Яа-яЁёΑ-ΡΣ-Ωα-ω«»–—…№°±²³·×−≈≤≥]*")
 _DROPPED = {"Cc", "Cf", "Cs", "Co", "Cn"}
 
 

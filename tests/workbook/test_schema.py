@@ -51,13 +51,14 @@ def validated(files: Mapping[str, bytes], folder: Path) -> dict[str, list[str]]:
 
 
 # What repeats: rows of sheets and of Word's tables, points of charts.
-_REPEATING = ("sheetData", "numCache", "strCache", "tbl")
+_REPEATING = {"sheetData": "row", "numCache": "pt", "strCache": "pt", "tbl": "tr"}
 _OWN = re.compile(rb' (r|idx|spans|[a-z0-9]*:?rsid\w*)="[^"]*"|(?<=>)[^<]+(?=<)')
 
 
 def thinned(data: bytes) -> bytes:
     """The file with one row or point of each form: the others say nothing new to a schema."""
     made = io.BytesIO()
+    forms: set[tuple[str, bytes]] = set()
     with (
         zipfile.ZipFile(io.BytesIO(data)) as given,
         zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as parts,
@@ -66,21 +67,21 @@ def thinned(data: bytes) -> bytes:
             part = given.read(name)
             if name.endswith(".xml"):
                 root = etree.fromstring(part)
-                for place in root.iter(*(f"{{*}}{tag}" for tag in _REPEATING)):
-                    forms: set[bytes] = set()
-                    for child in list(place):
-                        form = _OWN.sub(b"", etree.tostring(child, with_tail=False))
-                        if form in forms:
-                            place.remove(child)
-                        forms.add(form)
+                for outer, inner in _REPEATING.items():
+                    for place in root.iter(f"{{*}}{outer}"):
+                        for child in place.findall(f"{{*}}{inner}"):
+                            form = outer, _OWN.sub(b"", etree.tostring(child, with_tail=False))
+                            if form in forms:
+                                place.remove(child)
+                            forms.add(form)
                 part = etree.tostring(root, xml_declaration=True, encoding="UTF-8", standalone=True)
             parts.writestr(name, part)
     return made.getvalue()
 
 
 def test_one_row_of_each_form_stays() -> None:
-    def sheet(book: bytes) -> str:
-        return zipfile.ZipFile(io.BytesIO(book)).read("a.xml").decode()
+    def sheet(book: bytes, name: str) -> str:
+        return zipfile.ZipFile(io.BytesIO(book)).read(name).decode()
 
     rows = (
         '<row r="1"><c r="A1" s="1"><v>1</v></c></row>',
@@ -91,8 +92,12 @@ def test_one_row_of_each_form_stays() -> None:
     book = io.BytesIO()
     with zipfile.ZipFile(book, "w") as parts:
         parts.writestr("a.xml", f"<sheetData>{''.join(rows)}</sheetData>")
-    left = sheet(thinned(book.getvalue()))
-    assert [f'r="{n}"' in left for n in range(1, 5)] == [True, False, True, True]
+        parts.writestr("b.xml", f"<sheetData>{rows[0]}</sheetData>")
+        parts.writestr("c.xml", f"<sheetData>{rows[0]}</sheetData>".replace("sheetData", "other"))
+    left = thinned(book.getvalue())
+    assert [f'r="{n}"' in sheet(left, "a.xml") for n in range(1, 5)] == [True, False, True, True]
+    # What a sheet has shown says nothing new in another; what is no row of a sheet stays.
+    assert ['r="1"' in sheet(left, name) for name in ("b.xml", "c.xml")] == [False, True]
 
 
 def spoilt() -> bytes:

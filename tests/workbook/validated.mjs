@@ -7,5 +7,4 @@ const found = {};
 for (const file of files) {
   found[file] = await validate(await readFile(file), file.split(".").pop(), "Microsoft365");
 }
-console.log(JSON.stringify(found));
-process.exit(0);
+process.stdout.write(JSON.stringify(found), () => process.exit(0));

@@ -159,6 +159,8 @@ FIRST_ALONE = (
 
 # Files that look at the same finished reports.
 REPORTS = ("browser", "figures", "pdf", "sheets", "tags", "text")
+# Tests of grading with classes of their own; the others look at one class of four.
+OWN_CLASSES = ("class_of_sixty", "other_bases", "real_class", "workers")
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -207,6 +209,8 @@ def group_of(item: pytest.Item) -> str:
         return "reports"
     if {"browser", "served"} & set(getattr(item, "fixturenames", ())):
         return "browser"  # one Chromium, one server
+    if item.path.parent.name == "grading" and item.path.stem.removeprefix("test_") not in OWN_CLASSES:
+        return "class"
     return min(samples_of(item), default=item.nodeid.partition("::")[0])
 
 

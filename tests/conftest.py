@@ -209,7 +209,10 @@ def group_of(item: pytest.Item) -> str:
         return "reports"
     if {"browser", "served"} & set(getattr(item, "fixturenames", ())):
         return "browser"  # one Chromium, one server
-    if item.path.parent.name == "grading" and item.path.stem.removeprefix("test_") not in OWN_CLASSES:
+    if (
+        item.path.parent.name == "grading"
+        and item.path.stem.removeprefix("test_") not in OWN_CLASSES
+    ):
         return "class"
     return min(samples_of(item), default=item.nodeid.partition("::")[0])
 

@@ -18,6 +18,7 @@ from hypothesis import strategies as st
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.solved import solved
+from reports.shared import signs
 from tests import layouts
 from tests.conftest import sample
 from tests.cover import charts, choices, samples_with
@@ -226,12 +227,27 @@ def assert_symbols_mean_one_number(page):
     assert not {key: found for key, found in said.items() if len(found) > 1}
 
 
+UNIT = r"%|°C|с\.|(?:мин|м|мм|мкм|кг|л|Гц|Дж|кДж|Вт|кВт|Н|кН|Н·м|МПа|мПа)(?![а-яё])"
+PARTED = re.compile(rf".{{0,30}}\d (?:{UNIT}).{{0,10}}")
+
+
+def assert_set_well(page):
+    """Every sign is in the report's font, and no number leaves its unit."""
+    bare = re.sub(r"<(style|svg).*?</\1>", "", page, flags=re.DOTALL)
+    text = html.unescape(re.sub("<[^>]+>", "", bare))
+    assert {
+        sign for sign in set(text) - {"\n", "\u00ad"} if ord(sign) not in signs.coverage()
+    } == set()
+    assert PARTED.findall(text) == []
+
+
 @pytest.mark.parametrize("name", samples_with(charts, choices))
 def test_no_sentence_of_a_sample_is_denied(name):
     model, (page, drawn) = engine(source=name), noted(name)
     assert_claims_hold(model, page)
     assert_nothing_is_empty(page, drawn)
     assert_symbols_mean_one_number(page)
+    assert_set_well(page)
 
 
 @settings(max_examples=10)
@@ -252,6 +268,7 @@ def test_no_sentence_of_a_random_engine_is_denied(layout, step, speed, method, d
     assert_claims_hold(model, page)
     assert_nothing_is_empty(page, drawn)
     assert_symbols_mean_one_number(page)
+    assert_set_well(page)
 
 
 # --- what was wrong, by name ---

@@ -16,7 +16,7 @@ from kshm.mechanics import torsion, torsion_response
 from kshm.mechanics.torsion_response import Damper, respond
 from kshm.mechanics.torsional_train import Train
 from kshm.results.case import Case
-from kshm.results.torsion import Study
+from kshm.results.torsion import Study, forced_columns
 from reports.inputs.to_si.engine import to_engine
 from tests.conftest import sample
 from tests.torsion.trains import MWM, stiffness_matrix, trains
@@ -167,6 +167,26 @@ def test_orders_are_added_in_time() -> None:
     assert found == pytest.approx(wanted, rel=0.01)
     assert np.all(found <= wanted * (1 + 1e-6))
     assert np.all(found < np.abs(amplitudes).sum(axis=1))
+
+
+def test_the_leading_order_is_that_of_whole_matrices(study: Study) -> None:
+    """At each speed and order one dense system in place of the elimination over all of them."""
+    train, loss = study.train, study.asked.loss_factor
+    load, springs = study.excitation(study.speeds), stiffness_matrix(train)
+    assert train.moduli is not None
+    leading = []
+    for at, speed in enumerate(study.speeds):
+        found = []
+        for place, order in enumerate(study.orders):
+            omega = speed * order
+            system = (1 + 1j * loss) * springs + 1j * omega * np.diag(study.damping)
+            angles = np.linalg.solve(
+                system - omega**2 * np.diag(train.inertias), load[:, at, place]
+            )
+            found.append((np.abs(train.stiffnesses * np.diff(angles)) / train.moduli).max())
+        leading.append(study.orders[np.argmax(found)])
+    assert forced_columns(study)["tor_lead_order"].tolist() == leading
+    assert len(set(leading)) > 1
 
 
 def test_the_energy_method_is_the_resonance_of_a_single_order(study: Study) -> None:

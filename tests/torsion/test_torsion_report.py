@@ -53,6 +53,22 @@ def test_the_sentences_follow_the_numbers(pairs: tuple, said: str) -> None:
     assert said in page("mwm-6", *pairs)
 
 
+@pytest.mark.parametrize(
+    ("least", "most", "said", "unsaid"),
+    [
+        # Order 6 has its resonance at 2166: the working speeds end before it, or far from it.
+        (1500.0, 2050.0, "с формой 1 лежит за диапазоном, при 2166 мин−1", "до резонансов"),
+        (500.0, 600.0, "до резонансов которого далеко", "лежит за диапазоном"),
+        (1500.0, 2400.0, "самый опасный порядок — 6", "Больше других в нём"),
+    ],
+)
+def test_the_order_of_the_greatest_stress_is_named_where_its_resonance_is_not_in_the_range(
+    least: float, most: float, said: str, unsaid: str
+) -> None:
+    text = page("mwm-6", ("speed_min_rpm", least), ("speed_max_rpm", most))
+    assert said in text and unsaid not in text
+
+
 def test_estimates_are_called_so() -> None:
     text = page("d-240")
     assert "по памяти" in text

@@ -31,6 +31,7 @@ _MOTION = (
 _NEAR = 0.02  # of a stress: a difference that changes no conclusion
 _SURE = 4  # digits of a frequency that formulas find some per cent apart
 _MOST_ROWS = 12
+_FLANK = 0.6  # of a critical speed: from there on a resonance multiplies the twist by 1.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +41,26 @@ class Peak:
     stress: float
     text: str
     speed: str
+
+    @property
+    def shown(self) -> Markup:
+        """The stress with its unit."""
+        return with_unit(self.text, "МПа")
+
+    @property
+    def at(self) -> Markup:
+        """The speed with its unit."""
+        return with_unit(self.speed, "мин⁻¹")
+
+
+@dataclass(frozen=True, slots=True)
+class Lead:
+    """An order with its resonance nearest to the working speeds, printed; is it near to them?"""
+
+    order: str
+    mode: int
+    at: Markup
+    near: bool
 
 
 def torsion(chapter: Chapter) -> Markup:
@@ -82,7 +103,7 @@ def torsion(chapter: Chapter) -> Markup:
         helps=damped.stress < (1 - _NEAR) * bare.stress,
         flywheels=TablePlan(partial(_flywheels, terms, bare, other), "Два маховика", keep=True),
         change=terms.value("tor_f1_change"),
-        change_text=fixed(abs(terms.value("tor_f1_change")), 1),
+        change_text=with_unit(fixed(abs(terms.value("tor_f1_change")), 1), "%"),
         articulated=chapter.shape.articulated,
         flywheel_needed=terms.has("I_flywheel") and terms.value("I_flywheel") > 0,
         light_flywheel="" if section.masses else _lighter_than(terms, chapter.shape.throws),
@@ -90,6 +111,7 @@ def torsion(chapter: Chapter) -> Markup:
         other_helps=other.stress < (1 - _NEAR) * bare.stress,
         other_harms=other.stress > (1 + _NEAR) * bare.stress,
         work=_energy(terms),
+        beyond=_beyond(terms, modes),
     )  # fmt: skip
 
 
@@ -108,12 +130,12 @@ def concluded(chapter: Chapter) -> Markup:
     over = bare.stress > section.stress_allowed_mpa
     line = (
         "первая собственная частота крутильных колебаний вала {}, наибольшая амплитуда "
-        "напряжений кручения {} МПа при {} мин<sup>−1</sup>, что {} {}"
+        "напряжений кручения {} при {}, что {} {}"
     )
     verdict = "превышает допускаемую" if over else "не превышает допускаемой"
     allowed = terms.val("torsion_stress_allowed_mpa")
     first = with_unit(numbers.significant(terms.value("tor_f1_hz"), _SURE), terms.unit("tor_f1_hz"))
-    return Markup(line).format(first, bare.text, bare.speed, verdict, allowed)
+    return Markup(line).format(first, bare.shown, bare.at, verdict, allowed)
 
 
 def _peak(terms: Terms, which: str) -> Peak:
@@ -121,6 +143,23 @@ def _peak(terms: Terms, which: str) -> Peak:
     place = int(stresses.argmax())
     speed = terms.column("torsion_response.tor_speed_rpm")[place]
     return Peak(float(stresses[place]), fixed(float(stresses[place]), 1), fixed(float(speed), 0))
+
+
+def _beyond(terms: Terms, modes: list[int]) -> Lead | None:
+    """The order that gives most of the greatest stress, if it has no resonance in the range."""
+    c, r = "torsion_critical", "torsion_response"
+    place = int(terms.column(f"{r}.tor_tau_MPa").argmax())
+    order = float(terms.column(f"{r}.tor_lead_order")[place])
+    row = int(np.abs(terms.column(f"{c}.tor_order") - order).argmin())
+    critical = {m: float(terms.column(f"{c}.tor_n{m}_rpm")[row]) for m in modes}
+    least, most = terms.value("tor_n_min"), terms.value("tor_n_max")
+    if any(least <= speed <= most for speed in critical.values()):
+        return None
+    mode = min(critical, key=lambda m: abs(critical[m] / least - 1) if critical[m] < least
+               else critical[m] / most - 1)  # fmt: skip
+    near = _FLANK * critical[mode] <= most and _FLANK * least <= critical[mode]
+    shown = with_unit(fixed(critical[mode], 0), "мин⁻¹")
+    return Lead(fixed(order, 1).removesuffix(",0"), mode, shown, near)
 
 
 def _forms(terms: Terms, modes: list[int]) -> TableBlock:
@@ -219,10 +258,10 @@ def _flywheels(terms: Terms, bare: Peak, other: Peak) -> TableBlock:
     return table_block(heads, rows)
 
 
-def _energy(terms: Terms) -> dict[str, str]:
+def _energy(terms: Terms) -> dict[str, Markup]:
     """Energy of a cycle at the speed of the greatest stress."""
     place = int(terms.column("torsion_response.tor_tau_MPa").argmax())
     return {
-        key: fixed(float(terms.column(f"torsion_response.tor_{key}_J")[place]), 1)
+        key: with_unit(fixed(float(terms.column(f"torsion_response.tor_{key}_J")[place]), 1), "Дж")
         for key in ("work", "lost")
     }

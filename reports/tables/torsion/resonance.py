@@ -280,7 +280,8 @@ def forced_values(model: InputFile) -> Columns:
 def _forced() -> TableSpec:
     keys = (
         "tor_speed_rpm", "tor_tau_MPa", "tor_tau_damped_MPa", "tor_tau_other_MPa",
-        "tor_shaft_no", "tor_moment_Nm", "tor_front_deg", "tor_work_J", "tor_lost_J", "tor_mark",
+        "tor_shaft_no", "tor_lead_order", "tor_moment_Nm", "tor_front_deg", "tor_work_J",
+        "tor_lost_J", "tor_mark",
     )  # fmt: skip
     return TableSpec(
         "torsion_response",

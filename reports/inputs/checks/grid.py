@@ -18,7 +18,7 @@ from reports.inputs.to_si.engine import smallness_of
 from reports.shared.errors import InputError
 from reports.shared.russian import NBSP, fixed, written
 
-FINE = 1.0  # step that the others are held against [deg]
+FINE = 1  # step that the others are held against [deg]
 MOST = 2.0  # difference that is told [%]
 _TOLD = 4  # differences in the one line; the report has them all
 # Extremes and integrals of a cycle, which depend on where the rows stand; the first matter most.

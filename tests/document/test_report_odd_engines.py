@@ -199,3 +199,29 @@ def test_no_number_of_a_journal_runs_into_its_load(name):
     model = sample(name)
     for text in (text_of(model), grid_remark(model)):
         assert not re.findall(r"(?:шейк|подшипник|колен|цилиндр|опор)[а-я]* \d+ \d+,\d", text)
+
+
+def listed(chapter):
+    """What the list of symbols holds in a report of one chapter."""
+    raw = to_mapping(sample("gots-diesel"))
+    raw["report"]["chapters"] = [chapter]
+    text = text_of(load_mapping(raw, source="t.toml").model)
+    start = text.index("Перечень сокращений и обозначений", text.index("ВМТ —") - 80)
+    return text[start : text.index("Введение", start)]
+
+
+@pytest.mark.parametrize(
+    ("chapter", "told", "silent"),
+    [
+        ("kinematics", ["скорость поршня", "средняя скорость"], ["шейку", "момент", "сила"]),
+        ("torque", ["суммарный крутящий момент"], ["шейку", "опоры", "ускорение поршня"]),
+        ("torsion", ["степень сжатия", "частота вращения"], ["сила", "скорость поршня", "шейку"]),
+        ("crankpin", ["нагрузка на шатунную шейку", "плоскости колена"], ["реакция", "поршня, мм"]),
+    ],
+)
+def test_the_list_of_symbols_holds_what_the_chapters_use(chapter, told, silent):
+    text = listed(chapter)
+    for words in told:
+        assert words in text, words
+    for words in silent:
+        assert words not in text, words

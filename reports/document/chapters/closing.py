@@ -118,7 +118,7 @@ def _grid_table(chapter: Chapter) -> TableBlock:
         unit = f", {q.unit_label}" if q.unit_label else ""
         shown = [of_digits(value, q.digits) for value in (error.coarse, error.fine)]
         apart = fixed(percent, 1) if abs(percent) < _MOST_PERCENT else "—"
-        rows.append([capital(q.title) + unit, *shown, apart])
+        rows.append([capital(error.title) + unit, *shown, apart])
     return table_block(columns, rows)
 
 

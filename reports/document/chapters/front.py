@@ -12,6 +12,7 @@ from reports.document.chapters.profiles import told
 from reports.document.page.fitting import type_pt
 from reports.document.page.style import TitlePage
 from reports.inputs.sections.input_file import InputFile
+from reports.shared.russian import joined
 
 Words = dict[str, Any]
 
@@ -29,6 +30,8 @@ _KEYWORDS = (
     ("oil", "масляная плёнка"),
     ("companions", "уравновешенность"),
 )
+# What a further calculation finds, by the chapter that does it.
+_FURTHER = (("oil", "прочность вала"), ("oil", "подшипники"), ("companions", "маховик"))
 _REPORT = ("title", "institution", "department", "discipline", "student", "group", "supervisor",
            "variant", "city", "head", "issued", "due")  # fmt: skip
 # The data a task is usually given by.
@@ -80,7 +83,14 @@ def abstract(chapter: Chapter) -> Words:
         "appendices": sum(item.title.startswith("Приложение") for item in n.contents),
         "names": names,
         "keywords": [word.upper() for word in words],
+        "further": _further(names),
     }
+
+
+def _further(names: set[str]) -> str:
+    """What the workbook invites to and the report has not done itself."""
+    left = [word for name, word in _FURTHER if name not in names]
+    return f"проверить {joined(left)}" if left else ""
 
 
 # Words of the title block with width and height of their cells [mm] and their usual type [pt].

@@ -222,7 +222,7 @@ def _flywheels(terms: Terms, bare: Peak, other: Peak) -> TableBlock:
 def _energy(terms: Terms) -> dict[str, str]:
     """Energy of a cycle at the speed of the greatest stress."""
     place = int(terms.column("torsion_response.tor_tau_MPa").argmax())
-    return {
-        key: fixed(float(terms.column(f"torsion_response.tor_{key}_J")[place]), 1)
-        for key in ("work", "lost")
-    }
+    columns = {key: f"torsion_response.tor_{key}_J" for key in ("work", "lost")}
+    # A sentence has two decimals less than the sheet: fewer still for a large engine.
+    digits = max(0, terms.quantity(columns["work"]).digits.decimals - 2)
+    return {key: fixed(float(terms.column(name)[place]), digits) for key, name in columns.items()}

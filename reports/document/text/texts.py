@@ -85,15 +85,17 @@ _SPACE_BEFORE_UNBROKEN = re.compile('([ \u00a0])(<span class="nb">|<a class="ref
 
 # Spaces that no line ends at: of initials, «А. Н. Гоц»; before a short reference, «Гоца [1]»,
 # the number of a thing, «рисунок 1», and a dash, but not the one of a caption after its
-# number; within «а — размеры»; round the sign of «φ = 56°».  The space stands first: it is
-# looked for at once.
+# number; within «а — размеры»; round the sign of «φ = 56°»; before a unit.  The space stands
+# first: it is looked for at once.
 _UNBROKEN = re.compile(
     r" (?:(?<=[^А-ЯЁа-яёA-Za-z][А-ЯЁ]\. )(?=[А-ЯЁ])"
     rf'|(?=\[<a class="ref"[^<>]*>\d+</a>(?:\]|,{NBSP}|, <a))'
     r'|(?:(?<=рисун[а-я]{2} )|(?<=рисунках )|(?<=аблиц[а-я] )|(?<=аблицах ))(?=<a class="ref")'
     r"|(?<!</span> )(?=— )"
     r"|(?<=[ :;][а-е] — )"
-    r"|(?==[ \u00a0])|(?<=[ \u00a0]= ))"
+    r"|(?:(?==[ \u00a0])|(?<=[ \u00a0]= )"
+    r"|(?<=\d )(?=(?:М?Па|к?Н(?:·м)?|к?Дж|к?Вт|кг|мк?м|мин|рад|Гц|%)(?![А-Яа-яё])))"
+    r"(?![^<>]*>))"  # but in words for a reader's ear
 )
 
 

@@ -18,6 +18,7 @@ from reports.document.page.writer import TablePlan
 from reports.document.text.numbers import of_digits
 from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms
+from reports.inputs.checks.flywheel import flywheel_remark
 from reports.inputs.checks.grid import remark_on
 from reports.shared.russian import NBSP, capital, fixed
 from reports.spec.shape import Shape, pin_table, rays_table, rods_table
@@ -90,6 +91,8 @@ def checks(chapter: Chapter) -> Markup:
 def _remarks(chapter: Chapter) -> list[str]:
     """Remarks on the input that no chapter tells itself."""
     told = [remark_on(chapter.terms.grid_errors, chapter.input)]
+    if "torsion" in chosen(chapter.input.report):
+        told.append(flywheel_remark(chapter.input))
     if "torque" in chosen(chapter.input.report):
         told.append(reasons_of(chapter.input).get("power", ""))
     return [

@@ -58,11 +58,11 @@ def notation(chapter: Chapter, text: str | None = None) -> Markup:
     """
     terms = chapter.terms
     present = [name for name in _SYMBOLS if name == "phi_deg" or terms.has(name)]
-    abbreviations, again = _ABBREVIATIONS, {}
+    abbreviations, again = list(_ABBREVIATIONS), {}
     if text is not None:
         formulas = "\n".join(chapter.writer.formulas)
         present = [name for name in present if _occurs(terms.tex(name), text, formulas)]
-        abbreviations = tuple(pair for pair in abbreviations if re.search(rf"\b{pair[0]}\b", text))
+        abbreviations = [pair for pair in abbreviations if re.search(rf"\b{pair[0]}\b", text)]
         again = {"h": chapter.writer.heading_again}
     symbols = [(terms.sym(name), terms.title(name), terms.unit(name)) for name in present]
     return chapter.page("notation", abbreviations=abbreviations, symbols=symbols, **again)

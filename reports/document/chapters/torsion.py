@@ -14,6 +14,7 @@ from reports.document.page.spec_tables import grid_table
 from reports.document.page.writer import TablePlan
 from reports.document.text import numbers
 from reports.document.text.terms import Terms, with_unit
+from reports.inputs.checks.flywheel import INERTIAS, lighter_than
 from reports.shared.russian import fixed
 
 _HOLZER = (
@@ -85,7 +86,7 @@ def torsion(chapter: Chapter) -> Markup:
         change_text=fixed(abs(terms.value("tor_f1_change")), 1),
         articulated=chapter.shape.articulated,
         flywheel_needed=terms.has("I_flywheel") and terms.value("I_flywheel") > 0,
-        light_flywheel="" if section.masses else _lighter_than(terms, chapter.shape.throws),
+        light_flywheel=_lighter_than(chapter),
         heavier=terms.value("tor_flywheel_other") > terms.value("tor_flywheel"),
         other_helps=other.stress < (1 - _NEAR) * bare.stress,
         other_harms=other.stress > (1 + _NEAR) * bare.stress,
@@ -93,10 +94,13 @@ def torsion(chapter: Chapter) -> Markup:
     )  # fmt: skip
 
 
-def _lighter_than(terms: Terms, throws: int) -> str:
-    """The lightest throw if the flywheel is lighter still: no flywheel is; else empty."""
-    lightest = min((f"torJ{k + 2}" for k in range(throws)), key=terms.value)
-    return lightest if terms.value("tor_flywheel") < terms.value(lightest) else ""
+def _lighter_than(chapter: Chapter) -> str:
+    """The lightest throw if the flywheel is lighter still; else empty."""
+    section, inertias = chapter.input.torsion, chapter.terms.column(".".join(INERTIAS))
+    if section is None or section.masses:
+        return ""
+    throw = lighter_than(inertias, chapter.shape.throws)
+    return f"torJ{throw}" if throw else ""
 
 
 def concluded(chapter: Chapter) -> Markup:

@@ -258,3 +258,9 @@ def test_sums_of_many_journals_stand_in_tables_of_alike_widths():
     text = text_of(in_line([1, 5, 3, 6, 2, 7, 4], strokes=2))
     assert "Суммы удельных сил по лучам коренных шеек 1–4" in text
     assert "Суммы удельных сил по лучам коренных шеек 5–8" in text
+
+
+def test_one_cylinder_has_no_order_of_work():
+    text = text_of(in_line([1]))
+    assert "Порядки работы" not in text and "цилиндр и колено с носка вала" in text
+    assert "Порядки работы" in text_of(in_line([1, 3, 2]))

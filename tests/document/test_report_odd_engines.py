@@ -264,3 +264,20 @@ def test_one_cylinder_has_no_order_of_work():
     text = text_of(in_line([1]))
     assert "Порядки работы" not in text and "цилиндр и колено с носка вала" in text
     assert "Порядки работы" in text_of(in_line([1, 3, 2]))
+
+
+@pytest.mark.parametrize(
+    ("chapters", "aim"),
+    [
+        (None, "движение деталей механизма, силы и моменты, действующие в нём за рабочий цикл, "
+         "нагрузки на шейки коленчатого вала, а также уравновешенность и"),
+        (["torque"], "силы и моменты, действующие в нём за рабочий цикл."),
+        (["kinematics", "journals"], "движение деталей механизма и нагрузки на шейки"),
+        (["torque", "running"], "силы и моменты, действующие в нём за рабочий цикл, и нагрузки"),
+        (["companions"], "уравновешенность и неравномерность хода двигателя."),
+        (["reference"], "движение деталей механизма, силы"),
+    ],
+)  # fmt: skip
+def test_the_aim_is_what_the_chapters_find(chapters, aim):
+    text = text_of(in_line([1, 3, 2], report={"chapters": chapters} if chapters else {}))
+    assert f"Цель работы — найти {aim}" in text

@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 
-from kshm.engine.checks import NOT_NEGATIVE, POSITIVE, check_numbers
+from kshm.engine.checks import NOT_NEGATIVE, POSITIVE, check_numbers, refuse
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +36,7 @@ class Cylinder:
     def __post_init__(self) -> None:
         """Refuse angles and places that are no numbers."""
         check_numbers(self, NOT_NEGATIVE, "throw", "rod_place", "pin")
+        refuse((self.rod_place > 1, f"rod_place must be from 0 to 1, not {self.rod_place:g}"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +85,17 @@ def fan(
             None for pins that the rods share.
         articulated: the rods of all banks but the first hang on those of the first.
     """
+    refuse(
+        (not axes, "an engine has a bank"),
+        (
+            pin_angles is not None and len(pin_angles) != len(axes),
+            f"{len(axes)} banks need a part of the pin each, not {len(pin_angles or ())}",
+        ),
+        (
+            pin_angles is not None and articulated,
+            "articulated rods hang on the master rod and have no part of a split pin",
+        ),
+    )
     made = []
     for bank, axis in enumerate(axes):
         share = bank / max(1, len(axes) - 1)
@@ -98,6 +110,7 @@ def fan(
 
 def opposed(count: int) -> Arrangement:
     """Two opposite banks, every rod on its own throw, left and right in turn from the nose."""
+    refuse((count < 2 or count % 2 != 0, f"an opposed engine has pairs of cylinders, not {count}"))
     pairs = count // 2
     left = tuple(Cylinder(2 * pair) for pair in range(pairs))
     right = tuple(Cylinder(2 * pair + 1, math.pi) for pair in range(pairs))
@@ -132,3 +145,21 @@ def throws(arrangement: Arrangement) -> tuple[tuple[int, ...], ...]:
     return tuple(
         tuple(i for i, c in enumerate(arrangement) if c.throw == throw) for throw in range(count)
     )
+
+
+@lru_cache(maxsize=256)  # engines of a study share their rods
+def side_reach(
+    crank_radius: float, rod_length: float, offset: float, radius: float, angle: float, bank: float
+) -> float:
+    """Greatest distance of an articulated pin from its cylinder's axis in a turn.
+
+    Lengths in one unit, angles in radians: ``radius`` and ``angle`` are those of
+    ``ArticulatedRod``, ``bank`` the own axis from the master's.
+    """
+    widest = 0.0
+    for degrees in range(360):
+        phi = math.radians(degrees)
+        beta = math.asin((crank_radius * math.sin(phi) - offset) / rod_length)
+        across = crank_radius * math.sin(phi - bank) + radius * math.sin(angle - beta - bank)
+        widest = max(widest, abs(across - offset))
+    return widest

@@ -3,9 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields
+from functools import cache, wraps
+from inspect import signature
+from numbers import Integral, Real
+from types import NoneType, UnionType
+from typing import Any, Literal, ParamSpec, TypeVar, Union, get_args, get_origin, get_type_hints
 
 POSITIVE, NOT_NEGATIVE, FINITE = "positive", "not negative", "finite"
+_WORDS = {float: "a number", int: "a whole number", str: "a text"}
+_SHOWN = 40  # characters of a value that is told
+
+Arguments = ParamSpec("Arguments")
+Made = TypeVar("Made")
 
 
 def refuse(*problems: tuple[bool, str]) -> None:
@@ -20,7 +31,7 @@ def refuse(*problems: tuple[bool, str]) -> None:
 
 
 def check_numbers(part: object, want: str, *names: str) -> None:
-    """Numbers of a part of an engine, single ones and tuples of them; None counts as not given.
+    """Kinds of all fields of a part, and its numbers; None counts as not given where it may be.
 
     Args:
         part: a dataclass; its name and the field's are told.
@@ -28,15 +39,82 @@ def check_numbers(part: object, want: str, *names: str) -> None:
         names: fields to check; all others must be finite.
 
     Raises:
-        ValueError: a number is NaN, infinite or not as wanted.
+        ValueError: a field is of the wrong kind, a number is NaN, infinite or not as wanted.
     """
+    owner: Any = type(part)
+    kinds = _hints(owner)
     for field in fields(part):  # type: ignore[arg-type]
         value = getattr(part, field.name)
+        check_kind(f"{type(part).__name__}: {field.name}", value, kinds[field.name])
         kind = want if field.name in names else FINITE
         for number in value if isinstance(value, tuple) else (value,):
             if isinstance(number, int | float) and not _is(number, kind):
                 msg = f"{type(part).__name__}: {field.name} must be {kind}, not {number:g}"
                 raise ValueError(msg)
+
+
+def takes_kinds(function: Callable[Arguments, Made]) -> Callable[Arguments, Made]:
+    """Refuse arguments of another kind than the function's annotations say, by their names."""
+    names = tuple(signature(function).parameters)
+
+    @wraps(function)
+    def checked(*args: Arguments.args, **given: Arguments.kwargs) -> Made:
+        kinds = _hints(function)
+        for name, value in (*zip(names, args, strict=False), *given.items()):
+            if name in kinds:  # of unknown names Python tells itself
+                check_kind(name, value, kinds[name])
+        return function(*args, **given)
+
+    return checked
+
+
+def check_kind(name: str, value: object, kind: Any) -> None:  # noqa: ANN401
+    """Refuse a value of another kind than an annotation says.
+
+    Raises:
+        ValueError: with the name, the kind and the beginning of the value.
+    """
+    if not _fits(value, kind):
+        shown = " ".join(repr(value).split())
+        shown = shown if len(shown) <= _SHOWN else shown[: _SHOWN - 1] + "…"
+        raise ValueError(f"{name} must be {_words(kind)}, not {shown}")
+
+
+# Annotations of a class or function are texts until they are asked for; always the same.
+_hints = cache(get_type_hints)
+
+
+def _fits(value: object, kind: Any) -> bool:  # noqa: ANN401
+    # Nearly all values are plain numbers: many engines are made for a study.
+    if kind is type(value):
+        return True
+    origin = get_origin(kind)
+    if origin in (Union, UnionType):
+        return any(_fits(value, each) for each in get_args(kind))
+    if origin is Literal:
+        return True  # the one who takes it tells the words it knows
+    if origin is tuple:
+        return isinstance(value, tuple) and _each_fits(value, get_args(kind))
+    if origin is Sequence:
+        several = hasattr(value, "__len__") and hasattr(value, "__iter__")
+        plain = not isinstance(value, str | bytes | Mapping)
+        return several and plain and all(_fits(each, get_args(kind)[0]) for each in value)  # type: ignore[attr-defined]
+    number = {float: Real, int: Integral}.get(kind)
+    return isinstance(value, number or kind)
+
+
+def _each_fits(values: tuple[object, ...], kinds: tuple[Any, ...]) -> bool:
+    if kinds[-1] is Ellipsis:
+        return all(_fits(value, kinds[0]) for value in values)
+    return len(values) == len(kinds) and all(map(_fits, values, kinds))
+
+
+def _words(kind: Any) -> str:  # noqa: ANN401
+    if get_origin(kind) in (Union, UnionType):
+        return " or ".join(_words(each) for each in get_args(kind) if each is not NoneType)
+    if get_origin(kind) in (tuple, Sequence):
+        return f"a list, each {_words(get_args(kind)[0])}"
+    return _WORDS.get(kind) or str(kind.__name__)
 
 
 def _is(number: float, kind: str) -> bool:

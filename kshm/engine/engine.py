@@ -6,15 +6,16 @@ import math
 from dataclasses import dataclass, field
 from typing import Literal
 
-from kshm.engine.arrangement import Arrangement, ArticulatedRod, hung, in_row
+from kshm.engine.arrangement import Arrangement, ArticulatedRod, hung, in_row, side_reach
 from kshm.engine.bearings import Bearings
 from kshm.engine.checks import POSITIVE, check_numbers, refuse
 from kshm.engine.crankshaft import Crankshaft
-from kshm.engine.gas import Gas, TabulatedGas
+from kshm.engine.gas import Gas, PolytropicGas, TabulatedGas
 from kshm.engine.masses import Masses
 from kshm.engine.torsion import Torsion
 
 Method = Literal["textbook", "exact"]
+_MOST_STEP = 60  # degrees: the fewest angles that tell the torque's lowest orders
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,17 +151,19 @@ class Engine:
         """Give an engine without arrangement its cylinders in line; refuse what cannot be."""
         if not self.arrangement:
             object.__setattr__(self, "arrangement", in_row(self.cylinders))
-        check_numbers(self, POSITIVE, "omega", "fullness")
+        check_numbers(self, POSITIVE, "omega", "fullness", "indicated_power")
         self._check_calculation()
+        self._check_timing()
         self._check_layout()
+        self._check_articulated()
 
     def _check_calculation(self) -> None:
         gas, efficiency = self.gas, self.mechanical_efficiency
         refuse(
             (self.strokes not in (2, 4), "strokes are 2 or 4"),
             (
-                self.step_deg < 1 or (self.strokes * 180) % self.step_deg != 0,
-                "the step must divide the cycle",
+                not 1 <= self.step_deg <= _MOST_STEP or 180 % self.step_deg != 0,
+                f"the step must divide 180° and be at most {_MOST_STEP}°, not {self.step_deg}",
             ),
             (self.rays not in (12, 18), "wear diagrams have 12 or 18 rays"),
             (
@@ -177,6 +180,28 @@ class Engine:
             ),
         )
 
+    def _check_timing(self) -> None:
+        gas = self.gas
+        if isinstance(gas, TabulatedGas):
+            return
+        tdc, start, end = self.period - 2 * math.pi, gas.combustion_start, gas.exhaust_close
+        scavenged = self.strokes == 2 and isinstance(gas, PolytropicGas)
+        refuse(
+            (
+                not math.pi < start <= 2 * math.pi,
+                f"combustion starts at 180° … 360° of the cycle, not at {_degrees(start)}",
+            ),
+            (
+                not tdc <= gas.exhaust_open < end <= self.period,
+                f"the exhaust opens and closes from {_degrees(tdc)} to {_degrees(self.period)}, "
+                f"not at {_degrees(gas.exhaust_open)} and {_degrees(end)}",
+            ),
+            (
+                scavenged and not gas.exhaust_open <= getattr(gas, "scavenge_open", 0.0) <= end,
+                "scavenging of a two-stroke engine begins while the exhaust is open",
+            ),
+        )
+
     def _check_layout(self) -> None:
         places, throws = self.arrangement, len(self.crankshaft.throws)
         refuse(
@@ -189,20 +214,38 @@ class Engine:
                 {place.throw for place in places} != set(range(throws)),
                 f"the rods of {self.cylinders} cylinders stand on other throws than the {throws}",
             ),
-            (
-                any(
-                    not 0 <= i < self.cylinders or places[i].master is not None
-                    for i in (places[n].master for n in hung(places))
-                    if i is not None
-                ),
-                "a master rod must be one of a cylinder whose rod hangs on no other",
-            ),
-            (
-                len(self.articulated) != len(hung(places)),
-                f"{len(hung(places))} articulated rods must be described, "
-                f"not {len(self.articulated)}",
-            ),
         )
+
+    def _check_articulated(self) -> None:
+        places, hanging = self.arrangement, hung(self.arrangement)
+        refuse(
+            (
+                len(self.articulated) != len(hanging),
+                f"{len(hanging)} articulated rods must be described, not {len(self.articulated)}",
+            )
+        )
+        for i, rod in zip(hanging, self.articulated, strict=True):
+            number, own = places[i].master or 0, places[i]
+            master = places[number] if 0 <= number < self.cylinders else own
+            refuse(
+                (
+                    master is own or master.master is not None or master.throw != own.throw,
+                    "a master rod must be one of a cylinder on the same throw whose rod hangs "
+                    f"on no other: cylinder {i + 1}",
+                )
+            )
+            size = self.geometry
+            reach = side_reach(
+                size.crank_radius, size.rod_length, size.offset, rod.radius, rod.angle,
+                own.axis - master.axis,
+            )  # fmt: skip
+            refuse(
+                (
+                    reach >= rod.rod_length,
+                    f"the articulated rod of cylinder {i + 1} is {rod.rod_length * 1e3:g} mm long: "
+                    f"its pin stands up to {reach * 1e3:.4g} mm off the cylinder's axis",
+                )
+            )
 
     @property
     def is_in_line(self) -> bool:
@@ -223,3 +266,7 @@ class Engine:
     def speed_rpm(self) -> float:
         """Rotational speed n [min⁻¹]."""
         return self.omega * 30 / math.pi
+
+
+def _degrees(angle: float) -> str:
+    return f"{math.degrees(angle):.10g}°"

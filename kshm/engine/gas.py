@@ -51,18 +51,20 @@ class TabulatedGas:
 
     def __post_init__(self) -> None:
         """Refuse points that make no closed diagram."""
+        check_numbers(self, POSITIVE, "p_ambient", "pressures")
         refuse(
             (
                 len(self.angles) != len(self.pressures) or len(self.angles) < 3,
                 "as many pressures as angles are needed, three or more",
             ),
             (not all(a < b for a, b in pairwise(self.angles)), "angles must rise"),
+        )
+        refuse(
             (
                 self.angles[0] != 0 or self.pressures[0] != self.pressures[-1],
                 "the points must begin at 0° and end with the pressure of the beginning",
             ),
         )
-        check_numbers(self, POSITIVE, "p_ambient", "pressures")
 
 
 @dataclass(frozen=True, slots=True)

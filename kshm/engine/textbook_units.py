@@ -9,17 +9,19 @@ a person's units come in without a file.  What no engine can be is refused by ``
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import TypedDict, Unpack
 
 from kshm.engine import arrangement
 from kshm.engine.arrangement import Arrangement, ArticulatedRod, Cylinder, in_row
-from kshm.engine.checks import refuse
+from kshm.engine.checks import refuse, takes_kinds
 from kshm.engine.crankshaft import Crankshaft, EndMass, Throw, Web
 from kshm.engine.engine import Engine, Geometry, Method
 from kshm.engine.gas import Gas, PolytropicGas, TabulatedGas
 from kshm.engine.masses import DirectMasses
+from kshm.engine.usual import implausible
 
 _MM, _MPA, _RPM = 1e-3, 1e6, math.pi / 30
 _ARMS = 6
@@ -27,6 +29,7 @@ _ARMS = 6
 Sizes = float | Sequence[float]  # one for all journals or one each
 
 
+@takes_kinds
 def polytropic(
     *,
     intake_mpa: float,
@@ -63,6 +66,7 @@ def polytropic(
     )
 
 
+@takes_kinds
 def points(
     angles_deg: Sequence[float],
     pressures_mpa: Sequence[float],
@@ -83,6 +87,7 @@ def points(
     )
 
 
+@takes_kinds
 def throw(
     *,
     arms_mm: Sequence[float],
@@ -117,11 +122,13 @@ def throw(
     return Throw(0.0, (l1, l2, l3, l4, l5, l6), web, web, pin_kg, thickness, thickness)
 
 
+@takes_kinds
 def end_mass(mass_kg: float, angle_deg: float, arm_mm: float) -> EndMass:
     """External counterweight beyond an end journal; mass reduced to the crank radius."""
     return EndMass(mass_kg, math.radians(angle_deg), arm_mm * _MM)
 
 
+@takes_kinds
 def place(
     throw: int,
     axis_deg: float = 0.0,
@@ -144,6 +151,7 @@ def place(
     return Cylinder(throw, math.radians(axis_deg), rod_place, pin, math.radians(pin_deg), master)
 
 
+@takes_kinds
 def banks(
     throws: int,
     axes_deg: Sequence[float],
@@ -166,6 +174,7 @@ def banks(
     return arrangement.fan(throws, axes, pin_angles=split, articulated=articulated)
 
 
+@takes_kinds
 def articulated_rod(
     *,
     rod_length_mm: float,
@@ -227,8 +236,9 @@ def in_line(**given: Unpack[Given]) -> Engine:
     return assemble(**given)
 
 
+@takes_kinds
 def assemble(
-    places: Arrangement | None = None,
+    places: Sequence[Cylinder] | None = None,
     *,
     bore_mm: float,
     crank_radius_mm: float,
@@ -260,8 +270,10 @@ def assemble(
 ) -> Engine:
     """An engine of any layout; the throws stand where the firing offsets want them.
 
+    What looks like a unit mistaken is a ``UserWarning``, one line each.
+
     Args:
-        places: ``banks(...)``, ``opposed(...)`` or a tuple of ``place(...)``; in a row if None.
+        places: ``banks(...)``, ``opposed(...)`` or a list of ``place(...)``; in a row if None.
         bore_mm: cylinder bore D [mm].
         crank_radius_mm: crank radius r [mm].
         rod_length_mm: length of the rod L [mm].
@@ -300,8 +312,7 @@ def assemble(
         (cylinders < 1, "an engine has a cylinder"),
         (mechanical_efficiency == 0, "the mechanical efficiency must be above 0"),
     )
-    if places is None:
-        places = in_row(cylinders)
+    places = in_row(cylinders) if places is None else tuple(places)
     refuse(
         (
             len(places) != cylinders,
@@ -320,7 +331,7 @@ def assemble(
     angles = _throw_angles(places, offsets, count)
     if isinstance(articulated, ArticulatedRod):
         articulated = (articulated,) * len(arrangement.hung(places))
-    return Engine(
+    engine = Engine(
         geometry=Geometry(
             bore_mm * _MM,
             crank_radius_mm * _MM,
@@ -354,6 +365,9 @@ def assemble(
         arrangement=places,
         articulated=tuple(articulated),
     )
+    for odd in implausible(engine):
+        warnings.warn(odd, stacklevel=3)  # past the check of the kinds
+    return engine
 
 
 def _sizes(given: Sizes, count: int) -> tuple[float, ...]:

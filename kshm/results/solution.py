@@ -14,6 +14,7 @@ from kshm.chain.solve import solve_batch
 from kshm.chain.stack import structure
 from kshm.cycle.run import CycleRun
 from kshm.engine.arrangement import hung
+from kshm.engine.checks import takes_kinds
 from kshm.engine.engine import Engine
 from kshm.mechanics.balance import is_balanced_by_orders
 from kshm.nomenclature.quantity import quantity
@@ -50,6 +51,7 @@ SAME_RODS: tuple[Subject, ...] = (inertia_results, torque_order_results)
 _GRIDS = ("phi_deg", "alpha_deg", "ray_deg")
 
 
+@takes_kinds
 def solve(engine: Engine, cycle: CycleRun | None = None) -> Solution:
     """Solve one engine: kinematics, forces, torques, journal loads and wear, Gots (1)-(60).
 

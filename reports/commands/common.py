@@ -55,13 +55,14 @@ def tell(loaded: Loaded) -> None:
         click.echo(line, err=True)
 
 
-def tell_grid(loaded: Loaded) -> None:
-    """Results for which the step of the tables is too coarse."""
-    from reports.inputs.checks.grid import grid_remark
+def tell_solved(loaded: Loaded) -> bool:
+    """What the solution shows; whether it needs a person's eye."""
+    from reports.inputs.checks.flywheel import solution_remarks
 
-    line = grid_remark(loaded.model)
-    if line:
+    lines = solution_remarks(loaded.model)
+    for line in lines:
         click.echo(line)
+    return any(line.startswith("Внимание") for line in lines)
 
 
 def notes_of(loaded: Loaded) -> tuple[str, ...]:

@@ -21,7 +21,7 @@ from reports.commands.common import (
     notes_of,
     path_option,
     tell,
-    tell_grid,
+    tell_solved,
     verbose_option,
 )
 from reports.commands.words import RussianCommand
@@ -133,8 +133,8 @@ def check(source: Path, as_json: bool) -> int:
         return BAD if problems else (LOOK if warnings else DONE)
     tell(loaded)
     click.echo(f"{source}: ошибок нет")
-    tell_grid(loaded)
-    return LOOK if warnings else DONE
+    odd = tell_solved(loaded)
+    return LOOK if warnings or odd else DONE
 
 
 def _as_dict(problem: Any) -> dict[str, str]:  # noqa: ANN401
@@ -187,7 +187,7 @@ def solve(source: Path, folder: Path | None, target: str | None) -> int:
             )
     if folder is None and target is None:
         _print_summary(solution.scalars, smallness_of(loaded.model))
-        tell_grid(loaded)
+        tell_solved(loaded)
     return DONE
 
 

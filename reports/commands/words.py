@@ -43,7 +43,7 @@ _ERRORS = (
     (r"Option '(.*?)' does not take a value", "ключ {} пишется без значения"),
     (r"Argument '(.*?)' takes (\d+) values", "аргументу {} нужно значений: {}"),
     (r"'(.*)' is not a valid (?:integer|float|boolean)", "нужно число, а задано «{}»"),
-    (r"(.*) is not in the range (.*)\.", "{} вне пределов {}"),
+    (r"(.*) is not in the range (.*)<=x<=(.*)\.", "{} вне пределов от {} до {}"),
     (r"'(.*?)' is not one of (.*?)\.?$", "«{}»; допустимо: {}"),
 )
 
@@ -96,7 +96,8 @@ def error_text(error: click.ClickException) -> str:
     if isinstance(error, click.NoSuchOption):
         return f"нет ключа {error.option_name}"
     if isinstance(error, click.MissingParameter):
-        return f"не указан аргумент {_name(error)}"
+        kind = "ключ" if isinstance(error.param, click.Option) else "аргумент"
+        return f"не указан {kind} {_name(error)}"
     if isinstance(error, click.BadParameter):
         return f"неверное значение {_name(error)}: {_sentence(error.message)}"
     return _sentence(error.format_message())

@@ -264,13 +264,16 @@ def _whole(env: Environment, chapter: Chapter, body: Markup) -> str:
 
 def _write(chapter: Chapter, names: set[str], further: Further = ()) -> Markup:
     """The chapters of those names; further ones stand before the checks and conclusions."""
-    parts: list[Markup] = []
+    parts: dict[str, Markup] = {}
     for name, write in CHAPTERS.items():
         if name == "checks":
-            parts += [chapter_of(chapter) for chapter_of in further]
+            parts |= {f"further {n}": made(chapter) for n, made in enumerate(further)}
         if name in names:
-            parts.append(write(chapter))
-    return Markup("\n").join(parts)
+            parts[name] = write(chapter)
+    if "notation" in parts and not chapter.writer.draft:
+        others = Markup("\n").join(part for name, part in parts.items() if name != "notation")
+        parts["notation"] = opening.notation(chapter, others)
+    return Markup("\n").join(parts.values())
 
 
 def _info(model: InputFile) -> DocumentInfo:

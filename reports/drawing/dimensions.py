@@ -37,9 +37,10 @@ def along(
     places = [(x + up[0] * gap * letters, y + up[1] * gap * letters)
               for gap in (0.5, -1.6, 1.6, -2.8) for x, y in middles]  # fmt: skip
     if not heads:  # there is no dimension line to stand beside: the line goes on as its words
-        far = length + 1.6 * letters + width_of(text, letters) / 2
-        places.append((start[0] + far * unit[0] - 0.4 * letters * up[0],
-                       start[1] + far * unit[1] - 0.4 * letters * up[1]))  # fmt: skip
+        beyond = length + 1.6 * letters + width_of(text, letters) / 2
+        for far in (beyond, -beyond):  # past its end, or past the circle on the other side
+            places.append((start[0] + far * unit[0] - 0.4 * letters * up[0],
+                           start[1] + far * unit[1] - 0.4 * letters * up[1]))  # fmt: skip
     canvas.words_where_free(places, text, letters, align=0.5, angle=round(turn, 3))
 
 

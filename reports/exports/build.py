@@ -100,15 +100,15 @@ def build(
         OutputError: the folder cannot be written.
         InputError: the input gives no finite result.
     """
-    from reports.inputs.checks.grid import grid_remark
+    from reports.inputs.checks.flywheel import solution_remarks
     from reports.spec.evaluation import evaluate_model
     from reports.tables.overview.verdicts import failed_checks
     from reports.tables.registry import build_model
 
     needs(kinds)
     make_dir(folder)
-    grid = grid_remark(loaded.model)
-    model = build_model(loaded.model, (*remarks_of(loaded), *((grid,) if grid else ())))
+    remarks = (*remarks_of(loaded), *solution_remarks(loaded.model))
+    model = build_model(loaded.model, remarks)
     missing: SystemPartMissing | None = None
     with Progress("Расчёт") as progress:
         values = evaluate_model(model)

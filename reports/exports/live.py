@@ -15,7 +15,7 @@ from kshm.nomenclature.quantity import Quantity
 from kshm.results.solution import Solution
 from reports.document.figures.pen import by_direction
 from reports.document.text.symbols import indexed
-from reports.inputs.checks.grid import grid_remark
+from reports.inputs.checks.flywheel import solution_remarks
 from reports.inputs.units import MM
 from reports.shared.russian import written
 from reports.spec.blocks import Model, ScalarTable
@@ -144,12 +144,11 @@ def checks(model: Model) -> Data:
     value, reasons = Evaluation(model).value, reasons_of(model.input)
     names = {key.removeprefix("check_"): scalar for key, scalar in model.scalars.items()
              if key.startswith("check_")}  # fmt: skip
-    grid = grid_remark(model.input)
     return {
         "checks": [
             {"key": name, "title": scalar.note, "value": float(value(f"value_{name}")),
              "ok": value(f"check_{name}") != NO, "reason": reasons.get(name, "")}
             for name, scalar in names.items()
         ],
-        "remarks": [*model.remarks, *((grid,) if grid else ())],
+        "remarks": [*model.remarks, *solution_remarks(model.input)],
     }  # fmt: skip

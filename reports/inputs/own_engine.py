@@ -229,7 +229,8 @@ def _engine(cylinders: int, layout: str, strokes: int, name: str) -> dict[str, A
 
 def _named(kind: str, layout: str, cylinders: int, strokes: int) -> str:
     words = "двухтактный" if strokes == 2 else "четырёхтактный"
-    noun = "Дизель" if kind == "diesel" else "Бензиновый двигатель"
+    # The kind that burns petrol burns gas and ethanol as well: the spark is what they share.
+    noun = "Дизель" if kind == "diesel" else "Двигатель с искровым зажиганием"
     return f"{noun}: {LAYOUTS[layout]}, {words}, цилиндров {cylinders}"
 
 

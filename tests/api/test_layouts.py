@@ -225,7 +225,7 @@ def test_layouts_that_cannot_be_are_refused() -> None:
         (banks(1, [0, 60]), [0, 30], "cylinder 2 fires where throw 1 stands 30° apart"),
         ((place(0), place(2)), [0, 360], "a throw of 3 carries no rod"),
         (banks(2, [0, 60]), [0, 180], "4 places need as many firing offsets, not 2"),
-        ((place(0), place(0, master=1)), [0, 0], "must be one of a cylinder whose rod"),
+        ((place(0), place(0, master=1)), [0, 0], "on the same throw whose rod hangs"),
     ):
         with pytest.raises(ValueError, match=said):
             made(places, offsets, articulated=ROD)
@@ -233,3 +233,126 @@ def test_layouts_that_cannot_be_are_refused() -> None:
         points([0, 360, 720], [0.1, math.nan, 0.1])
     with pytest.raises(ValueError, match="mass must be not negative"):
         throw(arms_mm=[30] * 6, web_kg=math.nan, pin_kg=0.2)
+
+
+HUNG = {
+    "rod_length_mm": 120, "radius_mm": 38, "angle_deg": 60, "reciprocating_kg": 0.8,
+    "big_end_kg": 0.4,
+}  # fmt: skip
+DIAGRAM = {
+    "intake_mpa": 0.1, "residual_mpa": 0.11, "max_mpa": 8, "compression_exponent": 1.35,
+    "expansion_exponent": 1.28, "combustion_start_deg": 350, "injection_advance_deg": 20,
+    "exhaust_open_deg": 490, "exhaust_close_deg": 560,
+}  # fmt: skip
+WRONG_KINDS = {
+    "a text": ({"bore_mm": "80"}, "bore_mm must be a number, not '80'"),
+    "nothing": ({"rod_length_mm": None}, "rod_length_mm must be a number, not None"),
+    "a list": ({"reciprocating_kg": [1, 2]}, r"reciprocating_kg must be a number, not \[1, 2\]"),
+    "an array": ({"speed_rpm": np.ones(2)}, "speed_rpm must be a number, not array"),
+    "complex": ({"fullness": 1j}, "fullness must be a number, not 1j"),
+    "half a degree": ({"step_deg": 7.5}, "step_deg must be a whole number, not 7.5"),
+    "gas": ({"gas": THROW}, "gas must be PolytropicGas or .*, not Throw"),
+    "nose": ({"nose": (1, 2, 3)}, "nose must be EndMass, not"),
+    "throws": ({"throws": [{}]}, "throws must be Throw or a list, each Throw, not"),
+    "sizes": ({"pin_length_mm": "45"}, "pin_length_mm must be a number or a list, each a number"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG_KINDS)
+def test_what_is_no_number_is_refused_by_its_name(name: str) -> None:
+    changes, said = WRONG_KINDS[name]
+    with pytest.raises(ValueError, match=said) as caught:
+        one(**changes)
+    assert "\n" not in str(caught.value)
+
+
+def test_lists_that_are_none_are_refused_by_their_names() -> None:
+    for offsets in ("0", 0, None, [[0, 180]]):
+        with pytest.raises(ValueError, match="firing_offsets_deg must be a list, each a number"):
+            made(None, offsets)
+    with pytest.raises(ValueError, match="places must be a list, each Cylinder"):
+        made((0, 1), [0, 360])
+    with pytest.raises(ValueError, match="three or more"):
+        points([], [])
+    with pytest.raises(ValueError, match="2 banks need a part of the pin each, not 1"):
+        banks(2, [0, 60], pins_deg=[0])
+    with pytest.raises(ValueError, match="an engine has a bank"):
+        banks(2, [])
+    with pytest.raises(ValueError, match="engine must be Engine, not"):
+        solve({})  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="unexpected keyword argument 'bore'"):
+        one(bore=80)
+    assert made([place(0), place(1)], [0, 360]).is_in_line
+
+
+@pytest.mark.parametrize("step", [8, 16, 24, 40, 72, 90, 180, 360, 720])
+def test_steps_that_leave_a_turn_or_its_orders_unfinished_are_refused(step: int) -> None:
+    with pytest.raises(ValueError, match=f"must divide 180° and be at most 60°, not {step}"):
+        one(step_deg=step)
+
+
+@pytest.mark.parametrize("step", [1, 4, 9, 12, 18, 20, 36, 45, 60])
+def test_steps_that_divide_half_a_turn_are_solved(step: int) -> None:
+    everything_is_finite(one(step_deg=step))
+
+
+def test_articulated_rods_that_cannot_be_are_refused() -> None:
+    def fan(places: Any, offsets: Any, **changes: Any) -> kshm.Engine:
+        return made(places, offsets, articulated=articulated_rod(**(HUNG | changes)))
+
+    pair = banks(1, [0, 60], articulated=True)
+    everything_is_finite(fan(pair, [0, 60]))
+    for changes, said in (
+        ({"rod_length_mm": 20}, "articulated rod of cylinder 2 is 20 mm long: .* 36.* mm off"),
+        ({"radius_mm": 138, "angle_deg": 200}, "articulated rod of cylinder 2 is 120 mm long"),
+    ):
+        with pytest.raises(ValueError, match=said):
+            fan(pair, [0, 60], **changes)
+    with pytest.raises(ValueError, match="on no other: cylinder 2"):
+        fan((place(0), place(1, master=0)), [0, 360])
+    with pytest.raises(ValueError, match="have no part of a split pin"):
+        banks(1, [0, 60], pins_deg=[0, 10], articulated=True)
+
+
+def test_places_and_numbers_that_cannot_be_are_refused() -> None:
+    with pytest.raises(ValueError, match="rod_place must be from 0 to 1, not 5"):
+        place(0, rod_place=5)
+    for count in (5, 0, -2):
+        with pytest.raises(ValueError, match=f"has pairs of cylinders, not {count}"):
+            opposed(count)
+    with pytest.raises(ValueError, match="reciprocating must be positive, not 0"):
+        one(reciprocating_kg=0)
+    with pytest.raises(ValueError, match="indicated_power must be positive, not 0"):
+        one(indicated_power_kw=0)
+
+
+@pytest.mark.parametrize(("changes", "strokes", "said"), [
+    ({"combustion_start_deg": 6.1}, 4, "combustion starts at 180° … 360° .*, not at 6.1°"),
+    ({"exhaust_open_deg": 560, "exhaust_close_deg": 490}, 4, "from 360° to 720°, not at 560°"),
+    ({}, 2, "from 0° to 360°, not at 490° and 560°"),
+    ({"exhaust_open_deg": 100, "exhaust_close_deg": 240}, 2, "scavenging .* while the exhaust"),
+])  # fmt: skip
+def test_timing_outside_the_cycle_is_refused(
+    changes: dict[str, float], strokes: int, said: str
+) -> None:
+    gas = kshm.polytropic(**(DIAGRAM | changes))  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match=said):
+        one(gas=gas, strokes=strokes)
+
+
+@pytest.mark.parametrize(("changes", "said"), [
+    ({"bore_mm": 0.08}, "stroke over bore is 1e\\+03, .* millimetres"),
+    ({"speed_rpm": 3000 / 9.55}, "mean piston speed is 0.838 m/s, .* min⁻¹"),
+    ({"gas": points([0, 360, 372, 720], [1, 40, 60, 1])}, "highest pressure is 60 MPa, .* MPa"),
+    ({"reciprocating_kg": 700}, "reciprocating mass .* kg/m², .* kilograms"),
+])  # fmt: skip
+def test_units_mistaken_are_said(changes: dict[str, Any], said: str) -> None:
+    with pytest.warns(UserWarning, match=said) as caught:
+        one(**changes)
+    assert all("\n" not in str(each.message) for each in caught)
+    assert caught[0].filename == __file__  # where the numbers were given
+
+
+def test_radians_for_degrees_are_said() -> None:
+    with pytest.warns(UserWarning, match="fire within 9.42°: are the offsets degrees"):
+        made(None, [0, math.pi, 3 * math.pi, 2 * math.pi])

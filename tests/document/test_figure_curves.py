@@ -36,6 +36,19 @@ def test_panels_of_one_scale_have_the_same_marks():
     assert texts(curves_figure(PHI, panels, "x")).count("10") == 1
 
 
+def test_points_beyond_the_curve_are_within_the_axes():
+    """Rows of the table stood above the sheet where the finer curve is lower."""
+    most = 1.2 * float(max(T))
+
+    def marks(**points):
+        return texts(curves_figure(PHI / 1000, [Panel([Curve("", T)], "y", **points)], "x"))
+
+    def top(said):
+        return max(float(text.replace(",", ".")) for text in said if re.fullmatch("[0-9,]+", text))
+
+    assert top(marks(points=[(PHI[:2] / 1000, [most, 0.0])])) >= most > top(marks())
+
+
 @pytest.mark.parametrize("bad", [math.nan, math.inf])
 def test_not_finite_is_refused(bad):
     curve = FORCE.copy()

@@ -1,5 +1,7 @@
 """Schemes of the mechanism, of the shaft and of the engine."""
 
+import re
+
 import pytest
 
 from reports.document.figures.mechanism import mechanism_sketch
@@ -14,6 +16,20 @@ def test_cranks_of_one_direction_share_a_ray():
 def test_engine_shows_rows_throws_and_strokes():
     said = texts(FIGURES["engine"]())
     assert {"1, 3", "2, 4", "1 (1)", "4 (2)", "720°"} <= set(said)
+
+
+def test_cylinders_of_a_narrow_engine_do_not_cover_one_another():
+    """Of 15° between the banks the right one hid a number of the left."""
+    rods, thirds = [1, 2, 3] * 2, [0.0, 240.0, 120.0]
+    svg = engine_scheme([0.0] * 3 + [15.0] * 3, rods, thirds, [120.0 * n for n in range(6)], 720.0)
+    boxes = [
+        [float(x) for x in re.findall(r"[ML](-?[\d.]+) ", path)]
+        for path in re.findall(r'<path d="([^"]+)z" fill="#e4e4e4"', svg)[:2]
+    ]
+    assert max(boxes[0]) < min(boxes[1])
+    places = dict(re.findall(r'<text x="([\d.]+)"[^>]*>(\d, \d, \d)</text>', svg))
+    (left, _), (right, _) = sorted(((float(x), text) for x, text in places.items()))
+    assert left < min(boxes[0]) and right > max(boxes[1])
 
 
 def test_what_cannot_be_drawn_is_refused():

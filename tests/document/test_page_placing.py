@@ -141,6 +141,15 @@ def test_a_line_that_leads_to_a_formula_stands_with_it(lines):
     assert (lead.page == first.page) == fits
 
 
+@pytest.mark.parametrize("lines", [1, 2, 3, 4, 7])
+def test_a_paragraph_of_any_length_leads_to_its_formula(lines):
+    """A short one stood at the foot of a page, its formula on the next."""
+    made = [text("силы складывают:", lines), formula("x = 1")]
+    assert '<p class="lead">' in filled(made, Spot(0.0), ROOM, LINE)[0][0]
+    spot = after(replace(made[0], tail=48.0), Spot(ROOM - lines * LINE - 40.0), ROOM)
+    assert spot.page == 2
+
+
 @pytest.mark.parametrize("fill", range(100, 230, 20))
 def test_the_last_lines_of_a_paragraph_stand_with_their_formula(fill):
     """As WeasyPrint divides it, so it is reckoned: two lines go over with the formula."""

@@ -199,3 +199,85 @@ def test_no_number_of_a_journal_runs_into_its_load(name):
     model = sample(name)
     for text in (text_of(model), grid_remark(model)):
         assert not re.findall(r"(?:шейк|подшипник|колен|цилиндр|опор)[а-я]* \d+ \d+,\d", text)
+
+
+def listed(chapter):
+    """What the list of symbols holds in a report of one chapter."""
+    raw = to_mapping(sample("gots-diesel"))
+    raw["report"]["chapters"] = [chapter]
+    text = text_of(load_mapping(raw, source="t.toml").model)
+    start = text.index("Перечень сокращений и обозначений", text.index("ВМТ —") - 80)
+    return text[start : text.index("Введение", start)]
+
+
+@pytest.mark.parametrize(
+    ("chapter", "told", "silent"),
+    [
+        ("kinematics", ["скорость поршня", "средняя скорость"], ["шейку", "момент", "сила"]),
+        ("torque", ["суммарный крутящий момент"], ["шейку", "опоры", "ускорение поршня"]),
+        ("torsion", ["степень сжатия", "частота вращения"], ["сила", "скорость поршня", "шейку"]),
+        ("crankpin", ["нагрузка на шатунную шейку", "плоскости колена"], ["реакция", "поршня, мм"]),
+    ],
+)
+def test_the_list_of_symbols_holds_what_the_chapters_use(chapter, told, silent):
+    text = listed(chapter)
+    for words in told:
+        assert words in text, words
+    for words in silent:
+        assert words not in text, words
+
+
+def test_two_rods_on_a_symmetric_throw_are_why_the_half_torque_rule_fails():
+    """Of a throw that passes the check of symmetry the report said that it is not symmetric."""
+    rule = "точно, если колено симметрично"
+    text = text_of(sample("yamz-238"))
+    assert f"{rule}, оба его шатуна нагружены одинаково и поперёк" in text
+    assert "Здесь это не так" in text and "Здесь это выполнено" not in text
+    assert f"{rule} и поперёк" in text_of(in_line([1, 3, 2]))
+
+
+def test_of_one_throw_no_greatest_range_is_told():
+    text = text_of(in_line([1]))
+    assert "у коренной шейки 2 он равен" in text and "Наибольший размах среди" not in text
+    assert "Наибольший размах среди" in text_of(in_line([1, 3, 2]))
+
+
+def test_units_of_torsion_are_written_as_everywhere():
+    page = bare_page(in_line([1, 3, 2], torsion={}))
+    assert "⁻" not in re.sub(r"<[^>]*>|<title>.*?</title>", "", page)
+    assert re.search(r"\d\u00a0мин<sup>−1</sup>", page)
+
+
+def test_the_abstract_invites_to_what_the_report_has_not_done():
+    done = text_of(in_line([1, 3, 2], bearings={}))
+    assert "повторить и продолжить. " in done
+    assert "продолжить: проверить прочность вала и подшипники" in text_of(in_line([1, 3, 2]))
+
+
+def test_sums_of_many_journals_stand_in_tables_of_alike_widths():
+    text = text_of(in_line([1, 5, 3, 6, 2, 7, 4], strokes=2))
+    assert "Суммы удельных сил по лучам коренных шеек 1–4" in text
+    assert "Суммы удельных сил по лучам коренных шеек 5–8" in text
+
+
+def test_one_cylinder_has_no_order_of_work():
+    text = text_of(in_line([1]))
+    assert "Порядки работы" not in text and "цилиндр и колено с носка вала" in text
+    assert "Порядки работы" in text_of(in_line([1, 3, 2]))
+
+
+@pytest.mark.parametrize(
+    ("chapters", "aim"),
+    [
+        (None, "движение деталей механизма, силы и моменты, действующие в нём за рабочий цикл, "
+         "нагрузки на шейки коленчатого вала, а также уравновешенность и"),
+        (["torque"], "силы и моменты, действующие в нём за рабочий цикл."),
+        (["kinematics", "journals"], "движение деталей механизма и нагрузки на шейки"),
+        (["torque", "running"], "силы и моменты, действующие в нём за рабочий цикл, и нагрузки"),
+        (["companions"], "уравновешенность и неравномерность хода двигателя."),
+        (["reference"], "движение деталей механизма, силы"),
+    ],
+)  # fmt: skip
+def test_the_aim_is_what_the_chapters_find(chapters, aim):
+    text = text_of(in_line([1, 3, 2], report={"chapters": chapters} if chapters else {}))
+    assert f"Цель работы — найти {aim}" in text

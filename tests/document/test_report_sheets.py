@@ -125,9 +125,21 @@ def test_own_templates_replace_and_extend(tmp_path):
 @pytest.mark.parametrize(
     ("name", "text", "line", "words"),
     [
-        ("cover.html.j2", "<p>\n{% if %}</p>", 2, "Expected an expression"),
-        ("cover.html.j2", "<p>\n\n{{ nothing.here }}</p>", 3, "'nothing' is undefined"),
-        ("cover.html.j2", "\n{{ ''.__class__.__mro__ }}", 2, "unsafe"),
+        ("cover.html.j2", "<p>\n{% if %}</p>", 2, "ожидается выражение, а стоит «%}»"),
+        ("cover.html.j2", "<p>\n\n{{ nothing.here }}</p>", 3, "нет имени nothing"),
+        ("cover.html.j2", "\n{{ ''.__class__.__mro__ }}", 2, "обращаться к __class__ нельзя"),
+        ("cover.html.j2", "{% if block %}\n<p>", 2, "if не закрыт: нет elif, else или endif"),
+        ("cover.html.j2", "\n{% endif %}", 2, "endif без начала блока"),
+        ("cover.html.j2", "{% for a in b %}{% endif %}", 1, "ожидается endfor или else"),
+        ("cover.html.j2", "\n{{ input", 2, "шаблон обрывается, ожидается «}}»"),
+        ("cover.html.j2", "\n{# input", 2, "не закрыт комментарий"),
+        ("cover.html.j2", "{{ input | upcase }}", 1, "нет фильтра upcase"),
+        ("cover.html.j2", "{{ input 'x }}", 1, "лишний знак «'»"),
+        ("cover.html.j2", "{{ input.engine.power }}", 1, "нет свойства power"),
+        ("cover.html.j2", "{{ t.val('M_max', 1, 2, 3) }}", 1, "лишние аргументы"),
+        ("cover.html.j2", "{{ t.val('P4_1.T_MPa') }}", 1, "величины P4_1.T_MPa нет числа"),
+        ("cover.html.j2", "{% include 'no.j2' %}", 1, "нет шаблона no.j2"),
+        ("cover.html.j2", "{{ t.num('M_max') + 1 }}", 1, "значениями разных видов"),
     ],
 )
 def test_a_broken_template_is_told_by_line(tmp_path, name, text, line, words):
@@ -135,7 +147,9 @@ def test_a_broken_template_is_told_by_line(tmp_path, name, text, line, words):
     with pytest.raises(InputError) as caught:
         html_of(source, tmp_path)
     (message,) = caught.value.lines()
-    assert f"{name}, строка {line}" in message and words in message
+    assert f"{name}, строка {line}: " in message and words in message
+    said = message.partition(f"строка {line}: ")[2]
+    assert "\n" not in message and not re.search("[A-Za-z]{3,} [a-z]{2,}", said)
 
 
 @pytest.mark.usefixtures("few_chapters")

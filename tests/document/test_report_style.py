@@ -106,6 +106,7 @@ def test_a_bad_style_file_is_told_in_one_line(tmp_path, text, words):
 
 
 def test_a_missing_style_file_is_told(tmp_path):
-    report = sections.Report(style="none.toml", year=2024)
-    with pytest.raises(InputError, match="не читается"):
-        find_style(report, tmp_path)
+    for name, said in (("none.toml", r"none\.toml: файл не найден; "), (".", "это папка")):
+        report = sections.Report(style=name, year=2024)
+        with pytest.raises(InputError, match=said):
+            find_style(report, tmp_path)

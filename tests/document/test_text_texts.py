@@ -93,9 +93,15 @@ def test_lines_are_filled_whatever_follows_a_space(end, tmp_path):
         ('на рисунке <a class="ref">1</a>', 'на рисунке\xa0<a class="ref">1</a>'),
         ('в таблицах <a class="ref">1</a>', 'в таблицах\xa0<a class="ref">1</a>'),
         (">А. Н. Гоц в США. Но", ">А.\xa0Н.\xa0Гоц в США. Но"),
+        ("4,886 МПа при φ = 0° и", "4,886\xa0МПа при φ\xa0=\xa00° и"),
+        ("<i>L</i><sub>изб</sub> = 988 Дж", "<i>L</i><sub>изб</sub>\xa0=\xa0988\xa0Дж"),
+        ("ψ\xa0= 3", "ψ\xa0=\xa03"),
+        ("до 107,0 Н·м и 4 %, 3 кг", "до 107,0\xa0Н·м и 4\xa0%, 3\xa0кг"),
+        ('<img alt="x = 3 Н">', '<img alt="x = 3 Н">'),
+        ("шейки 2 к колену 3 Мотор", "шейки 2 к колену 3 Мотор"),
     ],
 )
-def test_no_line_ends_before_a_dash_or_a_reference(text, said):
+def test_no_line_ends_before_a_dash_a_sign_a_unit_or_a_reference(text, said):
     assert texts.unbroken(text) == said
 
 

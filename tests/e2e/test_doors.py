@@ -181,7 +181,9 @@ def test_no_english_in_the_help(
         ("check --json=1 x", "ключ --json пишется без значения"),
         ("grade --explain a", "ключу --explain нужно значений: 2"),
         ("--foo", "нет ключа --foo"),
-        ("issue x -o y", "не указан аргумент --roster"),
+        ("issue x -o y", "не указан ключ --roster"),
+        ("serve --port 99999", "неверное значение --port: 99999 вне пределов от 1 до 65535"),
+        ("build samples/gots-diesel.toml --only html --style no.toml", "no.toml: файл не найден; "),
     ],
 )
 def test_usage_errors_are_russian(arguments: str, words: str) -> None:

@@ -74,3 +74,17 @@ def test_an_oil_hole_that_the_fine_step_puts_elsewhere_is_told():
     assert (round(found.coarse), round(found.fine)) == (270, 300)
     assert np.isinf(found.percent)  # no share of an angle
     assert not [e for e in grid_errors(stepped("yamz-236", 10.0)) if "hole" in e.key]
+
+
+def test_of_alike_pins_the_first_is_named_and_goes_first():
+    raw = to_mapping(sample("yamz-238"))
+    raw["calculation"]["step_deg"] = 30
+    told = [e for e in grid_errors(load_mapping(raw, source="t.toml").model) if "Rpin" in e.key]
+    names = [e.title for e in told if e.key.endswith("max_kN")]
+    assert names[0].endswith("шатунную шейку 1")
+    for key in ("max_kN", "_max"):
+        numbers = [int(e.title[-1]) for e in told if e.key.endswith(key)]
+        equal = {e.percent for e in told if e.key.endswith(key)}
+        assert len(equal) > 1 or numbers == sorted(numbers)
+    one = [e for e in grid_errors(stepped("two-stroke", 30.0)) if "Rpin" in e.key]
+    assert all(e.title.endswith("шейку") for e in one)

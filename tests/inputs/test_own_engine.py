@@ -259,3 +259,9 @@ def test_an_alternative_of_an_impossible_layout_is_refused():
     old = load_toml(samples_dir() / "yamz-238.toml").model
     with pytest.raises(InputError, match="число цилиндров 5 нечётное"):
         alternative(old, 5)
+
+
+def test_an_engine_with_a_spark_is_not_said_to_burn_petrol():
+    """Whoever writes methane into [cycle] keeps the name."""
+    assert "ензин" not in file_text(own_engine(4, kind="petrol"))
+    assert own_engine(4).data["engine"]["name"].startswith("Двигатель с искровым зажиганием: ")

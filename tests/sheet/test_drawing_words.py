@@ -64,3 +64,10 @@ def test_an_index_stands_lower_and_smaller():
     assert plain("l_1 = 18") == "l1 = 18" and width_of("l_1", 3) < width_of("l1", 3)
     svg = svg_of([Words((0, 0), "l_1 = 18", 3.0)], (-5, -5, 40, 10))
     assert svg.count("<text") == 3 and ">1</text>" in svg
+
+
+@pytest.mark.parametrize("sizes", [(81, 45.15, 161.2, 2.5), (100, 47.5, 169.6), (96, 25, 100)])
+@pytest.mark.parametrize("scale", [0.15, 0.2, 0.25, 0.3])
+def test_no_line_runs_through_a_long_size_of_a_small_mechanism(sizes, scale):
+    """The radius has a place past the circle on the other side, the rod beyond its end."""
+    assert crossed(mechanism_drawing(Mechanism(*sizes), letters=2.5, scale=scale)) == []

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import re
 from functools import lru_cache
+from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 
+from reports.cli import main
 from reports.document.report import report_page
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
+from reports.shared.resources import samples_dir
 from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from tests.conftest import sample
@@ -82,3 +86,21 @@ def test_a_flywheel_lighter_than_a_throw_is_called_implausible(inertia: float, s
     """However it came to be: frequencies of such a shaft belong to no engine."""
     text = page("d-240", ("flywheel_kg_m2", inertia))
     assert ("неправдоподобно лёгок" in text) == said
+
+
+@pytest.mark.parametrize(("inertia", "said"), [(1e-4, True), (1.2, False), (None, False)])
+def test_check_says_of_a_light_flywheel_what_the_report_says(
+    tmp_path: Path, inertia: float | None, said: bool
+) -> None:
+    text = (samples_dir() / "d-240.toml").read_text(encoding="utf-8")
+    given = "" if inertia is None else f"flywheel_kg_m2 = {inertia}\n"
+    text = re.sub(r"(?m)^flywheel_kg_m2.*\n", "", text)
+    file = tmp_path / "d.toml"
+    torsion = f"[torsion]\n{given}"
+    file.write_text(text.replace("[torsion]\n", torsion) if "[torsion]" in text
+                    else f"{text}\n{torsion}", encoding="utf-8")  # fmt: skip
+    result = CliRunner().invoke(main, ["check", str(file)])
+    lines = [line for line in result.output.splitlines() if "torsion.flywheel_kg_m2" in line]
+    assert bool(lines) == said
+    assert result.exit_code == (1 if said else 0)
+    assert all("меньше, чем у одного колена" in line and ";" in line for line in lines)

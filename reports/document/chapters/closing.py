@@ -18,6 +18,7 @@ from reports.document.page.writer import TablePlan
 from reports.document.text.numbers import of_digits
 from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms
+from reports.inputs.checks.flywheel import flywheel_remark
 from reports.inputs.checks.grid import remark_on
 from reports.shared.russian import NBSP, capital, fixed
 from reports.spec.shape import Shape, pin_table, rays_table, rods_table
@@ -90,6 +91,8 @@ def checks(chapter: Chapter) -> Markup:
 def _remarks(chapter: Chapter) -> list[str]:
     """Remarks on the input that no chapter tells itself."""
     told = [remark_on(chapter.terms.grid_errors, chapter.input)]
+    if "torsion" in chosen(chapter.input.report):
+        told.append(flywheel_remark(chapter.input))
     if "torque" in chosen(chapter.input.report):
         told.append(reasons_of(chapter.input).get("power", ""))
     return [
@@ -118,7 +121,7 @@ def _grid_table(chapter: Chapter) -> TableBlock:
         unit = f", {q.unit_label}" if q.unit_label else ""
         shown = [of_digits(value, q.digits) for value in (error.coarse, error.fine)]
         apart = fixed(percent, 1) if abs(percent) < _MOST_PERCENT else "—"
-        rows.append([capital(q.title) + unit, *shown, apart])
+        rows.append([capital(error.title) + unit, *shown, apart])
     return table_block(columns, rows)
 
 

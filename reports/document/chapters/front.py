@@ -12,6 +12,7 @@ from reports.document.chapters.profiles import told
 from reports.document.page.fitting import type_pt
 from reports.document.page.style import TitlePage
 from reports.inputs.sections.input_file import InputFile
+from reports.shared.russian import joined
 
 Words = dict[str, Any]
 
@@ -29,6 +30,19 @@ _KEYWORDS = (
     ("oil", "масляная плёнка"),
     ("companions", "уравновешенность"),
 )
+# What the work is to find, by the chapters that tell it.
+_AIMS = (
+    ({"cycle"}, "показатели рабочего цикла"),
+    ({"kinematics"}, "движение деталей механизма"),
+    ({"dynamics", "torque"}, "силы и моменты, действующие в нём за рабочий цикл"),
+    ({"crankpin", "journals", "bearings", "running"}, "нагрузки на шейки коленчатого вала"),
+    ({"torsion"}, "крутильные колебания вала"),
+    ({"oil"}, "толщину масляной плёнки подшипников и запасы прочности шеек"),
+    ({"companions"}, "уравновешенность и неравномерность хода двигателя"),
+)
+_MOST_AIMS = 4  # of the first that a sentence names
+# What a further calculation finds, by the chapter that does it.
+_FURTHER = (("oil", "прочность вала"), ("oil", "подшипники"), ("companions", "маховик"))
 _REPORT = ("title", "institution", "department", "discipline", "student", "group", "supervisor",
            "variant", "city", "head", "issued", "due")  # fmt: skip
 # The data a task is usually given by.
@@ -80,7 +94,25 @@ def abstract(chapter: Chapter) -> Words:
         "appendices": sum(item.title.startswith("Приложение") for item in n.contents),
         "names": names,
         "keywords": [word.upper() for word in words],
+        "further": _further(names),
+        "aim": _aim(names),
     }
+
+
+def _aim(names: set[str]) -> str:
+    """What the work is to find; the whole mechanism where its chapters name nothing."""
+    found = [words for chapters, words in _AIMS if chapters & names]
+    aims = (found or [words for _, words in _AIMS[1:4]])[:_MOST_AIMS]
+    if " и " in aims[-1]:
+        return joined(aims, ", а также ")
+    # A turn of speech has a comma at its end.
+    return joined(aims, ", и " if len(aims) > 1 and "," in aims[-2] else " и ")
+
+
+def _further(names: set[str]) -> str:
+    """What the workbook invites to and the report has not done itself."""
+    left = [word for name, word in _FURTHER if name not in names]
+    return f"проверить {joined(left)}" if left else ""
 
 
 # Words of the title block with width and height of their cells [mm] and their usual type [pt].

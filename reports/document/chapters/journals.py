@@ -26,7 +26,7 @@ _REACTIONS = ("length", "share", "share2", "RKCL", "RTCL", "RKCP", "RTCP")
 _ARMS = tuple(f"throw1_{key}" for key in ("arm_left", "arm_rod", "arm_rod2", "arm_pin",
                                           "arm_right", "length"))  # fmt: skip
 _SUM_DIGITS = 2
-_SUM_COLUMNS = 7  # journals in one table of sums
+_SUM_COLUMNS = 7  # the most journals in one table of sums
 # Columns of a table of loads: key of the scalar, symbol, unit.
 _MOST = (("R{}_max", r"R'_{\max}", "МПа"), ("phi_R{}_max_deg", r"\varphi_{\max}", "°"))
 _LEAST = (("R{}_min", r"R'_{\min}", "МПа"), ("phi_R{}_min_deg", r"\varphi_{\min}", "°"))
@@ -109,6 +109,7 @@ def journals(chapter: Chapter) -> Markup:
     k = chapter.worst("worst_main_load")
     drawn = numbers if chapter.whole else [k]
     neighbours = [("a", k - 1, "правой", "i"), ("b", k, "левой", "i + 1")]
+    share = -(-len(numbers) // -(-len(numbers) // _SUM_COLUMNS))  # of each of as few tables
     size = "" if throws <= 5 else "dense" if throws <= 7 else "tiny"
     loads = partial(
         _loads, terms, [f"main{n}" for n in numbers], (*_MOST, *_LEAST, *_MEAN), 0.8
@@ -131,8 +132,8 @@ def journals(chapter: Chapter) -> Markup:
         ),
         loads=TablePlan(loads, "Нагрузки на коренные шейки", size="dense", keep=True),
         sums=[
-            (f"sums_main_{start}", _sums(terms, numbers[start : start + _SUM_COLUMNS], rays))
-            for start in range(0, len(numbers), _SUM_COLUMNS)
+            (f"sums_main_{start}", _sums(terms, numbers[start : start + share], rays))
+            for start in range(0, len(numbers), share)
         ],
         worst=k,
         pin_wear=pin_figure("fig52", facts.worst_pin(terms)),

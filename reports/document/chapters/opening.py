@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from functools import partial
 
@@ -47,12 +48,32 @@ _SYMBOLS = (
 )  # fmt: skip
 
 
-def notation(chapter: Chapter) -> Markup:
-    """Abbreviations and symbols that run through the report."""
+def notation(chapter: Chapter, text: str | None = None) -> Markup:
+    """Abbreviations and symbols that run through the report.
+
+    Args:
+        chapter: tools.
+        text: the other chapters once they are written; the list, which stands before them, is
+            then written again with what occurs in them.
+    """
     terms = chapter.terms
     present = [name for name in _SYMBOLS if name == "phi_deg" or terms.has(name)]
+    abbreviations, again = list(_ABBREVIATIONS), {}
+    if text is not None:
+        formulas = "\n".join(chapter.writer.formulas)
+        present = [name for name in present if _occurs(terms.tex(name), text, formulas)]
+        abbreviations = [pair for pair in abbreviations if re.search(rf"\b{pair[0]}\b", text)]
+        again = {"h": chapter.writer.heading_again}
     symbols = [(terms.sym(name), terms.title(name), terms.unit(name)) for name in present]
-    return chapter.page("notation", abbreviations=_ABBREVIATIONS, symbols=symbols)
+    return chapter.page("notation", abbreviations=abbreviations, symbols=symbols, **again)
+
+
+def _occurs(tex: str, text: str, formulas: str) -> bool:
+    """Whether a symbol stands in the text or in the formulas, and no longer one of its letters."""
+    written = re.escape(str(inline_html(tex))) + "(?!<su[bp]>|′)"
+    return bool(re.search(written, text)) or bool(
+        re.search(rf"(?<![A-Za-z\\]){re.escape(tex)}(?![A-Za-z_'])", formulas)
+    )
 
 
 # What the introduction says was found, by chapter.

@@ -90,6 +90,7 @@ def running(chapter: Chapter) -> Markup:
         last=count + 1,
         count=count,
         gap=fixed(gap, 1) if gap > 0.05 else "",
+        beside=not (chapter.shape.single_rods or chapter.shape.articulated),
         mains=mains,
         pins=worst,
     )

@@ -14,6 +14,7 @@ from reports.document.page.spec_tables import grid_table
 from reports.document.page.writer import TablePlan
 from reports.document.text import numbers
 from reports.document.text.terms import Terms, with_unit
+from reports.inputs.checks.flywheel import INERTIAS, lighter_than
 from reports.shared.russian import fixed
 
 _HOLZER = (
@@ -106,7 +107,7 @@ def torsion(chapter: Chapter) -> Markup:
         change_text=with_unit(fixed(abs(terms.value("tor_f1_change")), 1), "%"),
         articulated=chapter.shape.articulated,
         flywheel_needed=terms.has("I_flywheel") and terms.value("I_flywheel") > 0,
-        light_flywheel="" if section.masses else _lighter_than(terms, chapter.shape.throws),
+        light_flywheel=_lighter_than(chapter),
         heavier=terms.value("tor_flywheel_other") > terms.value("tor_flywheel"),
         other_helps=other.stress < (1 - _NEAR) * bare.stress,
         other_harms=other.stress > (1 + _NEAR) * bare.stress,
@@ -115,10 +116,13 @@ def torsion(chapter: Chapter) -> Markup:
     )  # fmt: skip
 
 
-def _lighter_than(terms: Terms, throws: int) -> str:
-    """The lightest throw if the flywheel is lighter still: no flywheel is; else empty."""
-    lightest = min((f"torJ{k + 2}" for k in range(throws)), key=terms.value)
-    return lightest if terms.value("tor_flywheel") < terms.value(lightest) else ""
+def _lighter_than(chapter: Chapter) -> str:
+    """The lightest throw if the flywheel is lighter still; else empty."""
+    section, inertias = chapter.input.torsion, chapter.terms.column(".".join(INERTIAS))
+    if section is None or section.masses:
+        return ""
+    throw = lighter_than(inertias, chapter.shape.throws)
+    return f"torJ{throw}" if throw else ""
 
 
 def concluded(chapter: Chapter) -> Markup:
@@ -261,7 +265,10 @@ def _flywheels(terms: Terms, bare: Peak, other: Peak) -> TableBlock:
 def _energy(terms: Terms) -> dict[str, Markup]:
     """Energy of a cycle at the speed of the greatest stress."""
     place = int(terms.column("torsion_response.tor_tau_MPa").argmax())
+    columns = {key: f"torsion_response.tor_{key}_J" for key in ("work", "lost")}
+    # A sentence has two decimals less than the sheet: fewer still for a large engine.
+    digits = max(0, terms.quantity(columns["work"]).digits.decimals - 2)
     return {
-        key: with_unit(fixed(float(terms.column(f"torsion_response.tor_{key}_J")[place]), 1), "Дж")
-        for key in ("work", "lost")
+        key: with_unit(fixed(float(terms.column(name)[place]), digits), "Дж")
+        for key, name in columns.items()
     }

@@ -88,7 +88,8 @@ class Panel:
 
     def bounds(self) -> tuple[float, float]:
         """Least and greatest ordinate of all that is drawn."""
-        columns = [np.asarray(curve.y, dtype=np.float64).tolist() for curve in self.curves]
+        drawn = (*(curve.y for curve in self.curves), *(y for _, y in self.points))
+        columns = [np.asarray(y, dtype=np.float64).tolist() for y in drawn]
         return bounds(
             [*columns, [level.y for level in self.levels], [mark.y for mark in self.marks]]
         )

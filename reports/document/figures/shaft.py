@@ -6,12 +6,14 @@ import itertools
 import math
 from collections.abc import Sequence
 
+from reports.document.figures.labels import text_size
 from reports.document.figures.pen import CENTRE, DASHED, HAIR, THICK, Pen, Point, polar
 from reports.document.figures.sheet import Sheet
 from reports.document.figures.style import FONT_SIZE, MM, SMALL
 
 _GREY = "#e4e4e4"
 _ROW = 17.0
+_HALF = 15.0  # of a cylinder's width
 
 
 def engine_scheme(
@@ -55,6 +57,7 @@ def _front(
 ) -> None:
     """Rows of cylinders and throws seen from the nose with crank 1 along cylinder 1."""
     radius, near, far = 26.0, 52.0, 88.0
+    half = _half_width(axes, near)
     numbered = sorted((round(axis + lean, 6), n) for n, axis in enumerate(axes, 1))
     for axis, members in itertools.groupby(numbered, key=lambda pair: pair[0]):
         angle = math.radians(axis)
@@ -62,14 +65,25 @@ def _front(
         corners = []
         for distance, side in ((near, -1), (near, 1), (far, 1), (far, -1)):
             base = polar(centre, distance, angle)
-            corners.append(polar(base, side * 15.0, angle + math.pi / 2))
+            corners.append(polar(base, side * half, angle + math.pi / 2))
         pen.shape(corners, fill=_GREY, width=1.2)
         names = [str(number) for _, number in members]
         text = ", ".join(names) if len(names) <= 3 else f"{names[0]}–{names[-1]}"
-        pen.text(polar(centre, (near + far) / 2, angle), text, SMALL, halo=False)
+        place = polar(centre, (near + far) / 2, angle)
+        if half < _HALF:  # beside a narrow cylinder, on its free side
+            aside = half + text_size(text, SMALL)[0] / 2 + 5
+            place = polar(place, math.copysign(aside, axis), angle + math.pi / 2)
+        pen.text(place, text, SMALL, halo=False)
     pen.throws(centre, radius, throw_angles, SMALL, lean=lean)
     pen.arc(centre, radius + 18, math.radians(150), math.radians(205), arrow=True)
     pen.text(polar(centre, radius + 27, math.radians(178)), r"$\omega$", SMALL)
+
+
+def _half_width(axes: Sequence[float], near: float) -> float:
+    """Half the width of a cylinder that leaves its neighbours free at their nearest."""
+    turns = sorted({round(math.remainder(axis, 360.0), 6) for axis in axes})
+    gap = min((b - a for a, b in itertools.pairwise(turns)), default=180.0)
+    return min(_HALF, 0.9 * near * math.tan(math.radians(gap) / 2))
 
 
 def _strokes(

@@ -47,17 +47,20 @@ def told(folder: Path | None) -> Iterator[None]:
     """
     import jinja2
 
+    from reports.document.page.template_words import in_russian
+
     try:
         yield
     except jinja2.TemplateSyntaxError as error:
-        if folder is None or not _inside(error.filename, folder):
+        file = error.filename or error.name  # of a comment without end only the latter is known
+        if folder is None or not _inside(file, folder):
             raise
-        raise _problem(Path(str(error.filename)), error.lineno, error.message or "") from error
+        raise _problem(Path(str(file)), error.lineno, in_russian(error)) from error
     except Exception as error:
         place = _place(error, folder) if folder is not None else None
         if place is None:
             raise
-        raise _problem(*place, str(error)) from error
+        raise _problem(*place, in_russian(error)) from error
 
 
 def style_error(folder: Path, warnings: str) -> InputError:

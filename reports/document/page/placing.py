@@ -115,9 +115,8 @@ def _is_formula(block: Block) -> bool:
 
 
 def _leads(block: Block) -> bool:
-    """A line alone, or a paragraph of which two lines may go over: no more is taken along."""
-    lines = round(block.height / block.line) if block.line else 0
-    return block.html.startswith("<p") and (lines == 1 or lines >= _DIVIDED)
+    """A paragraph: a short one goes over whole, of a longer one its last two lines."""
+    return block.html.startswith("<p") and block.line > 0
 
 
 def _leading(html: str) -> str:

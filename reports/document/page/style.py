@@ -10,8 +10,8 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from reports.inputs.messages import explain, toml_error
 from reports.shared.errors import InputError, Problem
+from reports.shared.files import no_file
 
-KEY = "report.style"
 HINT = "исправьте файл оформления; ключи описаны в docs/report.md"
 PX = 96 / 25.4  # CSS pixels in a millimetre
 FRAMED_MM = 30.0  # bottom margin of a sheet with the title block, form 2а
@@ -102,10 +102,13 @@ def read(path: Path) -> Style:
         InputError: It cannot be read, is no TOML, or has a wrong key or value; one line.
     """
     try:
+        missing = no_file(path)
+        if missing:
+            raise InputError(Problem(str(path), missing, "проверьте имя и путь"))
         text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        what = f"файл не читается: {path}"
-        raise InputError(Problem(KEY, what, "укажите файл TOML в кодировке UTF-8")) from error
+    except (OSError, ValueError) as error:  # ValueError: no UTF-8, a NUL in the name
+        hint = "нужен файл оформления TOML в кодировке UTF-8"
+        raise InputError(Problem(str(path), "файл не читается", hint)) from error
     try:
         return Style.model_validate(tomllib.loads(text))
     except tomllib.TOMLDecodeError as error:

@@ -56,6 +56,7 @@ class Writer:
         self.n = numbering
         self.draft = isinstance(numbering, Draft)
         self.figures: dict[str, Figure] = {}  # that were drawn, by their anchors
+        self.formulas: list[str] = []  # that were set, in TeX
         self._macros: Any = environment.get_template("report/macros.html.j2").module
 
     def heading(
@@ -65,11 +66,17 @@ class Writer:
         item = self.n.section(level, title, numbered=numbered)
         return Markup(self._macros.heading(item, runon=runon))
 
+    def heading_again(self, level: int, title: str, **_: bool) -> Markup:
+        """The heading of that title once more: its chapter is written anew."""
+        items = (item for item in self.n.contents if (item.level, item.title) == (level, title))
+        return Markup(self._macros.heading(next(items), runon=False))
+
     def formula(self, tex: str, key: str | None = None, end: str = "") -> Markup:
         """A displayed formula, numbered if it has a key."""
         label = None if key is None else self.n.place("formula", key)
         if self.draft:
             return Markup("")
+        self.formulas.append(tex)
         return Markup(self._macros.formula(tex, label, end))
 
     def where(self, items: Sequence[WhereItem]) -> Markup:

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from kshm.engine import usual
+
 MEMORY = "по памяти"
 TABLE_4 = "таблица 4 учебника с запасом"
 # One size for all journals, or one for each.
@@ -182,9 +184,9 @@ BANDS: tuple[Band, ...] = (
 
 # Values that follow from more than one key; `plausibility` says from which.
 SIZES = Band("geometry", "", "S/D", 0.6, 1.55)
-LARGE_SIZES = Band("geometry", "", "S/D", 0.6, 4.5)  # crosshead engines
+LARGE_SIZES = Band("geometry", "", "S/D", *usual.STROKE_TO_BORE)  # crosshead engines
 LARGE_BORE_MM = 250.0
-SPEED = Band("regime.speed_rpm", "", "средняя скорость поршня Sn/30", 2.8, 26, unit="м/с")
+SPEED = Band("regime.speed_rpm", "", "средняя скорость поршня Sn/30", *usual.MEAN_SPEED, unit="м/с")
 LOWER_SPEED = Band("regimes.speed_rpm", "", "частота вращения к номинальной", 0.12, 1.19)
 PIN_LENGTH = Band("crankshaft.pin_length_mm", "", "l_шш/d_шш", 0.25, 1.2)
 MAIN_LENGTH = Band("crankshaft.main_lengths_mm", "", "l_к.ш/d_к.ш", 0.2, 1.6)
@@ -196,7 +198,7 @@ RISE = Band("gas.max_pressure_mpa", "", "p_z/p_c", 0.6, 5.5)
 POWER = Band("regime.indicated_power_kw", "", "N_i к работе диаграммы", 0.4, 2.5)
 MEAN_PRESSURE = Band("gas.max_pressure_mpa", "", "p_i диаграммы", 0.2, 3.5, unit="МПа")
 MEAN_PRESSURE_OF_POWER = Band("regime.indicated_power_kw", "", "p_i по N_i", 0.3, 2.9, unit="МПа")
-POINTS = Band("gas.points", "", "наибольшее давление", 1.2, 25, unit="МПа")
+POINTS = Band("gas.points", "", "наибольшее давление", *usual.PEAK_PRESSURE, unit="МПа")
 LEAST_POINT = Band("gas.points", "", "наименьшее давление", 0.02, 0.4, unit="МПа")
 THROW_INERTIA = Band("torsion.throws_kg_m2", "", "J/(F_п r²) на шатун", 200, 1950, unit="кг/м²")
 THROW_STIFFNESS = Band("torsion.throws_nm_rad", "", "c к гладкому валу коренных шеек", 0.26, 2.5)

@@ -18,7 +18,7 @@ from reports.inputs.to_si.engine import smallness_of
 from reports.shared.errors import InputError
 from reports.shared.russian import NBSP, fixed, written
 
-FINE = 1.0  # step that the others are held against [deg]
+FINE = 1  # step that the others are held against [deg]
 MOST = 2.0  # difference that is told [%]
 _TOLD = 4  # differences in the one line; the report has them all
 # Extremes and integrals of a cycle, which depend on where the rows stand; the first matter most.
@@ -37,7 +37,8 @@ _KINDS = tuple(
 class GridError:
     """A result on the grid and with the fine step, in the quantity's unit.
 
-    ``moved_deg`` is the angle of the fine step's extreme where it is another one [deg].
+    ``moved_deg`` is the angle of the fine step's extreme where it is another one [deg];
+    ``first`` tells that it is of the first of several pins, whose names have no number.
     """
 
     key: str
@@ -45,11 +46,17 @@ class GridError:
     fine: float
     small: int = 0
     moved_deg: float | None = None
+    first: bool = False
 
     @property
     def quantity(self) -> Quantity:
         """What it is."""
         return quantity(self.key, self.small)
+
+    @property
+    def title(self) -> str:
+        """Its name, with the number of its pin."""
+        return self.quantity.title + " 1" * self.first
 
     @property
     def percent(self) -> float:
@@ -74,7 +81,14 @@ def grid_errors(model: InputFile) -> tuple[GridError, ...]:
     coarse, fine = _results(rough.scalars), _results(exact.scalars)
     small = smallness_of(model)
     found = [
-        GridError(key, value, fine[key], small, _moved(key, rough.scalars, exact.scalars))
+        GridError(
+            key,
+            value,
+            fine[key],
+            small,
+            _moved(key, rough.scalars, exact.scalars),
+            key.replace("pin_", "pin2_", 1) in coarse.keys() - {key},
+        )
         for key, value in coarse.items()
         if (
             _is_pressed(key, rough, exact, model.calculation.wear_rays)
@@ -82,7 +96,8 @@ def grid_errors(model: InputFile) -> tuple[GridError, ...]:
             else _is_off(value, fine[key], max(map(abs, _family(coarse, key))))
         )
     ]
-    return tuple(sorted(found, key=lambda error: (_rank(error.key), -abs(error.percent))))
+    # Of alike pins and journals the first goes first.
+    return tuple(sorted(found, key=lambda error: (_rank(error.key), -round(abs(error.percent), 1))))
 
 
 def refined(model: InputFile) -> InputFile:
@@ -155,4 +170,4 @@ def _said(error: GridError) -> str:
     q = error.quantity
     coarse, fine = (written(value, q.digits) for value in (error.coarse, error.fine))
     unit = q.unit_label if q.unit_label in ("", "°") else f"{NBSP}{q.unit_label}"
-    return f"{q.title}: {coarse} вместо {fine}{unit}"
+    return f"{error.title}: {coarse} вместо {fine}{unit}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from kshm.engine.arrangement import Arrangement, throw_angle
+from kshm.engine.arrangement import Arrangement, side_reach, throw_angle
 from reports.inputs.findings import Finding, Values, radius_and_rod
 from reports.inputs.firing import OPPOSED_BANK_DEG, arrangement, fitting_angle
 from reports.inputs.units import number_text, span_text
@@ -229,7 +229,7 @@ def _articulated(values: Values) -> Iterator[Finding]:
         what = f"палец прицепного шатуна дальше длины главного ({number_text(pair[1])} мм)"
         yield Finding(("articulated", "radius_mm"), what, "уменьшите расстояние ρ")
         return
-    reach = _side_reach(pair, offset, radius, math.radians(angle), math.radians(bank))
+    reach = side_reach(*pair, offset, radius, math.radians(angle), math.radians(bank))
     if reach >= length:
         what = (
             f"прицепной шатун {number_text(length)} мм не достаёт до оси своего цилиндра: "
@@ -237,17 +237,3 @@ def _articulated(values: Values) -> Iterator[Finding]:
         )
         hint = "удлините шатун или поставьте палец ближе к углу развала"
         yield Finding(("articulated", "rod_length_mm"), what, hint)
-
-
-def _side_reach(
-    pair: tuple[float, float], offset: float, radius: float, angle: float, bank: float
-) -> float:
-    """Greatest distance of the articulated pin from its cylinder's axis in a turn [mm]."""
-    r, rod = pair
-    widest = 0.0
-    for degrees in range(360):
-        phi = math.radians(degrees)
-        beta = math.asin((r * math.sin(phi) - offset) / rod)
-        across = r * math.sin(phi - bank) + radius * math.sin(angle - beta - bank)
-        widest = max(widest, abs(across - offset))
-    return widest

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from kshm.engine.usual import SMALL_END_SHARE
 from reports.inputs.findings import Finding, Values, radius_and_rod
 from reports.inputs.sections.masses import ESTIMATE_EXTRA, SWUNG, WEIGHED
 from reports.inputs.units import is_within, number_text, span_text
 
-USUAL_SHARE = (0.2, 0.3)
 DIRECT = ("reciprocating_kg", "rod_big_end_kg")
 PARTS = ("piston_group_kg", "rod_kg")
 CENTRE = ("rod_centre_mm", "rod_small_end_share")
@@ -149,9 +149,9 @@ def _centre(values: Values) -> Iterator[Finding]:
             yield Finding(("masses", key), what, f"длина шатуна {number_text(pair[1])} мм")
             return
         share = 1 - place / pair[1]
-    if share is not None and not is_within(share, USUAL_SHARE):
+    if share is not None and not is_within(share, SMALL_END_SHARE):
         what = f"доля массы шатуна у пальца {number_text(round(share, 4))} необычна"
-        hint = f"обычно {span_text(USUAL_SHARE[0], USUAL_SHARE[1])}"
+        hint = f"обычно {span_text(SMALL_END_SHARE[0], SMALL_END_SHARE[1])}"
         yield Finding(("masses", key), what, hint, warning=True)
 
 
@@ -179,13 +179,13 @@ def _swung(values: Values) -> Iterator[Finding]:
         what = "по качаниям момент инерции шатуна отрицателен"
         yield Finding(path, what, "проверьте n_A, n_C, r_1 и l_3")
         return
-    if pair is not None and not is_within(1 - centre / pair[1], USUAL_SHARE):
+    if pair is not None and not is_within(1 - centre / pair[1], SMALL_END_SHARE):
         share = number_text(round(1 - centre / pair[1], 4))
         what = f"доля массы шатуна у пальца {share} необычна"
         yield Finding(
             path,
             what,
-            f"обычно {span_text(USUAL_SHARE[0], USUAL_SHARE[1])}",
+            f"обычно {span_text(SMALL_END_SHARE[0], SMALL_END_SHARE[1])}",
             warning=True,
         )
 

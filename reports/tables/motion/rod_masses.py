@@ -6,9 +6,11 @@ it replaces in the other sheets.
 
 from __future__ import annotations
 
+from kshm.engine.usual import SMALL_END_SHARE
 from kshm.mechanics.rod_masses import BORES, PISTON, ROD, STROKE_BORE, THROW
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, to_estimate
+from reports.inputs.units import number_text
 from reports.spec.blocks import Scalar, ScalarTable
 from reports.spec.listing import scalar_list
 from reports.spec.parts import Part, Scope
@@ -16,6 +18,8 @@ from reports.spec.parts import Part, Scope
 SHEET = "Массы шатуна"
 YES, NO = "да", "НЕТ"
 _BORE = "2*sqrt(F_piston/pi)"
+_SPAN = "…".join(map(number_text, SMALL_END_SHARE))
+USUAL_SHARE = f"доля массы шатуна на поршневом пальце {_SPAN}"
 
 
 def mass_stand_ins(model: InputFile) -> dict[str, str]:
@@ -219,9 +223,15 @@ def _specific(model: InputFile) -> ScalarTable:
                    note=shown, of="verdict"),
         ]  # fmt: skip
     if given.reciprocating_kg is None:
-        inside = "round(rod_share, 6) >= 0.2 and round(rod_share, 6) <= 0.3"
+        inside = is_usual_share("rod_share")
         scalars.append(
             Scalar("rod_share_fits", f'"{YES}" if {inside} else "{NO}"', "Гоц, 2.2",
-                   note="доля массы шатуна на поршневом пальце 0,2…0,3", of="verdict")
+                   note=USUAL_SHARE, of="verdict")
         )  # fmt: skip
     return ScalarTable("specific_masses", "Удельные массы", SHEET, tuple(scalars))
+
+
+def is_usual_share(name: str) -> str:
+    """Expression that tells whether the share of that name is usual, its ends included."""
+    low, high = SMALL_END_SHARE
+    return f"round({name}, 6) >= {low:g} and round({name}, 6) <= {high:g}"

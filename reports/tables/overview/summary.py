@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import InputFile
+from reports.shared.russian import capital
 from reports.spec.blocks import Block, Grid, GridRow, Scalar, ScalarTable
 from reports.spec.extremes import extreme_scalars
 from reports.spec.listing import grid_row, scalar_list
@@ -11,6 +12,7 @@ from reports.spec.shape import Shape, pin_name, pin_table
 from reports.tables.gas.cycle_names import section_of
 from reports.tables.gas.cycle_speed import cycle_checks
 from reports.tables.loads.wear import hole_scalars
+from reports.tables.motion.rod_masses import USUAL_SHARE, is_usual_share
 
 SHEET = "Итоги"
 YES, NO = "да", "НЕТ"
@@ -194,8 +196,7 @@ def checks(model: InputFile, shape: Shape) -> ScalarTable:
         )  # fmt: skip
     if model.masses.reciprocating_kg is None:
         tests.append(
-            ("share", "Доля массы шатуна на поршневом пальце 0,2…0,3",
-             "m_1/masses_rod_kg", "round({value}, 6) >= 0.2 and round({value}, 6) <= 0.3")
+            ("share", capital(USUAL_SHARE), "m_1/masses_rod_kg", is_usual_share("{value}"))
         )  # fmt: skip
     scalars = []
     for key, title, value, test in tests:

@@ -6,7 +6,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from kshm import solve
@@ -157,6 +158,32 @@ def test_articulated_motion_is_the_derivative_of_its_height(engine: Engine) -> N
     for at, sign in ((top, 1), (bottom, -1)):
         extreme = articulated.motion(at, rods.link).height[0]
         assert np.all(sign * (extreme - heights(0)[0]) >= -1e-12 * unit)
+
+
+@settings(max_examples=30)
+@given(engines(layouts=("articulated",)), st.integers(-90, 90))
+def test_a_row_turned_round_the_shaft_moves_as_before(engine: Engine, turn: int) -> None:
+    """Its master, what hangs on it and their firing turned together: as in a staggered radial."""
+    last, by = engine.arrangement[-1].throw, np.radians(turn)
+    assume(last > 0)  # cylinder 1 is where angles are counted from
+    there = [place.throw == last for place in engine.arrangement]
+    turned = replace(
+        engine,
+        arrangement=tuple(
+            replace(place, axis=place.axis + by * own)
+            for place, own in zip(engine.arrangement, there, strict=True)
+        ),
+        firing_offsets=tuple(
+            (offset + by * own) % engine.period
+            for offset, own in zip(engine.firing_offsets, there, strict=True)
+        ),
+    )
+    phi = np.linspace(0, 2 * np.pi, 37)
+    before, after = (
+        articulated.motion(phi, stack([each]).articulated.link).height[0]
+        for each in (engine, turned)
+    )
+    np.testing.assert_allclose(after, before, atol=1e-12 * engine.geometry.crank_radius)
 
 
 @settings(max_examples=40)

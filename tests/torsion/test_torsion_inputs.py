@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from kshm.engine.torsion import Torsion, TrainMass
 from reports.inputs.fields import iter_fields, to_mapping
 from reports.inputs.load import load_mapping, load_text
 from reports.inputs.template import new_file
@@ -101,3 +102,18 @@ def test_an_end_that_becomes_grounded_changes_the_workbook() -> None:
     assert fields["torsion_ground_nm_rad"].structural
     grounded = {field.name: field for field in iter_fields(load({"ground_nm_rad": 5.0}).model)}
     assert not grounded["torsion_ground_nm_rad"].structural
+
+
+def test_a_train_that_is_none_is_refused_by_the_solver_too() -> None:
+    soft, stiff = TrainMass("soft", 1.0), TrainMass("stiff", 1.0, 1e6)
+    for changes, said in (
+        ({"masses": (stiff,)}, "2 to 20 masses"),
+        ({"masses": (stiff,) * 21}, "2 to 20 masses"),
+        ({"masses": (stiff, soft, stiff)}, "between two masses needs a stiffness"),
+        ({"masses": (stiff, stiff, soft, stiff)}, "between two masses needs a stiffness"),
+        ({"peaks": ((200.0, 9e6), (200.0, 8e6))}, "must rise"),
+        ({"peaks": ((200.0, 9e6), (100.0, 8e6))}, "must rise"),
+    ):
+        with pytest.raises(ValueError, match=said):
+            Torsion(**changes)
+    assert Torsion(masses=(stiff, stiff, soft)).masses  # its last end may be free

@@ -58,6 +58,16 @@ def test_one_wrong_omega_costs_one_item_and_all_after_it_is_carried():
     assert result["points"] == pytest.approx(100 - cost, abs=0.01)
 
 
+def test_what_rests_on_an_empty_column_names_it():
+    empty = [""] * len(formulas()["P3_1.v1_m_s"])
+    result = graded({"P3_1.v1_m_s": empty})
+    assert classroom.verdicts(result) == {"P3_1.v1_m_s": "empty", "P3_1.v_m_s": "groundless"}
+    found = line(result, "P3_1.v_m_s")
+    assert found["origins"] == ["P3_1.v1_m_s"] and found["points"] == 0
+    result = graded({"P3_1.v1_m_s": empty, "P3_1.v2_m_s": empty})
+    assert line(result, "P3_1.v_m_s")["origins"] == ["P3_1.v1_m_s", "P3_1.v2_m_s"]
+
+
 @pytest.mark.parametrize(
     ("item", "change", "cause"),
     [

@@ -47,13 +47,13 @@ def test_hints_do_not_draw_the_right_curve():
 def test_what_is_begun_is_to_be_mended_and_what_is_not_stands_apart():
     filled = formulas()[ITEM]
     parts = {}
-    for kept in (0, 7):
+    for kept in (0, 6):
         cells = filled[:kept] + [""] * (len(filled) - kept)
         html = student_page(graded({ITEM: cells}), classroom.register().rubric)
         parts[kept] = html.partition("Не заполнено и то, что на это опирается")
     assert "Что исправить" not in parts[0][0] and f'id="{ITEM}"' in parts[0][2]
-    assert f'id="{ITEM}"' in parts[7][0].partition("Что исправить")[2]
-    assert "Строки: 180; 210; 240" in parts[7][0] and 'id="P3_1.v_m_s"' in parts[7][2]
+    assert f'id="{ITEM}"' in parts[6][0].partition("Что исправить")[2]
+    assert "Строки: 180; 210; 240" in parts[6][0] and 'id="P3_1.v_m_s"' in parts[6][2]
 
 
 def test_full_feedback_draws_both_curves():

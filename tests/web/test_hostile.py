@@ -228,7 +228,7 @@ def test_a_seed_is_no_option(page: Page, client: TestClient) -> None:
     data = client.app.app.state.settings.data  # type: ignore[attr-defined]
     page.post("/api/login", {"token": token_of(kept_secret(data / SECRET))})
     wanted = {"title": "x", "base.toml": classroom.base_text(), "seed": "1 --rubric /etc/passwd",
-              "roster.csv": classroom.roster_text(1)}  # fmt: skip
+              "roster": classroom.roster_text(1)}  # fmt: skip
     name = page.post("/api/teacher", wanted)["name"]
     told: dict[str, Any] = {}
     for _ in range(300):

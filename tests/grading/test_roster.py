@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 import zipfile
 from collections.abc import Callable, Sequence
 from datetime import date
@@ -150,7 +151,8 @@ def with_value(data: bytes, text: str) -> bytes:
         for info in source.infolist():
             part = source.read(info).decode("utf-8")
             part = part.replace('<c r="A2"><f>', '<c r="A2" t="str"><f>')
-            target.writestr(info, part.replace("<v></v>", f"<v>{text}</v>").replace("<v />", f"<v>{text}</v>"))
+            part = re.sub(r"(</f>)<v\s*/?>(</v>)?", rf"\1<v>{text}</v>", part)
+            target.writestr(info, part)
     return made.getvalue()
 
 

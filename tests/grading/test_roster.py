@@ -32,7 +32,7 @@ def test_a_roster_in_any_usual_form(tmp_path, encoding, delimiter):
 
 @pytest.mark.parametrize("delimiter", [";", ",", "\t"])
 @pytest.mark.parametrize("first", ["sep=@\r\n", "\r\n\r\n"])
-@pytest.mark.parametrize("head", ["Ф. И. О.", "ФИО студента", "Фамилия Имя Отчество"])
+@pytest.mark.parametrize("head", ["Ф. И. О.", "Ф.И.О. студента", "Фамилия Имя Отчество"])
 def test_a_roster_may_begin_with_what_excel_puts_before_it(tmp_path, delimiter, first, head):
     path = tmp_path / "group.csv"
     text = f"{first}{head}@Группа\r\nИванов Иван Ильич@Д-1\r\n"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,11 +16,13 @@ _HEADS = {
     "surname": ("фамилия", "surname", "last name", "lastname", "фамилия студента"),
     "name": ("имя", "имя и отчество", "имя отчество", "name", "first name", "firstname"),
     "patronymic": ("отчество", "middle name"),
-    "full": ("фио", "ф.и.о.", "ф. и. о.", "фио студента", "студент", "student", "full name",
-             "полное имя", "фамилия и имя", "фамилия имя отчество", "фамилия, имя, отчество"),
+    "full": ("фио", "ф и о", "фио студента", "ф и о студента", "студент", "обучающийся", "student",
+             "full name", "полное имя", "фамилия и о", "фамилия имя", "фамилия и имя",
+             "фамилия имя отчество", "фамилия имя и отчество"),
     "group": ("группа", "group", "groups", "группы"),
     "id": ("номер", "шифр", "id", "id number", "индивидуальный номер", "логин", "login",
-           "username", "зачетка", "зачётка", "номер зачетки", "номер зачётки"),
+           "username", "имя пользователя", "зачетка", "зачётка", "номер зачетки", "номер зачётки",
+           "номер зачетной книжки", "номер зачётной книжки", "№ зачетки", "№ зачётки"),
     "email": ("email", "e-mail", "почта", "адрес электронной почты", "email address"),
 }  # fmt: skip
 
@@ -156,7 +159,7 @@ def _students(made: _List) -> list[Student]:
 def _columns(head: list[str]) -> dict[str, int]:
     found: dict[str, int] = {}
     for index, cell in enumerate(head):
-        word = cell.casefold().strip(" *:")
+        word = " ".join(re.split(r"[\s.,*:]+", cell.casefold())).strip()
         for key, words in _HEADS.items():
             if word in words:
                 found.setdefault(key, index)

@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Item
 from reports.grading.judging import response as say
+from reports.grading.judging.errors import shown_errors
 from reports.grading.judging.response import Response
 from reports.grading.judging.tolerances import close, tolerance
 from reports.grading.reading.ground import circles, filled_copy, is_void, resting_on
 from reports.grading.reading.student import LOST, Answer, Student, known_values
+from reports.grading.reading.typed import TEXT_NUMBER
 from reports.recalculation.bench import rounded_to
 from reports.recalculation.evaluate import BLANK, ERROR, TEXT
 from reports.recalculation.language import UnknownFormula
@@ -112,9 +114,26 @@ def _of_cells(item: Item, student: Student, response: Response) -> Judgement:
     if set(kinds) == {BLANK}:
         why = filled_copy(student, item.nodes[0])
         return replace(made, verdict=UNKNOWN if why else EMPTY, reason=why)
+    odd = _odd(answers)
+    good = close(item, values, expected, tolerance(item, expected, student))
+    unread = [i for i, why in odd.items() if why != TEXT_NUMBER and not good[i]]
+    if unread:
+        return replace(made, verdict=UNKNOWN, rows=tuple(unread), typed=(), reason=odd[unread[0]])
     if not student.assignment.formulas_demanded(item) and typed.all():
-        return _free(made, student)
-    return _by_rows(made, student, response, kinds, letters)
+        made = _free(made, student)
+    else:
+        made = _by_rows(made, student, response, kinds, letters)
+    return replace(made, reason=TEXT_NUMBER) if odd and not made.reason else made
+
+
+def _odd(answers: Sequence[Answer]) -> dict[int, str]:
+    """Values of an item that a spreadsheet has taken for something else, and for what."""
+    ends = np.cumsum([len(answer.kinds) for answer in answers])
+    return {
+        int(end) - len(answer.kinds) + i: why
+        for end, answer in zip(ends, answers, strict=True)
+        for i, why in answer.odd.items()
+    }
 
 
 def _free(made: Judgement, student: Student) -> Judgement:
@@ -169,7 +188,7 @@ def _by_rows(
         paid = share * student.assignment.rubric.credit.rows if by_rows else 0.0
     reason = _reason(verdict, words, kinds, letters, unlinked=unlinked)
     if verdict == BROKEN:
-        reason = _errors(item, student)
+        reason = shown_errors(item, student)
     return replace(made, verdict=verdict, rows=rows, paid=paid, reason=reason,
                    coarse=say.COARSE in letters or _coarse(item, student))  # fmt: skip
 
@@ -204,34 +223,13 @@ def _reason(verdict: str, words: Sequence[str], kinds: str, letters: str, *, unl
     if verdict == EMPTY:
         return "заполнены не все строки"
     if verdict == TYPED:
-        if unlinked:
+        if unlinked and set(letters) != {say.NOTHING}:
             return "формула состоит из одних чисел"
         if say.PARTLY in letters:
             return "вместо ссылки в формуле стоит число: при других данных она неверна"
     if verdict == WRONG and TEXT in kinds and set(words) == {WRONG}:
         return "вместо числа стоит текст"
     return ""
-
-
-_ERRORS = {
-    "#DIV/0!": "#ДЕЛ/0! — деление на ноль", "#N/A": "#Н/Д — значение не найдено",
-    "#VALUE!": "#ЗНАЧ! — в вычислении текст", "#REF!": "#ССЫЛКА! — ссылка на удалённую ячейку",
-    "#NUM!": "#ЧИСЛО! — вычислить нельзя", "#NAME?": "#ИМЯ? — неизвестное имя",
-    "#CIRC!": "круговая ссылка", "#NULL!": "#ПУСТО! — области не пересекаются",
-}  # fmt: skip
-
-
-def _errors(item: Item, student: Student) -> str:
-    """Which error values stand in the cells."""
-    found: dict[str, None] = {}
-    for node in item.nodes:
-        place = student.placement.places.get(node)
-        for row in place.rows if place is not None else ():
-            if place is not None and row is not None:
-                text = student.engine.shown(place.sheet, place.column, row)
-                if isinstance(text, str) and text.startswith("#"):
-                    found.setdefault(_ERRORS.get(text, text))
-    return ", ".join(found)
 
 
 def _coarse(item: Item, student: Student) -> bool:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from reports.grading.reading.student import Student, shown_in
+from reports.grading.reading.typed import means_something
 from reports.recalculation.bench import Cells, pinned
 from reports.recalculation.evaluate import BLANK, ERROR, TEXT, Engine
-from reports.recalculation.formulas import is_doubtful
 from reports.recalculation.language import UnknownFormula
 
 
@@ -66,7 +66,7 @@ def is_void(student: Student, node: str) -> bool:
     if TEXT in answer.kinds and answer.typed.any():
         column = student.grid.column(answer.place.sheet, answer.place.column)
         texts = [column.constants.get(row) for row in answer.place.rows if row is not None]
-        nothing += sum(isinstance(t, str) and not is_doubtful(t, in_product=True) for t in texts)
+        nothing += sum(isinstance(text, str) and not means_something(text) for text in texts)
     return nothing > len(answer.kinds) / 2
 
 

@@ -19,7 +19,7 @@ from reports.grading.reading.ground import through
 from reports.grading.reading.matching import own_properties
 from reports.grading.reading.restoring import restore
 from reports.grading.reading.student import LOST, Student
-from reports.recalculation.evaluate import BLANK, ERROR, TEXT
+from reports.recalculation.evaluate import BLANK, ERROR, NUMBER, TEXT
 from reports.recalculation.grid import BadBook
 from reports.recalculation.language import UnknownFormula
 from reports.recalculation.read import read_grid, worksheets
@@ -66,6 +66,7 @@ def findings(path: Path) -> list[Finding]:
     model = build_model(load_input(path).model)
     assignment = _assignment(model, package)
     student = Student.of(assignment, Layout.of(assignment.model), grid)
+    student.package = package
     found = list(_changed_inputs(student, package))
     restore(student)
     found += [
@@ -169,9 +170,13 @@ def _of_node(student: Student, node: str, *, errors: bool) -> list[Finding]:
         found.append(Finding(what, f"формулу программа не пересчитает: {answer.problem}"))
     for kind, words in ((LOST, "строка не найдена: верните угол в первый столбец"),
                         (BLANK, "пусто"), (TEXT, "текст вместо числа")):  # fmt: skip
-        rows = [r for r, k in zip(place.rows, answer.kinds, strict=True) if k == kind]
+        rows = [r for i, r in enumerate(place.rows)
+                if answer.kinds[i] == kind and i not in answer.odd]  # fmt: skip
         if rows:
             found.append(Finding(what, f"{words}: {_ranges(place.sheet, place.column, rows)}"))
+    for words in dict.fromkeys(answer.odd.values()):
+        rows = [place.rows[i] for i, why in answer.odd.items() if why == words]
+        found.append(Finding(what, f"{words}: {_ranges(place.sheet, place.column, rows)}"))
     wrong: dict[str, list[int | None]] = {}
     for row, kind in zip(place.rows, answer.kinds, strict=True):
         if errors and kind == ERROR and row is not None:
@@ -183,8 +188,8 @@ def _of_node(student: Student, node: str, *, errors: bool) -> list[Finding]:
     for text, rows in wrong.items():
         where = _ranges(place.sheet, place.column, rows)
         found.append(Finding(what, f"ошибка {text}: {where}"))
-    typed = [r for r, t in zip(place.rows, answer.typed, strict=True) if t]
-    typed = [r for r, k in zip(place.rows, answer.kinds, strict=True) if r in typed and k == "n"]
+    typed = [r for i, r in enumerate(place.rows)
+             if answer.typed[i] and answer.kinds[i] == NUMBER and i not in answer.odd]  # fmt: skip
     if typed:
         where = _ranges(place.sheet, place.column, typed)
         found.append(Finding(what, f"число вместо формулы: {where}"))

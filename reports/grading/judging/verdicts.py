@@ -13,7 +13,7 @@ from reports.grading.judging import response as say
 from reports.grading.judging.errors import shown_errors
 from reports.grading.judging.response import Response
 from reports.grading.judging.tolerances import close, tolerance
-from reports.grading.reading.ground import circles, filled_copy, is_void, resting_on
+from reports.grading.reading.ground import calculated, circles, filled_copy, is_void, resting_on
 from reports.grading.reading.student import LOST, Answer, Student, known_values
 from reports.grading.reading.typed import TEXT_NUMBER
 from reports.recalculation.bench import rounded_to
@@ -38,6 +38,7 @@ WORDS = {
     RIGHT: "верно",
 }
 _ROUND = "круговая ссылка: величина считается через саму себя"
+_ROUND_HERE = "круговая ссылка, а верные числа сохранены: поиск во всём столбце или вставка?"
 _PASTED = "считает от столбца вписанных чисел, и не для всех исходных данных верно: откуда они?"
 _ENOUGH = 0.5  # share of right rows from which a column is paid by rows
 
@@ -67,14 +68,8 @@ class Judgement:
 def judge_all(student: Student, response: Response) -> list[Judgement]:
     """Verdicts on all items, in the order of the book."""
     items = student.assignment.items
-    student.assume(
-        {
-            node
-            for item in items
-            for node in item.nodes
-            if student.answers[node].problem and response.problem(node)
-        }
-    )
+    nodes = [node for item in items for node in item.nodes]
+    student.assume({n for n in nodes if student.answers[n].problem and response.problem(n)})
     found = {item.id: _judged(item, student, response) for item in items}
     _without_ground(found, student)
     _backwards(found, student, response)
@@ -146,7 +141,7 @@ def _free(made: Judgement, student: Student) -> Judgement:
     own = own_values(item, student, None)
     if close(item, made.values, own, allowed).all():
         return replace(made, verdict=CARRIED, rows=_where(~good), typed=(), paid=1.0)
-    return replace(made, verdict=WRONG, rows=_where(~good), paid=float(good.mean()) * 0.0)
+    return replace(made, verdict=WRONG, rows=_where(~good))
 
 
 # How a cell that is not right is called, the worst first.
@@ -283,11 +278,13 @@ def _is_linked(item: Item, student: Student) -> bool:
 def _without_ground(found: dict[str, Judgement], student: Student) -> None:
     """Blanks and circles pass nothing on: what rests on them is no result."""
     round_ = circles(student)
+    held = calculated(student, round_)
     for id_, judgement in found.items():
-        if round_ & set(judgement.item.nodes) and judgement.verdict != UNKNOWN:
-            found[id_] = replace(judgement, verdict=BROKEN, paid=0.0,
-                                 reason=_ROUND)  # fmt: skip
-    void = set(round_)
+        at = round_ & set(judgement.item.nodes)
+        if at and judgement.verdict != UNKNOWN:
+            verdict, reason = (UNKNOWN, _ROUND_HERE) if at <= held else (BROKEN, _ROUND)
+            found[id_] = replace(judgement, verdict=verdict, paid=0.0, reason=reason)
+    void = set(round_ - held)
     for judgement in found.values():
         for node in judgement.item.nodes:
             if is_void(student, node):

@@ -42,6 +42,22 @@ def circles(student: Student) -> frozenset[str]:
     return frozenset(found)
 
 
+def calculated(student: Student, nodes: frozenset[str]) -> frozenset[str]:
+    """Nodes of circles for which the student's program has saved the right numbers all the same.
+
+    A look-up over a whole column refers to all of it; what it does not take closes no circle there.
+    """
+    found = set()
+    for node in nodes:
+        place, right = student.placement.places[node], student.expected.value(node)
+        column = student.grid.column(place.sheet, place.column)
+        saved = dict(zip(column.saved_rows, column.saved, strict=True))
+        numbers = [saved.get(row or 0, np.nan) for row in place.rows]
+        if not isinstance(right, str) and np.allclose(numbers, np.ravel(right), rtol=1e-6):
+            found.add(node)
+    return frozenset(found)
+
+
 def through(student: Student, node: str) -> frozenset[str]:
     """Asked nodes that a node refers to, through live formulas too, itself among them."""
     found: set[str] = set()

@@ -32,6 +32,8 @@ from reports.workbook.intake import check_package
 from reports.workbook.layout import Layout
 from reports.workbook.package import Package
 
+_TOLD = 20  # remarks at once
+
 
 @dataclass(frozen=True, slots=True)
 class Finding:
@@ -89,6 +91,24 @@ def findings(path: Path) -> list[Finding]:
         more = "" if len(followers) <= 6 else f" и ещё {len(followers) - 6}"
         found.append(Finding("Ошибки, пришедшие из названных выше", names + more))
     return found
+
+
+def remarks(path: str) -> dict[str, list[str]]:
+    """What is told of a book that is handed in; it may be handed in whatever is told.
+
+    Raises:
+        InputError: no program reads it.
+    """
+    book = Path(path)
+    check_package(book)
+    if not is_work_book(book):
+        return {"remarks": ["в книге нет идентификатора: это не выданная рабочая книга"]}
+    try:
+        lines = [f"{found.where}: {found.what}" for found in findings(book)]
+    except InputError as error:
+        lines = error.lines()
+    more = [f"и ещё замечаний: {len(lines) - _TOLD}"] if len(lines) > _TOLD else []
+    return {"remarks": lines[:_TOLD] + more}
 
 
 def _assignment(model: Model, package: Package) -> Assignment:

@@ -21,8 +21,7 @@ async function issue(event) {
     const bytes = await data[key].arrayBuffer(), text = new TextDecoder().decode(bytes);
     data[key] = text.includes("\ufffd") ? new TextDecoder("windows-1251").decode(bytes) : text;
   }
-  const list = new Uint8Array(await data.roster.arrayBuffer()); // a book, or any CSV
-  data.roster = Array.from(list, code => String.fromCharCode(code)).join("");
+  data.roster = Array.from(new Uint8Array(await data.roster.arrayBuffer()), code => String.fromCharCode(code)).join("");
   const made = await send("api/teacher", data);
   if (!made) return;
   event.target.reset();
@@ -92,7 +91,7 @@ const page = () => html`
           ${asked("Рубрика, .toml (можно без неё)", "rubric.toml", {type: "file", accept: ".toml"})}
           ${asked("Зерно", "seed", {type: "number", defaultValue: 1, required: true})}
           <button>Выдать</button></form></details>
-      <p>${choice("Группа", "classes", state.classes.map(c => [c.name, `${c.title}, ${c.date.slice(0, 10)}`]),
+      <p hidden=${!state.chosen}>${choice("Группа", "classes", state.classes.map(c => [c.name, `${c.title}, ${c.date.slice(0, 10)}`]),
         state.chosen, chosen => look({chosen, own: null}))}</p>
       ${state.own && html`<div id="class"><p role="status">${state.news} ${status(state.own)}</p>
         ${list(state.own.lines || [], state.own.state === "failed" ? "bad" : "warn")}

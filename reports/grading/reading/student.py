@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.reading.placement import Place, Placement, find_places
-from reports.grading.reading.typed import DATE, as_meant, dates, number_of
+from reports.grading.reading.typed import DATE, as_meant, carried, dates, number_of
 from reports.recalculation.bench import Cells, needed, pinned
 from reports.recalculation.evaluate import BLANK, ERROR, NUMBER, Engine
 from reports.recalculation.formulas import is_doubtful
@@ -275,7 +275,7 @@ class Student:
 
     @cached_property
     def own_constants(self) -> list[tuple[str, int, int, float]]:
-        """Numbers typed into cells that are none of the work-book's."""
+        """Numbers typed into cells that are none of the work-book's, as texts too."""
         taken: dict[tuple[str, int], set[int | None]] = {}
         for place in self.placement.places.values():
             taken.setdefault((place.sheet, place.column), set()).update(place.rows)
@@ -283,8 +283,9 @@ class Student:
             (sheet, number, row, value)
             for sheet, columns in self.grid.sheets.items()
             for number, column in columns.items()
-            for row, value in column.constants.items()
-            if type(value) is float and row not in taken.get((sheet, number), ())
+            for row, given in column.constants.items()
+            if row not in taken.get((sheet, number), ())
+            if (value := carried(given)) is not None
         ]
 
     def own_numbers(self, node: str) -> list[float]:

@@ -18,6 +18,8 @@ TEXT_FORMULA = "формула записана текстом: таблица �
 DATE = "вместо числа стоит дата: 1.5 таблица приняла за первое мая"
 
 _EARLIEST = 10_000  # as dates are counted, May of 1927: what «5.27» becomes
+_DIGITS, _MOST_DIGITS = 4, 300  # of a text that carries a number: titles have fewer
+_LONG = 100  # signs of a text that may be counted
 _PLAIN = str.maketrans({"\u00a0": " ", "\u202f": " ", "\u2009": " ", "−": "-", "–": "-"})
 _NUMBER = re.compile(
     r"([-+]?(?:\d{1,3}(?: \d{3})+|\d+)?(?:[.,]\d+)?(?:[eE][-+]?\d+)?)"
@@ -32,6 +34,17 @@ def number_of(text: str) -> float | None:
         return float(match[1].replace(" ", "").replace(",", ".")) if match else None
     except ValueError:
         return None
+
+
+def carried(value: object) -> float | None:
+    """The number that a constant may carry into a formula: a text by its digits, or its length."""
+    if not isinstance(value, str):
+        return value if type(value) is float else None
+    digits = "".join(filter(str.isdecimal, value))
+    if len(digits) >= _DIGITS:
+        number = number_of(value)
+        return float(digits[:_MOST_DIGITS]) if number is None else number
+    return len(value) + 0.5 if len(value) >= _LONG else None  # not whole: no angle
 
 
 def is_formula(text: str) -> bool:

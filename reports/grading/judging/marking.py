@@ -43,7 +43,7 @@ from reports.workbook.intake import check_data
 from reports.workbook.layout import Layout
 from reports.workbook.package import Package
 
-FORMAT = 5
+FORMAT = 6
 Result = dict[str, Any]
 
 

@@ -22,7 +22,7 @@ from reports.shared.errors import KshmError
 
 @click.command(cls=RussianCommand, context_settings=HELP)
 @file_argument("BASE")
-@path_option("--roster", required=True, metavar="CSV", help="Список группы.")
+@path_option("--roster", required=True, metavar="FILE", help="Список группы: .xlsx или CSV.")
 @path_option("-o", "--output", "folder", required=True, help="Папка для выдачи.")
 @click.option("--seed", default=1, show_default=True, help="Зерно: то же зерно — те же варианты.")
 @path_option("--rubric", metavar="FILE", help="Рубрика TOML (без неё — правила по умолчанию).")

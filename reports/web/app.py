@@ -37,7 +37,6 @@ from reports.web.jobs import OFFERED, Jobs
 
 STATIC = Path(__file__).parent / "static"
 SESSION_S = 12 * 3600
-_ANSWERS = 5_000  # of a solving process
 
 
 async def page(request: Request, name: str, root: str = ".") -> Response:
@@ -66,7 +65,7 @@ def create_app(settings: Settings) -> Guard:
     @contextlib.asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:
         async with jobs.working(), classes.working():
-            with Workers(count, engine.ready, most=_ANSWERS) as app.state.workers:
+            with Workers(count, engine.ready, most=5_000) as app.state.workers:  # answers of one
                 yield
 
     routes = [

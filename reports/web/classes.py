@@ -20,12 +20,12 @@ from reports.grading.issuing.register import FILE, load_register
 from reports.grading.issuing.ticket import SECRET, kept_secret
 from reports.inputs.described import Data
 from reports.shared.errors import InputError, Problem, one_line
-from reports.shared.files import make_dir, read_json, write_json, write_zip
+from reports.shared.files import make_dir, read_json, write_bytes, write_json, write_zip
 from reports.web import engine
 from reports.web.doors import Rate, Shown, ask, body, caller, get, post, shown
 from reports.web.jobs import Queue
 
-_TEXTS = ("base.toml", "roster.csv", "rubric.toml")
+_TEXTS, _ROSTER = ("base.toml", "rubric.toml"), "Список"
 _SECRET = ("--secret", SECRET)
 
 
@@ -94,7 +94,8 @@ class Classes(Queue):
         date = datetime.now().isoformat(timespec="seconds")
         write_json(folder / "about.json", {"title": title, "open": False, "date": date})
         more = ["--rubric", "rubric.toml"] if files["rubric.toml"].strip() else []
-        command = ["issue", "base.toml", "--roster", "roster.csv", "-o", "issued", *_SECRET]
+        write_bytes(folder / _ROSTER, str(data.get("roster") or "").encode("latin-1", "replace"))
+        command = ["issue", "base.toml", "--roster", _ROSTER, "-o", "issued", *_SECRET]
         self.put(folder.name, files, [*command, f"--seed={data.get('seed')}", *more])
         return {"name": folder.name}
 

@@ -25,11 +25,11 @@ from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route
 from starlette.types import ASGIApp
 
+from reports.grading.reading.selfcheck import remarks
 from reports.inputs.described import Data
 from reports.shared.errors import InputError, KshmError, Problem
 from reports.shared.workers import Died, NeverStarted
 from reports.web import engine
-from reports.workbook.intake import check_data
 
 Door = Callable[..., Awaitable[Response | Data | None]]
 MOST_JSON, MOST_BOOK, MOST_ARCHIVE = 2_000_000, 30 * 2**20, 100_000_000
@@ -248,16 +248,18 @@ def shown(path: str, find: Callable[[Request], Shown], files: str = "/{file}") -
         heads = {"content-security-policy": _SANDBOX}
         return FileResponse(file, headers=heads, filename=file.name, content_disposition_type=how)
 
-    async def taken(request: Request) -> None:
+    async def taken(request: Request) -> Data:
         place = find(request).takes.get(request.path_params["file"])
         if place is None:
             raise HTTPException(404, "такого файла здесь не ждут")
-        is_book = place.suffix == ".xlsx"
+        is_book, told = place.suffix == ".xlsx", Data()
         async with uploaded(request, MOST_BOOK if is_book else MOST_ARCHIVE) as file:
             if is_book:
-                check_data(file.read_bytes(), "работа")
+                with contextlib.suppress(HTTPException):  # a busy server turns no work away
+                    told = await ask(request, remarks, str(file))
             elif not file.stat().st_size or is_zipfile(file) != (place.suffix == ".zip"):
                 raise InputError(Problem("", "это не тот файл", "загрузите архив .zip"))
             file.replace(place)
+        return told
 
     return [get(path, told), get(f"{path}{files}", given), post(f"{path}{files}", taken)]

@@ -24,6 +24,7 @@ from reports.inputs.solved import solved
 from reports.inputs.understood import understood
 from reports.shared.errors import InputError, KshmError
 from reports.tables.registry import kept_model
+from reports.workbook.read import load_workbook_input
 
 HEAD = ("Исходные данные двигателя для kshm.",)
 _OPTIONS = ("sample", "layout", "strokes", "kind", "power", "speed")  # of kshm new
@@ -36,8 +37,6 @@ def read_toml(text: object) -> Data:
 
 def read_book(path: str) -> Data:
     """The input that an edited workbook holds; InputError if it is none of ours or wrong."""
-    from reports.workbook.read import load_workbook_input
-
     return {"raw": to_mapping(load_workbook_input(Path(path)).model)}
 
 

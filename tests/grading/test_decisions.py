@@ -125,6 +125,63 @@ def test_a_decision_is_about_the_file_that_was_looked_at(tmp_path, word):
     assert run(where, out, ("2", "всё", "-", ""))[2]["points"] == 100
 
 
+@pytest.mark.parametrize("later", ["other", "empty", "right"])
+def test_a_decision_on_a_column_is_about_the_file_that_was_looked_at(tmp_path, later):
+    """Neither is a column paid that nobody has seen, nor is a mended one left without points."""
+    where, out = submitted(tmp_path / "in"), tmp_path / "out"
+    run(where, out)
+    points = "0" if later == "right" else "1"
+    rows = run(where, out, ("1", "geometry.V_c", points, "посмотрел"))
+    assert not rows[1]["manual"]
+    earlier = (where / "1.xlsx").read_bytes()
+    changes = {"other": {"V_c": ['=INDIRECT("V_h")/18']}, "empty": {"V_c": [None]}, "right": None}
+    book = filled_book(classroom.handout(1), classroom.assignment(1), changes[later])
+    (where / "1.xlsx").write_bytes(book)
+    for rows in (run(where, out), run(where, out)):
+        assert rows[1]["manual"]
+        assert "сдан другой файл, решите заново о столбцах: Массы Vc" in rows[1]["remark"]
+        line = next(line for line in rows[1]["result"].items if line.id == "geometry.V_c")
+        assert line.points == (line.of if later == "right" else 0)
+    rows = run(where, out, ("1", "geometry.V_c", "+", ""))
+    assert not rows[1]["manual"]
+    (where / "1.xlsx").write_bytes(earlier)  # what was handed in first counts again
+    rows = run(where, out)
+    assert not rows[1]["manual"] and "посмотрел" in rows[1]["remark"]
+
+
+def test_the_gradebook_tells_of_the_file_that_was_looked_at(tmp_path):
+    """A word written into it is not about what was handed in meanwhile."""
+    where, out = submitted(tmp_path / "in"), tmp_path / "out"
+    run(where, out)
+    earlier = (where / "2.xlsx").read_bytes()
+    book = filled_book(classroom.handout(2), classroom.assignment(2), {"V_c": [None]})
+    (where / "2.xlsx").write_bytes(book)
+    rows = decide_in_gradebook(where, out, 2, "100")
+    assert rows[2]["points"] is None and "решите о нём заново" in rows[2]["remark"]
+    (where / "2.xlsx").write_bytes(earlier)
+    assert run(where, out)[2]["points"] == 100
+
+
+def test_the_best_of_several_files_does_not_pass_by_a_decision(tmp_path):
+    """Who was failed for one file is not paid for another that nobody has looked at."""
+    where, out = submitted(tmp_path / "in"), tmp_path / "out"
+    book = filled_book(classroom.handout(2), classroom.assignment(2), {"V_c": [None]})
+    (where / "2 ещё.xlsx").write_bytes(book)
+    rubric = tmp_path / "rubric.toml"
+    rubric.write_text('[attempts]\ncount = "best"\n', encoding="utf-8")
+    folder = classroom.folder()
+
+    def rows(*words: tuple[str, str, str, str]) -> dict:
+        options = Options(workers=1, decisions=words)
+        done = grade(folder / "issued", where, out, rubric_file=rubric,
+                     secret_file=folder / "secret.key", options=options)  # fmt: skip
+        return {row["number"]: row for row in done.summary["rows"]}
+
+    assert rows()[2]["points"] == 100
+    for found in (rows(("2", "всё", "0", "списано")), rows()):
+        assert found[2]["points"] is None and "решите о нём заново" in found[2]["remark"]
+
+
 @pytest.mark.parametrize("word", [950, "8O", "сто", "nan", -1])
 def test_what_is_no_decision_in_the_gradebook_is_told_and_kept(tmp_path, word):
     where, out = submitted(tmp_path / "in"), tmp_path / "out"

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from reports.grading.batch.grade import Options, grade
+from reports.grading.batch.grade import Options, decide, grade
 from reports.grading.issuing.rubric import rubric_of
 from reports.grading.judging.marking import late_factor
 from reports.grading.reading.submissions import collect
@@ -33,6 +33,36 @@ def run(submitted: Path, out: Path) -> dict:
     secret = folder / "secret.key"
     done = grade(folder / "issued", submitted, out, secret_file=secret, options=Options(workers=1))
     return done.summary
+
+
+@pytest.mark.parametrize(
+    ("name", "later", "waits"),
+    [
+        ("записка.docx", 60, False), ("книга.ods", 60, True), ("книга.xlsx", 60, True),
+        ("книга.ods", -60, False),
+    ],
+)  # fmt: skip
+def test_what_lies_beside_a_book_is_no_later_version_of_it(tmp_path, name, later, waits):
+    """A note is nothing to look at; of a later book that cannot be read a person is told."""
+    classroom.register()
+    path, out, summary = tmp_path / "in", tmp_path / "out", {}
+    folder = path / "Иванов Имя_101_assignsubmission_file_"
+    folder.mkdir(parents=True)
+    (folder / "моя работа.xlsx").write_bytes(right(1))
+    (folder / name).write_bytes(b"x")
+    os.utime(folder / "моя работа.xlsx", (1_700_000_000, 1_700_000_000))
+    os.utime(folder / name, (1_700_000_000 + later, 1_700_000_000 + later))
+    summary = run(path, out)
+    row = next(row for row in summary["rows"] if row["student"] == "Иванов Имя")
+    assert row["points"] == 100
+    assert bool(row["manual"]) == bool(summary["manual"]) == waits
+    assert ("оценён не последний файл" in row["remark"]) == waits
+    grade_ = (out / "moodle.csv").read_text("utf-8").splitlines()[1].split(",")[4]
+    assert grade_ == ("" if waits else "100")
+    if waits:
+        decided = Options(decisions=[("Иванов Имя", "всё", "+", "сдал в классе")])
+        (row,) = [r for r in decide(out, decided).summary["rows"] if r["student"] == "Иванов Имя"]
+        assert not row["manual"] and row["points"] == 100
 
 
 def test_moodles_zip_is_read_as_it_is(tmp_path):

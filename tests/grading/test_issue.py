@@ -23,19 +23,6 @@ from reports.spec.evaluation import evaluate_model
 from reports.workbook.layout import Cell, Layout
 from tests.grading import classroom
 
-PEOPLE = 'Фамилия;Имя;Группа\nИванов;Иван;ДВС-1\nПётр "Первый";Анна;ДВС-1\n'
-
-
-@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp1251"])
-@pytest.mark.parametrize("delimiter", [";", ",", "\t"])
-def test_a_roster_in_any_usual_form(tmp_path, encoding, delimiter):
-    path = tmp_path / "group.csv"
-    text = PEOPLE.replace('"Первый"', "Ёлкин").replace(";", delimiter).replace("\n", "\r\n")
-    path.write_bytes(text.encode(encoding))
-    found = read_roster(path)
-    assert [student.full for student in found] == ["Иванов Иван", "Пётр Ёлкин Анна"]
-    assert found[0].group == "ДВС-1"
-
 
 @pytest.mark.parametrize(
     ("name", "spelt"),
@@ -47,39 +34,6 @@ def test_a_roster_in_any_usual_form(tmp_path, encoding, delimiter):
 )  # fmt: skip
 def test_names_of_neighbours_are_spelt_in_latin(name, spelt):
     assert latin(name) == spelt
-
-
-@pytest.mark.parametrize("delimiter", [";", ",", "\t"])
-@pytest.mark.parametrize("first", ["sep=@\r\n", "\r\n\r\n"])
-@pytest.mark.parametrize("head", ["Ф. И. О.", "ФИО студента", "Фамилия Имя Отчество"])
-def test_a_roster_may_begin_with_what_excel_puts_before_it(tmp_path, delimiter, first, head):
-    path = tmp_path / "group.csv"
-    text = f"{first}{head}@Группа\r\nИванов Иван Ильич@Д-1\r\n"
-    path.write_text(text.replace("@", delimiter), encoding="utf-8-sig", newline="")
-    (found,) = read_roster(path)
-    assert (found.surname, found.name, found.group) == ("Иванов", "Иван Ильич", "Д-1")
-
-
-@pytest.mark.parametrize(
-    ("data", "words"),
-    [
-        (b"", "список пуст"),
-        ("Фамилия;Имя\n".encode(), "нет ни одного студента"),
-        ("Иванов;Иван\nПетров;Пётр\n".encode(), "нет столбца «Фамилия»"),
-        ("Фамилия;Имя\nИванов;Иван\nИванов;Иван\n".encode(), "уже есть в строке 2"),
-        ("Фамилия;Имя\n;Иван\n".encode(), "строка 2: нет фамилии"),
-        ('Фамилия;Имя\n"Иванов;Иван\n'.encode(), "не закрыта кавычка"),
-        (b"PK\x03\x04xxxx", "это книга Excel"),
-        ("Фамилия;Имя\nИванов;Иван\n".encode("utf-16"), "UTF-16"),
-        (b"\x80\x81\xff\xfa surname name\n\xf0\xf1\n", "не UTF-8 и не Windows-1251"),
-    ],
-)
-def test_a_bad_roster_is_one_clear_line(tmp_path, data, words):
-    path = tmp_path / "group.csv"
-    path.write_bytes(data)
-    with pytest.raises(InputError, match=words) as caught:
-        read_roster(path)
-    assert len(caught.value.lines()) == 1
 
 
 def base(tmp_path, ranges):

@@ -73,7 +73,7 @@ def test_a_class_is_printed_on_two_landscape_pages(students, tables, pages):
     rows = [
         {"number": n, "student": f"Константинопольский Александр {n}", "group": "ДВС-1",
          "points": 98.76, "status": "нужна ручная проверка", "remark": "", "file": "", "manual": 0,
-         "decision": None, "result": SimpleNamespace(items=entries)}
+         "decision": None, "result": SimpleNamespace(sha256="", items=entries)}
         for n in range(1, students + 1)
     ]  # fmt: skip
     sheet = load_workbook(io.BytesIO(gradebook_xlsx(rows, 100)))[TITLE]

@@ -7,9 +7,11 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from openpyxl import Workbook
 
-from reports.grading.reading.selfcheck import findings, is_work_book
+from reports.grading.reading.selfcheck import findings, is_work_book, remarks
+from reports.shared.errors import InputError
 from reports.workbook.layout import Layout
 from reports.workbook.write import workbook_bytes
 from tests.grading import classroom
@@ -24,6 +26,27 @@ def told(tmp_path: Path, data: bytes) -> dict[str, str]:
     path.write_bytes(data)
     assert is_work_book(path)
     return {found.where: found.what for found in findings(path)}
+
+
+def test_what_a_page_tells_is_short_and_no_condition(tmp_path: Path) -> None:
+    path = tmp_path / "книга.xlsx"
+    path.write_bytes(classroom.handout())
+    lines = remarks(str(path))["remarks"]
+    assert len(lines) == 21 and "пусто" in lines[0] and "и ещё замечаний: " in lines[-1]
+    path.write_bytes(workbook_bytes(classroom.assignment().model))
+    assert remarks(str(path))["remarks"] == [
+        "в книге нет идентификатора: это не выданная рабочая книга"
+    ]
+
+    def without_speed(book: Workbook, layout: Layout) -> None:
+        cell = layout.cells["regime_speed_rpm"]
+        book[cell.sheet].cell(cell.row, cell.column).value = None
+
+    path.write_bytes(filled_book(classroom.handout(), classroom.assignment(), edit=without_speed))
+    assert len(remarks(str(path))["remarks"]) == 1  # its input is none: a person decides on it
+    path.write_bytes(b"MZ")
+    with pytest.raises(InputError, match="это не книга"):
+        remarks(str(path))
 
 
 def spoilt(book: Workbook, layout: Layout) -> None:

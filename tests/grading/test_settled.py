@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import io
+import re
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -11,9 +14,10 @@ from reports.grading.reading.student import Student
 from reports.grading.reading.submissions import Submission
 from reports.recalculation import evaluate
 from reports.recalculation.read import read_grid
+from reports.spec.evaluation import evaluate_model
 from tests.grading import classroom
 from tests.grading.fill import filled_book
-from tests.grading.forms import as_excel, tampered
+from tests.grading.forms import as_excel, rewritten, tampered
 
 HALF = {"omega": ["=regime_speed_rpm*PI()/60"]}
 
@@ -45,6 +49,45 @@ def test_a_right_book_is_not_calculated_again(marker, monkeypatch):
 
     monkeypatch.setattr(evaluate, "plain_book", never)
     assert mark(marker, right())["points"] == 100
+
+
+RING = {"E": "G{r}-F{r}", "F": "G{r}-E{r}", "G": "E{r}+F{r}"}
+
+
+def ring() -> bytes:
+    """A right book in which three columns are made of each other, and hold the right numbers."""
+    keys = dict(zip(RING, ("P3_1.v1_m_s", "P3_1.v2_m_s", "P3_1.v_m_s"), strict=True))
+    changes = {node: [f"={RING[letter].format(r=row)}" for row in range(6, 19)]
+               for letter, node in keys.items()}  # fmt: skip
+    values = evaluate_model(classroom.assignment().model).columns["P3_1"]
+
+    def with_numbers(name: str, data: bytes) -> bytes:
+        text = data.decode("utf-8") if b"<f>G6-F6</f>" in data else ""
+        for letter, node in keys.items():
+            for row in range(6, 19):
+                number = values[node.partition(".")[2]][row - 6]
+                cell = rf'(<c r="{letter}{row}"[^>]*><f>[^<]*</f>)<v ?/?>(</v>)?'
+                text = re.sub(cell, rf"\g<1><v>{float(number)!r}</v>", text)
+        return text.encode() or data
+
+    book = filled_book(classroom.handout(), classroom.assignment(), changes)
+    return rewritten(book, with_numbers)
+
+
+def test_a_ring_of_right_numbers_rests_on_nothing(marker):
+    """Not even for the second student who hands it in: its formulas are known by then."""
+    assert b"<v>0.0</v>" in b"".join(parts_of(ring()))
+    for _ in range(3):
+        result = mark(marker, ring())
+        lines = {line["id"]: line for line in result["items"]}
+        found = [lines[f"P3_1.{key}"] for key in ("v1_m_s", "v2_m_s", "v_m_s")]
+        assert [(line["verdict"], line["points"]) for line in found] == [("unknown", 0)] * 3
+        assert result["manual"]
+
+
+def parts_of(data: bytes) -> list[bytes]:
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        return [archive.read(name) for name in archive.namelist()]
 
 
 def test_what_follows_from_a_mistake_is_calculated(marker):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from types import SimpleNamespace
 
 import numpy as np
@@ -14,6 +15,7 @@ from reports.grading.judging.verdicts import tolerance
 from reports.workbook.layout import Layout
 from tests.grading import classroom
 from tests.grading.fill import filled_book, solved_formulas
+from tools.referees.by_libreoffice import LibreOffice
 
 
 def formulas() -> dict[str, list[str]]:
@@ -131,3 +133,27 @@ def test_a_copy_of_a_sheet_that_is_filled_instead_is_for_a_person(original):
     told = {item["id"] for item in result["items"] if item["id"].startswith("P3_1.")}
     assert found == (told if original == "empty" else set())
     assert bool(result["manual"]) == (original == "empty")
+
+
+@pytest.mark.parametrize("saved", [True, False])
+def test_a_look_up_over_a_column_that_follows_from_it_is_for_a_person(saved):
+    """LibreOffice takes one cell of the column; without its number it is a circle."""
+
+    def on_one_sheet(book: Workbook, layout: Layout) -> None:
+        sheet, row = book.create_sheet("Расчёт"), 0
+        for node in ("P3_1.s1_mm", "P3_1.s2_mm", "P3_1.s_mm"):
+            table, column = layout.columns[node]
+            for at in layout.rows_of(table):
+                row += 1
+                cell = book[table.sheet].cell(at, column)
+                text = re.sub(r"(?<![\w!'$])(\$?[A-Z]\$?\d+)", rf"'{table.sheet}'!\1", cell.value)
+                sheet.cell(row, 2).value = text
+                cell.value = f"=INDEX(Расчёт!$B:$B,{row})"
+
+    book = filled_book(classroom.handout(), classroom.assignment(), edit=on_one_sheet)
+    if saved:
+        (book,) = LibreOffice().converted([book])
+    result = classroom.marks(book)
+    found = classroom.verdicts(result)
+    assert set(found.values()) == ({"unknown"} if saved else {"error", "groundless"})
+    assert bool(result["manual"]) == saved

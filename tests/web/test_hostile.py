@@ -8,9 +8,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from starlette.applications import Starlette
+from starlette.exceptions import HTTPException
 from starlette.testclient import TestClient
 
 from reports.grading.issuing.ticket import SECRET, kept_secret
+from reports.shared.errors import InputError
+from reports.web import doors
 from reports.web.app import STATIC, Settings, create_app
 from reports.web.classes import token_of
 from reports.web.doors import MOST_JSON, Rate
@@ -228,7 +232,7 @@ def test_a_seed_is_no_option(page: Page, client: TestClient) -> None:
     data = client.app.app.state.settings.data  # type: ignore[attr-defined]
     page.post("/api/login", {"token": token_of(kept_secret(data / SECRET))})
     wanted = {"title": "x", "base.toml": classroom.base_text(), "seed": "1 --rubric /etc/passwd",
-              "roster.csv": classroom.roster_text(1)}  # fmt: skip
+              "roster": classroom.roster_text(1)}  # fmt: skip
     name = page.post("/api/teacher", wanted)["name"]
     told: dict[str, Any] = {}
     for _ in range(300):
@@ -312,6 +316,27 @@ def test_in_a_network_an_address_is_known_and_a_name_is_not(
 ) -> None:
     app = create_app(Settings(tmp_path, ("*",), workers=1))
     assert TestClient(app).get("/", headers={"host": host}).status_code == code
+
+
+@pytest.mark.parametrize(
+    ("answer", "code"), [(HTTPException(503, "занят"), 200), (InputError("не книга"), 422)]
+)
+def test_a_busy_server_turns_no_work_away(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, answer: Exception, code: int
+) -> None:
+    """Whoever hands in at the last minute is not told to come again; what is no book is refused."""
+
+    async def asked(*_: object, **__: object) -> dict[str, Any]:
+        raise answer
+
+    monkeypatch.setattr(doors, "ask", asked)
+    place = tmp_path / "work.xlsx"
+    routes = doors.shown("/x", lambda _: doors.Shown({}, {}, {"work": place}))
+    handlers: Any = {InputError: doors.failed}
+    app = Starlette(routes=routes, exception_handlers=handlers)
+    app.state.settings = Settings(tmp_path)
+    assert TestClient(app).post("/x/work", content=b"PK").status_code == code
+    assert place.exists() == (code == 200)
 
 
 def test_secrets_lie_closed(client: TestClient) -> None:

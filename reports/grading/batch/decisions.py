@@ -13,24 +13,25 @@ from typing import Any
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.judging.marking import rescored
 from reports.grading.judging.works import Work
+from reports.grading.pages.gradebook import DECISION, OF_FILE
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.files import write_text
 
 FILE = "decisions.json"
 WHOLE = ""  # in the place of an item: the whole work
-FORMER = "*"  # the same before a file: a whole work in the place of which another one counts now
 ACCEPT, WITHDRAW = "+", "-"  # in the place of points
 _MOST = 500  # signs of a remark
 _WHOLE_WORDS = ("", "-", "всё", "все", "работа", "*")
 _ANOTHER = "после решения преподавателя сдан другой файл: решите о нём заново"
-_SHEET, _TABLE_HEADS = "Оценки", ("Решение: баллы", "Решение: примечание")
+_ANOTHER_COLUMN = "после решения преподавателя сдан другой файл, решите заново о столбцах: "
+_SHEET = "Оценки"
 
 
 @dataclass(frozen=True, slots=True)
 class Decision:
     """Points for an item or a whole work; None accepts the points of the program.
 
-    ``file`` is the SHA-256 of the whole work: what is handed in later has not been looked at.
+    ``file`` is the SHA-256 of the work: what is handed in later has not been looked at.
     """
 
     number: int
@@ -40,6 +41,11 @@ class Decision:
     author: str
     date: str
     file: str = ""
+
+    @property
+    def key(self) -> tuple[int, str, str]:
+        """What is decided once."""
+        return self.number, self.item, self.file
 
 
 def load_decisions(folder: Path) -> list[Decision]:
@@ -61,21 +67,23 @@ def load_decisions(folder: Path) -> list[Decision]:
 
 def save_decisions(folder: Path, decisions: Sequence[Decision]) -> None:
     """Write the decisions of a folder."""
-    ordered = sorted(decisions, key=lambda d: (d.number, d.item))
+    ordered = sorted(decisions, key=lambda entry: entry.key)
     data = {"format": "kshm-decisions", "decisions": [asdict(entry) for entry in ordered]}
     write_text(folder / FILE, json.dumps(data, ensure_ascii=False, indent=1) + "\n")
 
 
 def decided(
     kept: Sequence[Decision], register: Register, works: Sequence[Work],
-    words: Sequence[tuple[str, str, str, str]], author: str,
+    counted: Mapping[int, Work], words: Sequence[tuple[str, str, str, str]], author: str,
 ) -> list[Decision]:  # fmt: skip
     """Decisions with those of a command added: who, what, points, remark.
+
+    They are about the files that are ``counted``.
 
     Raises:
         InputError: no such student or item, or points that are none.
     """
-    made = {(entry.number, entry.item): entry for entry in kept}
+    made = {entry.key: entry for entry in kept}
     for who, what, points, remark in words:
         book = _student(register, works, who)
         item = WHOLE if what.strip().casefold() in _WHOLE_WORDS else what.strip()
@@ -84,15 +92,15 @@ def decided(
             hint = "имена столбцов — на странице студента в results/*.json: P3_1.s_mm"
             raise InputError(Problem(item, "в работе нет такого столбца", hint))
         if points.strip() == WITHDRAW:
-            for key in [key for key in made if key[0] == book.number]:
-                if key[1] == item or (item == WHOLE and key[1].startswith(FORMER)):
-                    del made[key]
+            made = {key: entry for key, entry in made.items() if key[:2] != (book.number, item)}
             continue
         value = None if points.strip() == ACCEPT else _points(points, register.rubric.maximum)
-        made[book.number, item] = Decision(
+        file = counted[book.number].sha256 if book.number in counted else ""
+        entry = Decision(
             book.number, item, value, one_line(remark, _MOST), one_line(author, 100),
-            datetime.now().isoformat(timespec="minutes"),
+            datetime.now().isoformat(timespec="minutes"), file,
         )  # fmt: skip
+        made[entry.key] = entry
     return list(made.values())
 
 
@@ -124,17 +132,22 @@ def _student(register: Register, works: Sequence[Work], who: str) -> Issued:
     return hits[0]
 
 
-def from_gradebook(path: Path, kept: Sequence[Decision], maximum: float) -> list[Decision]:
+def from_gradebook(
+    path: Path, kept: Sequence[Decision], counted: Mapping[int, Work], maximum: float
+) -> list[Decision]:
     """Decisions with those that a person has written into the gradebook.
+
+    They are about the files that it tells of, whatever is ``counted`` since.
 
     Raises:
         InputError: what is written there is no decision.
     """
     lines, author, date = _lines(path)
-    if not lines or any(head not in lines[0] for head in ("Вариант", *_TABLE_HEADS)):
+    if not lines or any(head not in lines[0] for head in ("Вариант", *DECISION)):
         return list(kept)
-    number_at, points_at, remark_at = (lines[0].index(head) for head in ("Вариант", *_TABLE_HEADS))
-    made = {(entry.number, entry.item): entry for entry in kept}
+    number_at, points_at, remark_at = (lines[0].index(head) for head in ("Вариант", *DECISION))
+    file_at = lines[0].index(OF_FILE) if OF_FILE in lines[0] else None
+    made = {entry.key: entry for entry in kept}
     problems: list[Problem] = []
     for row, line in enumerate(lines[1:], 2):
         number, points = line[number_at], str("" if line[points_at] is None else line[points_at])
@@ -145,7 +158,9 @@ def from_gradebook(path: Path, kept: Sequence[Decision], maximum: float) -> list
                 where = f"{path.name}, строка {row}"
                 problems.append(Problem(where, "решение о файле без владельца", hint))
             continue
-        key = int(number), WHOLE
+        work = counted.get(int(number))
+        file = work.sha256 if work is not None else ""
+        key = int(number), WHOLE, file if file_at is None else str(line[file_at] or "")
         earlier = made.get(key)
         if not points.strip():
             if earlier is not None and not text:  # taken out by hand
@@ -158,7 +173,7 @@ def from_gradebook(path: Path, kept: Sequence[Decision], maximum: float) -> list
             problems += [replace(problem, where=where) for problem in error.problems]
             continue
         if earlier is None or (earlier.points, earlier.remark) != (value, text):
-            made[key] = Decision(*key, value, text, one_line(author, 100), date)
+            made[key] = Decision(*key[:2], value, text, one_line(author, 100), date, key[2])
     if problems:
         raise InputError(problems)
     return list(made.values())
@@ -182,34 +197,12 @@ def _lines(path: Path) -> tuple[list[tuple[Any, ...]], str, str]:
     return lines, author, date
 
 
-def bound(decisions: Sequence[Decision], counted: Mapping[int, Work]) -> list[Decision]:
-    """Decisions on whole works with their files, those on files that no longer count apart."""
-
-    def of(entry: Decision) -> Decision:
-        work = counted.get(entry.number)
-        if work is None or not (entry.item == WHOLE or entry.item.startswith(FORMER)):
-            return entry
-        file = entry.file or work.sha256
-        return replace(entry, item=WHOLE if file == work.sha256 else FORMER + file, file=file)
-
-    return [of(entry) for entry in decisions]
-
-
-def applied(
-    result: dict[str, Any], decisions: Sequence[Decision], *, counts: bool = True
-) -> dict[str, Any]:
-    """A result as the person has decided; without decisions the same.
-
-    Where another file was decided on, the one that ``counts`` waits for a person.
-    """
-    known = [entry for entry in decisions if entry.number == result.get("number")]
-    own = [entry for entry in known if not entry.item.startswith(FORMER)]
-    if not known:
+def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, Any]:
+    """A result as the person has decided on its file; without such decisions the same."""
+    own = _of(result, decisions)
+    if not own:
         return result
     made = copy.deepcopy(result)
-    if counts and len(own) < len(known) and all(entry.item != WHOLE for entry in own):
-        made["manual"].append(_ANOTHER)
-        made["doubts"].append(_ANOTHER)
     made["decisions"] = [asdict(entry) for entry in own]
     lines = {line["id"]: line for line in made["items"]}
     settled = set()
@@ -232,3 +225,24 @@ def applied(
     elif not open_:
         made["manual"] = [text for text in made["manual"] if not text.startswith("не удалось")]
     return made
+
+
+def waiting(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, Any]:
+    """The result that counts: it waits for a person where another file was decided on."""
+    own = {entry.item for entry in _of(result, decisions)}
+    former = {entry.item for entry in decisions if entry.number == result["number"]} - own
+    if WHOLE in own or not former:
+        return result
+    made = copy.deepcopy(result)
+    if WHOLE in former:
+        made["manual"].append(_ANOTHER)
+        made["doubts"].append(_ANOTHER)
+    labels = [line["label"] for line in made["items"] if line["id"] in former]
+    if labels:
+        made["manual"].append(_ANOTHER_COLUMN + ", ".join(labels[:8]))
+    return made
+
+
+def _of(result: dict[str, Any], decisions: Sequence[Decision]) -> list[Decision]:
+    about = result.get("number"), result["sha256"]
+    return [entry for entry in decisions if (entry.number, entry.file) == about]

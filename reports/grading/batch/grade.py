@@ -13,12 +13,13 @@ from typing import Any
 
 from reports.grading.batch.cluster import grade_far
 from reports.grading.batch.decisions import (
+    Decision,
     applied,
-    bound,
     decided,
     from_gradebook,
     load_decisions,
     save_decisions,
+    waiting,
 )
 from reports.grading.batch.pool import TIMEOUT_S, Outcome, grade_all
 from reports.grading.issuing.issue import latin
@@ -161,6 +162,7 @@ class _Batch:
             f"{FORMAT} {register.json_text()}".encode() + _program().encode()
         ).hexdigest()
         self._hashes: dict[str, str] = {}
+        self._sha256: dict[str, str] = {}
         self._taken_over = 0
 
     @property
@@ -184,23 +186,41 @@ class _Batch:
     def decide(self, options: Options) -> None:
         """Decisions kept, written into the gradebook and given with the command."""
         kept = load_decisions(self.folder)
-        rubric = self.register.rubric
-        found = from_gradebook(self.folder / "gradebook.xlsx", kept, rubric.maximum)
+        counted = self._decided(kept)  # what was seen before the new words
+        rubric, book = self.register.rubric, self.folder / "gradebook.xlsx"
+        found = from_gradebook(book, kept, counted, rubric.maximum)
         works = list(self.works.values())
-        counted = choose(works, rubric.attempts.count)
-        found = decided(found, self.register, works, options.decisions, options.author)
-        found = bound(found, counted)
+        found = decided(found, self.register, works, counted, options.decisions, options.author)
         if found or kept:
             save_decisions(self.folder, found)
-        touched = {entry.number for entry in (*kept, *found)}
-        for work in works:
-            if work.number in touched:
-                path = self.folder / RESULTS / f"{Path(work.page).stem}.json"
-                counts = counted[work.number] is work if work.number in counted else False
-                raw = json.loads(path.read_text(encoding="utf-8"))
-                result = applied(raw, found, counts=counts)
-                write_text(self.folder / work.page, student_page(result, rubric))
-                self._keep(result)
+        if found != kept:
+            self._decided(found, also=kept)
+
+    def _decided(
+        self, decisions: Sequence[Decision], also: Sequence[Decision] = ()
+    ) -> dict[int, Work]:
+        """Take decisions into the works and pages of their students; which works count then."""
+        touched = {entry.number for entry in (*decisions, *also)}
+        results = {
+            work.key: applied(self._result(work), decisions)
+            for work in self.works.values()
+            if work.number in touched
+        }
+        for result in results.values():
+            self._keep(result)
+        counted = choose(list(self.works.values()), self.register.rubric.attempts.count)
+        for key, result in results.items():
+            counts = counted[result["number"]].key == key
+            shown = waiting(result, decisions) if counts else result
+            write_text(self.folder / shown["page"], student_page(shown, self.register.rubric))
+            self._keep(shown)
+        return counted
+
+    def _result(self, work: Work) -> dict[str, Any]:
+        """The result of a work as the program has made it."""
+        path = self.folder / RESULTS / f"{Path(work.page).stem}.json"
+        found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        return found
 
     def start(self, submissions: Sequence[Submission]) -> None:
         """Take over what an earlier run has finished of the same files under the same rules."""
@@ -248,6 +268,7 @@ class _Batch:
             data = hashlib.sha256(submission.read()).hexdigest()
         except InputError as error:
             data = str(error)
+        self._sha256[submission.key] = data
         about = f"{data} {submission.key} {submission.time} {self._rules}"
         return hashlib.sha256(about.encode()).hexdigest()
 
@@ -257,6 +278,7 @@ class _Batch:
         if result is None:
             marker = Marker(self.register)
             blank = blank_result(submission)
+            blank["sha256"] = self._sha256[submission.key]
             result = marker.refused(blank, submission, outcome.problem)
             page = student_page(result, self.register.rubric)
         stem = _stem(result)

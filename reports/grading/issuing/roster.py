@@ -1,27 +1,28 @@
-"""The list of a group: CSV as Excel, Moodle or a person writes it."""
+"""The list of a group, as Excel, Moodle or a person writes it: the same rules for any file."""
 
 from __future__ import annotations
 
-import csv
-import io
-import unicodedata
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from reports.shared.errors import InputError, Problem, one_line
-from reports.shared.files import reason
+from reports.grading.issuing.listing import MAX_FIELD, Line, Listing, listings, refused
+from reports.shared.errors import InputError, Problem
 
-MAX_BYTES, MAX_STUDENTS, MAX_FIELD = 2_000_000, 2000, 200
+MAX_STUDENTS = 2000
+_TITLES = 20  # lines above the head: what the list is, of which year
 
 _HEADS = {
     "surname": ("фамилия", "surname", "last name", "lastname", "фамилия студента"),
     "name": ("имя", "имя и отчество", "имя отчество", "name", "first name", "firstname"),
     "patronymic": ("отчество", "middle name"),
-    "full": ("фио", "ф.и.о.", "ф. и. о.", "фио студента", "студент", "student", "full name",
-             "полное имя", "фамилия и имя", "фамилия имя отчество", "фамилия, имя, отчество"),
+    "full": ("фио", "ф и о", "фио студента", "ф и о студента", "студент", "обучающийся", "student",
+             "full name", "полное имя", "фамилия и о", "фамилия имя", "фамилия и имя",
+             "фамилия имя отчество", "фамилия имя и отчество"),
     "group": ("группа", "group", "groups", "группы"),
     "id": ("номер", "шифр", "id", "id number", "индивидуальный номер", "логин", "login",
-           "username", "зачетка", "зачётка", "номер зачетки", "номер зачётки"),
+           "username", "имя пользователя", "зачетка", "зачётка", "номер зачетки", "номер зачётки",
+           "номер зачетной книжки", "номер зачётной книжки", "№ зачетки", "№ зачётки"),
     "email": ("email", "e-mail", "почта", "адрес электронной почты", "email address"),
 }  # fmt: skip
 
@@ -44,48 +45,97 @@ class Student:
 
 
 def read_roster(path: Path) -> list[Student]:
-    """Students of a CSV file: UTF-8 or Windows-1251, comma, semicolon or tab.
+    """Students of a CSV file (UTF-8 or Windows-1251; comma, semicolon or tab) or of an Excel book.
 
     Raises:
         InputError: everything that is wrong with it.
     """
-    text = _text(path)
-    sample = text.lstrip("\r\n").partition("\n")[0]
-    delimiter = max(";,\t", key=sample.count)
-    try:
-        rows = list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True))
-    except csv.Error:
-        raise _refused(path, "это не CSV: не закрыта кавычка", "сохраните список заново") from None
-    rows = [[_clean(cell) for cell in row] for row in rows]
-    numbered = [(i, row) for i, row in enumerate(rows, 1) if any(row)]
-    if numbered and numbered[0][1][0].casefold() == "sep=":  # Excel's word on the delimiter
-        del numbered[0]
-    if not numbered:
-        raise _refused(path, "список пуст", "нужны столбцы: Фамилия;Имя;Группа")
-    columns = _columns(numbered[0][1])
-    if "full" not in columns and "surname" not in columns:
-        what = "в первой строке нет столбца «Фамилия» или «ФИО»"
-        raise _refused(path, what, "первая строка: Фамилия;Имя;Группа;Номер;Email")
-    if len(numbered) == 1:
-        raise _refused(path, "в списке нет ни одного студента", "впишите их под заголовком")
-    if len(numbered) > MAX_STUDENTS + 1:
-        raise _refused(path, f"в списке больше {MAX_STUDENTS} студентов", "разделите его")
-    return _students(path, columns, numbered[1:])
+    found = listings(path)
+    if not any(listing.lines for listing in found):
+        raise refused(path, "список пуст", "нужны столбцы: Фамилия;Имя;Группа")
+    lists = [made for listing in found if (made := _headed(listing)) is not None]
+    if not lists:
+        what = "нет столбца «Фамилия» или «ФИО»"
+        raise refused(path, what, "первая строка: Фамилия;Имя;Группа;Номер;Email")
+    lists = [made for made in lists if made.people]
+    if not lists:
+        raise refused(path, "в списке нет ни одного студента", "впишите их под заголовком")
+    if len(lists[0].people) > MAX_STUDENTS:
+        raise refused(path, f"в списке больше {MAX_STUDENTS} студентов", "разделите его")
+    _refuse_another(path, lists)
+    return _students(lists[0])
 
 
-def _students(
-    path: Path, columns: dict[str, int], rows: list[tuple[int, list[str]]]
-) -> list[Student]:
+@dataclass(frozen=True, slots=True)
+class _List:
+    """People under a head that names the columns."""
+
+    listing: Listing
+    columns: dict[str, int]
+    people: list[Line]
+
+    def given(self, line: Line) -> dict[str, str]:
+        """What stands under each known head."""
+        cells = line.cells
+        return {key: cells[i] if i < len(cells) else "" for key, i in self.columns.items()}
+
+    def where(self, line: Line) -> str:
+        """The cell of a surname, for messages."""
+        return self.listing.place(line, self.columns.get("surname", self.columns.get("full", 0)))
+
+
+def _headed(listing: Listing) -> _List | None:
+    """The list of a sheet or file; titles may stand above its head, and a head has two lines."""
+    heads = [_columns(line.cells) for line in listing.lines[: _TITLES + 2]]
+    named = ["full" in head or "surname" in head for head in heads]
+    if True not in named[: _TITLES + 1]:
+        return None
+    first = named.index(True)
+    last = first + 1 if named[first + 1 : first + 2] == [True] else first
+    repeated = [line.cells for line in listing.lines[first : last + 1]]  # on each printed page
+    people = [
+        line
+        for line in listing.lines[last + 1 :]
+        if line.cells not in repeated and not _is_number(line)
+    ]
+    return _List(listing, heads[first] | heads[last], people)
+
+
+def _is_number(line: Line) -> bool:
+    """Whether a line holds only its number: lists are numbered ahead."""
+    return not line.faults and all(not c or c.rstrip(".)").isdigit() for c in line.cells)
+
+
+def _refuse_another(path: Path, lists: list[_List]) -> None:
+    """Two groups on two sheets must not become one; a sheet of marks repeats the people."""
+    known, *others = ({_named(made.given(line))[0].casefold() for line in made.people}
+                      for made in lists)  # fmt: skip
+    for other, made in zip(others, lists[1:], strict=True):
+        if other - known - {""}:
+            first, second = lists[0].listing.title, made.listing.title
+            what = f"на листе «{second}» есть студенты, которых нет на листе «{first}»"
+            raise refused(path, what, "оставьте в книге один лист со списком")
+
+
+def _named(given: dict[str, str]) -> tuple[str, str]:
+    """Surname and names."""
+    surname, name = given.get("surname", ""), given.get("name", "")
+    if not surname:
+        surname, _, name = given.get("full", "").partition(" ")
+    return surname, f"{name} {given.get('patronymic', '')}".strip()
+
+
+def _students(made: _List) -> list[Student]:
     problems: list[Problem] = []
     students: list[Student] = []
     seen: dict[str, int] = {}
-    for number, row in rows:
-        given = {key: row[i] if i < len(row) else "" for key, i in columns.items()}
-        surname, name = given.get("surname", ""), given.get("name", "")
-        if not surname:
-            surname, _, name = given.get("full", "").partition(" ")
-        name = f"{name} {given.get('patronymic', '')}".strip()
-        where = f"{path.name}, строка {number}"
+    for line in made.people:
+        given, where = made.given(line), made.where(line)
+        surname, name = _named(given)
+        if faults := sorted(line.faults.keys() & made.columns.values()):
+            where = made.listing.place(line, faults[0])
+            problems.append(Problem(where, line.faults[faults[0]], "впишите текст"))
+            continue
         if not surname:
             problems.append(Problem(where, "нет фамилии", "впишите её или удалите строку"))
             continue
@@ -98,7 +148,7 @@ def _students(
             what = f"студент «{key}» уже есть в строке {seen[key.casefold()]}"
             problems.append(Problem(where, what, "однофамильцам добавьте столбец «Номер»"))
             continue
-        seen[key.casefold()] = number
+        seen[key.casefold()] = line.number
         email, given_id = given.get("email", ""), given.get("id", "")
         students.append(Student(key, surname, name, group, email, given_id))
     if problems:
@@ -109,44 +159,8 @@ def _students(
 def _columns(head: list[str]) -> dict[str, int]:
     found: dict[str, int] = {}
     for index, cell in enumerate(head):
-        word = cell.casefold().strip(" *:")
+        word = " ".join(re.split(r"[\s.,*:]+", cell.casefold())).strip()
         for key, words in _HEADS.items():
             if word in words:
                 found.setdefault(key, index)
     return found
-
-
-def _text(path: Path) -> str:
-    try:
-        with path.open("rb") as stream:
-            data = stream.read(MAX_BYTES + 1)
-    except OSError as error:
-        hint = "проверьте имя и путь"
-        raise _refused(path, f"файл не читается: {reason(error)}", hint) from None
-    if len(data) > MAX_BYTES:
-        raise _refused(path, "файл больше 2 МБ", "это не список группы")
-    if data.startswith((b"PK\x03\x04", b"\xd0\xcf\x11\xe0")):
-        raise _refused(path, "это книга Excel, а нужен CSV", "сохраните список как CSV")
-    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise _refused(path, "кодировка UTF-16", "сохраните как «CSV UTF-8»")
-    if b"\x00" in data:
-        raise _refused(path, "это двоичный файл, а нужен CSV", "выберите другой файл")
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        pass
-    text = data.decode("cp1251", errors="replace")
-    letters = [char for char in text if char.isalpha()]
-    russian = sum("а" <= char.casefold() <= "я" or char in "ёЁ" for char in letters)
-    if "\ufffd" in text or russian < len(letters) / 3:
-        raise _refused(path, "кодировка не UTF-8 и не Windows-1251", "сохраните как «CSV UTF-8»")
-    return text
-
-
-def _clean(cell: str) -> str:
-    text = unicodedata.normalize("NFC", cell)
-    return one_line(text, MAX_FIELD + 1)
-
-
-def _refused(path: Path, what: str, hint: str) -> InputError:
-    return InputError(Problem(path.name, what, hint))

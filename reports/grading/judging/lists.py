@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from functools import lru_cache
 
 from reports.grading.reading.student import Student
-from reports.recalculation.formulas import Formula
+from reports.recalculation.formulas import PLACES, Formula
 from reports.recalculation.grid import Run
+from reports.recalculation.language import Token
 
 _ALIKE = 3  # formulas that differ in nothing but their numbers, to be a list of numbers
 _MANY = 8  # long numbers in one formula, to be a list of numbers
@@ -20,36 +21,49 @@ _TYPED = 4  # digits, the comma with them, of a number in a list that is read; a
 
 def reads_a_list(student: Student, node: str) -> bool:
     """Whether a column is made of a column of numbers typed in beside the tables."""
-    if listed(student.helpers(node)):
+    if listed(student.helpers(node)) or listed(student.runs(node), cells=True):
         return True
     read = student.own_numbers(node)
     long = {v for v in read if _digits(f"{v!r}") + (not v.is_integer()) >= _TYPED}
     return len(long) >= _ALIKE and len(read) >= student.assignment.length(node) // 2
 
 
-def listed(runs: Sequence[Run]) -> set[int]:
-    """Runs that are a list of numbers, by ``id``: alike but for them, or full of them."""
-    alike: dict[tuple[tuple[str, str], ...], list[Run]] = {}
+def listed(runs: Sequence[Run], *, cells: bool = False) -> set[int]:
+    """Runs that are a list of numbers, by ``id``: alike but for them, or full of them.
+
+    With ``cells`` formulas that take other cells each are alike too: one may count by cells.
+    """
+    alike: dict[tuple[str, ...], list[Run]] = {}
     found = set()
     for run in runs:
         if run.formula is None:
             continue
-        alike.setdefault(_skeleton(run.formula), []).append(run)
+        alike.setdefault(_parts(run.formula, cells=cells)[0], []).append(run)
         if _long_numbers(run.formula) >= _MANY or _chooses(run.formula):
             found.add(id(run))
     for group in alike.values():
-        numbers = {
-            tuple(v for kind, v in run.formula.pattern if kind == "number")
-            for run in group
-            if run.formula is not None
-        }
+        numbers = {_parts(run.formula, cells=cells)[1] for run in group if run.formula is not None}
         if len(numbers) >= _ALIKE:
             found |= {id(run) for run in group}
     return found
 
 
-def _skeleton(formula: Formula) -> tuple[tuple[str, str], ...]:
-    return tuple((kind, "") if kind == "number" else (kind, v) for kind, v in formula.pattern)
+@lru_cache(maxsize=20_000)
+def _parts(formula: Formula, *, cells: bool) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """A formula without what tells a number in it, and that: texts too, rows of ROW, cells."""
+    tokens: list[Token] = []
+    for kind, value in formula.pattern:
+        if tokens and tokens[-1][0] == "sheet":
+            tokens[-1] = (kind, tokens[-1][1] + value)
+        elif kind != "space":
+            tokens.append((kind, value))
+    skeleton, numbers = [], []
+    for before, (kind, value) in zip([("", ""), ("", ""), *tokens], tokens, strict=False):
+        place = kind == "ref" and (cells or before[1].upper() in PLACES)  # ROW, a bracket, a cell
+        if place or kind in ("number", "text"):
+            numbers.append(value)
+        skeleton.append(kind if place or kind in ("number", "text") else f"{kind} {value}")
+    return tuple(skeleton), tuple(numbers)
 
 
 def _long_numbers(formula: Formula) -> int:

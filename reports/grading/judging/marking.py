@@ -43,7 +43,7 @@ from reports.workbook.intake import check_data
 from reports.workbook.layout import Layout
 from reports.workbook.package import Package
 
-FORMAT = 5
+FORMAT = 6
 Result = dict[str, Any]
 
 
@@ -141,16 +141,17 @@ class Marker:
             self._proofs[key] = proofs
         return Response(student, proofs)
 
-    def student(self, book: Issued, grid: Grid) -> Student:
+    def student(self, book: Issued, grid: Grid, package: Package | None = None) -> Student:
         """The workbook under its assignment."""
         made = Student.of(*self.assignment(book), grid)
+        made.package = package
         restore(made)
         leave_out_unused(made)
         return made
 
     def _grade(self, result: Result, grid: Grid, book: Issued, package: Package) -> None:
         assignment = self.assignment(book)[0]
-        student = self.student(book, grid)
+        student = self.student(book, grid, package)
         response = self.response(student)
         student.settle(response.settled)
         judgements = judge_all(student, response)

@@ -23,12 +23,10 @@ def settled(student: Student, exact: Mapping[str, bool]) -> frozenset[str]:
     found = {node for node, follows in exact.items() if follows and _is_right(student, node)}
     found |= {node for node in assignment.live_nodes - student.rewritten if student.runs(node)}
     found = {node for node in found if not isinstance(student.expected.value(node), str)}
-    waiting = True
-    while waiting:
-        out = {node for node in found if not student.refers(node) <= given | found}
-        found -= out
-        waiting = bool(out)
-    return frozenset(found)
+    done: set[str] = set()
+    while ready := {node for node in found - done if student.refers(node) <= given | done}:
+        done |= ready  # from the input data on: a ring of right numbers rests on nothing
+    return frozenset(done)
 
 
 def _rows_as_issued(student: Student) -> set[str]:

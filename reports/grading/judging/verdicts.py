@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Item
 from reports.grading.judging import response as say
+from reports.grading.judging.errors import shown_errors
 from reports.grading.judging.response import Response
 from reports.grading.judging.tolerances import close, tolerance
-from reports.grading.reading.ground import circles, filled_copy, is_void, resting_on
+from reports.grading.reading.ground import calculated, circles, filled_copy, is_void, resting_on
 from reports.grading.reading.student import LOST, Answer, Student, known_values
+from reports.grading.reading.typed import TEXT_NUMBER
 from reports.recalculation.bench import rounded_to
 from reports.recalculation.evaluate import BLANK, ERROR, TEXT
 from reports.recalculation.language import UnknownFormula
@@ -36,6 +38,7 @@ WORDS = {
     RIGHT: "верно",
 }
 _ROUND = "круговая ссылка: величина считается через саму себя"
+_ROUND_HERE = "круговая ссылка, а верные числа сохранены: поиск во всём столбце или вставка?"
 _PASTED = "считает от столбца вписанных чисел, и не для всех исходных данных верно: откуда они?"
 _ENOUGH = 0.5  # share of right rows from which a column is paid by rows
 
@@ -65,14 +68,8 @@ class Judgement:
 def judge_all(student: Student, response: Response) -> list[Judgement]:
     """Verdicts on all items, in the order of the book."""
     items = student.assignment.items
-    student.assume(
-        {
-            node
-            for item in items
-            for node in item.nodes
-            if student.answers[node].problem and response.problem(node)
-        }
-    )
+    nodes = [node for item in items for node in item.nodes]
+    student.assume({n for n in nodes if student.answers[n].problem and response.problem(n)})
     found = {item.id: _judged(item, student, response) for item in items}
     _without_ground(found, student)
     _backwards(found, student, response)
@@ -112,9 +109,26 @@ def _of_cells(item: Item, student: Student, response: Response) -> Judgement:
     if set(kinds) == {BLANK}:
         why = filled_copy(student, item.nodes[0])
         return replace(made, verdict=UNKNOWN if why else EMPTY, reason=why)
+    odd = _odd(answers)
+    good = close(item, values, expected, tolerance(item, expected, student))
+    unread = [i for i, why in odd.items() if why != TEXT_NUMBER and not good[i]]
+    if unread:
+        return replace(made, verdict=UNKNOWN, rows=tuple(unread), typed=(), reason=odd[unread[0]])
     if not student.assignment.formulas_demanded(item) and typed.all():
-        return _free(made, student)
-    return _by_rows(made, student, response, kinds, letters)
+        made = _free(made, student)
+    else:
+        made = _by_rows(made, student, response, kinds, letters)
+    return replace(made, reason=TEXT_NUMBER) if odd and not made.reason else made
+
+
+def _odd(answers: Sequence[Answer]) -> dict[int, str]:
+    """Values of an item that a spreadsheet has taken for something else, and for what."""
+    ends = np.cumsum([len(answer.kinds) for answer in answers])
+    return {
+        int(end) - len(answer.kinds) + i: why
+        for end, answer in zip(ends, answers, strict=True)
+        for i, why in answer.odd.items()
+    }
 
 
 def _free(made: Judgement, student: Student) -> Judgement:
@@ -127,7 +141,7 @@ def _free(made: Judgement, student: Student) -> Judgement:
     own = own_values(item, student, None)
     if close(item, made.values, own, allowed).all():
         return replace(made, verdict=CARRIED, rows=_where(~good), typed=(), paid=1.0)
-    return replace(made, verdict=WRONG, rows=_where(~good), paid=float(good.mean()) * 0.0)
+    return replace(made, verdict=WRONG, rows=_where(~good))
 
 
 # How a cell that is not right is called, the worst first.
@@ -169,7 +183,7 @@ def _by_rows(
         paid = share * student.assignment.rubric.credit.rows if by_rows else 0.0
     reason = _reason(verdict, words, kinds, letters, unlinked=unlinked)
     if verdict == BROKEN:
-        reason = _errors(item, student)
+        reason = shown_errors(item, student)
     return replace(made, verdict=verdict, rows=rows, paid=paid, reason=reason,
                    coarse=say.COARSE in letters or _coarse(item, student))  # fmt: skip
 
@@ -204,34 +218,13 @@ def _reason(verdict: str, words: Sequence[str], kinds: str, letters: str, *, unl
     if verdict == EMPTY:
         return "заполнены не все строки"
     if verdict == TYPED:
-        if unlinked:
+        if unlinked and set(letters) != {say.NOTHING}:
             return "формула состоит из одних чисел"
         if say.PARTLY in letters:
             return "вместо ссылки в формуле стоит число: при других данных она неверна"
     if verdict == WRONG and TEXT in kinds and set(words) == {WRONG}:
         return "вместо числа стоит текст"
     return ""
-
-
-_ERRORS = {
-    "#DIV/0!": "#ДЕЛ/0! — деление на ноль", "#N/A": "#Н/Д — значение не найдено",
-    "#VALUE!": "#ЗНАЧ! — в вычислении текст", "#REF!": "#ССЫЛКА! — ссылка на удалённую ячейку",
-    "#NUM!": "#ЧИСЛО! — вычислить нельзя", "#NAME?": "#ИМЯ? — неизвестное имя",
-    "#CIRC!": "круговая ссылка", "#NULL!": "#ПУСТО! — области не пересекаются",
-}  # fmt: skip
-
-
-def _errors(item: Item, student: Student) -> str:
-    """Which error values stand in the cells."""
-    found: dict[str, None] = {}
-    for node in item.nodes:
-        place = student.placement.places.get(node)
-        for row in place.rows if place is not None else ():
-            if place is not None and row is not None:
-                text = student.engine.shown(place.sheet, place.column, row)
-                if isinstance(text, str) and text.startswith("#"):
-                    found.setdefault(_ERRORS.get(text, text))
-    return ", ".join(found)
 
 
 def _coarse(item: Item, student: Student) -> bool:
@@ -285,11 +278,13 @@ def _is_linked(item: Item, student: Student) -> bool:
 def _without_ground(found: dict[str, Judgement], student: Student) -> None:
     """Blanks and circles pass nothing on: what rests on them is no result."""
     round_ = circles(student)
+    held = calculated(student, round_)
     for id_, judgement in found.items():
-        if round_ & set(judgement.item.nodes) and judgement.verdict != UNKNOWN:
-            found[id_] = replace(judgement, verdict=BROKEN, paid=0.0,
-                                 reason=_ROUND)  # fmt: skip
-    void = set(round_)
+        at = round_ & set(judgement.item.nodes)
+        if at and judgement.verdict != UNKNOWN:
+            verdict, reason = (UNKNOWN, _ROUND_HERE) if at <= held else (BROKEN, _ROUND)
+            found[id_] = replace(judgement, verdict=verdict, paid=0.0, reason=reason)
+    void = set(round_ - held)
     for judgement in found.values():
         for node in judgement.item.nodes:
             if is_void(student, node):

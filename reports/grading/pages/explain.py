@@ -56,7 +56,7 @@ def explain(
     if match.book is None:
         raise InputError(Problem(file.name, "; ".join(match.doubts), "проверьте файл"))
     marker = Marker(register)
-    student = marker.student(match.book, grid)
+    student = marker.student(match.book, grid, package)
     item = _find_item(student, target)
     judgements = judge_all(student, marker.response(student))
     judgement = next(j for j in judgements if j.item is item)

@@ -12,6 +12,7 @@ from reports.exports.numbers import neutralised
 _HEAD = ("Вариант", "Студент", "Группа", "Баллы", "Из", "Состояние", "Файл", "Замечания")
 # Filled in by the instructor, read back by the next run.
 DECISION = ("Решение: баллы", "Решение: примечание")
+OF_FILE = "SHA-256"  # in a hidden column: the file that was decided on
 
 
 def gradebook_csv(rows: Sequence[dict[str, Any]], maximum: float) -> str:
@@ -70,7 +71,7 @@ def gradebook_xlsx(rows: Sequence[dict[str, Any]], maximum: float) -> bytes:
     sheet.title = "Оценки"
     blocks = _blocks(rows)
     head = ("Вариант", "Студент", "Группа", "Баллы", "Из", "Состояние", "Замечания", *DECISION)
-    sheet.append([*head, *blocks, "Файл"])
+    sheet.append([*head, *blocks, "Файл", OF_FILE])
     wrapped = Alignment(wrap_text=True, vertical="top")
     yellow = PatternFill("solid", fgColor="FFF9DB")
     for row in rows:
@@ -79,7 +80,7 @@ def gradebook_xlsx(rows: Sequence[dict[str, Any]], maximum: float) -> bytes:
         sheet.append(
             [row["number"], row["student"], row["group"], row["points"], maximum, row["status"],
              row["remark"], points, word.get("remark"), *(shares.get(block) for block in blocks),
-             row["file"]]
+             row["file"], row["result"].sha256 if row["result"] else ""]
         )  # fmt: skip
         for cell in sheet[sheet.max_row]:
             as_text(cell)
@@ -94,9 +95,10 @@ def gradebook_xlsx(rows: Sequence[dict[str, Any]], maximum: float) -> bytes:
         cell.alignment = wrapped
         cell.fill = PatternFill("solid", fgColor="D9E2F3")
     sheet.row_dimensions[1].height = 76  # points: titles of tables in five lines
-    widths = (9, 28, 11, 9, 7, 17, 46, 10, 26, *(11 for _ in blocks), 30)
+    widths = (9, 28, 11, 9, 7, 17, 46, 10, 26, *(11 for _ in blocks), 30, 9)
     for cell, width in zip(sheet[1], widths, strict=True):
         sheet.column_dimensions[cell.column_letter].width = width
+    sheet.column_dimensions[sheet.cell(1, sheet.max_column).column_letter].hidden = True
     sheet.freeze_panes = sheet.cell(2, 3)
     sheet.auto_filter.ref = sheet.dimensions
     sheet.page_setup.orientation, sheet.page_setup.paperSize = "landscape", sheet.PAPERSIZE_A4

@@ -14,6 +14,9 @@ from reports.grading.judging.works import Work
 from reports.grading.pages.pages import moment
 from reports.shared.russian import short
 
+# What is handed in beside the book: no work by itself.
+_BESIDE = (".doc", ".docx", ".odt", ".rtf", ".txt", ".md", ".pdf", ".jpg", ".jpeg", ".png", ".heic",
+           ".dwg", ".dxf", ".cdw", ".frw", ".pptx", ".xmcd", ".html")  # fmt: skip
 _BAR = 160  # px of the longest bar
 _STEPS = 10
 
@@ -41,11 +44,36 @@ def choose(results: Sequence[Work], count: str = "last") -> dict[int, Work]:
     return chosen
 
 
+def _is_beside(result: Work, chosen: dict[int, Work]) -> bool:
+    """Whether a file that cannot be read is no later version of the work that counts."""
+    counted = chosen.get(result.number or 0)
+    if counted is None or counted is result or result.status != "refused":
+        return False
+    looked = counted.decision["date"] if counted.decision else ""  # to the minute
+    known = result.time <= counted.time or bool(looked and result.time[: len(looked)] <= looked)
+    return known or result.file.casefold().endswith(_BESIDE)
+
+
+def _unread(result: Work, results: Sequence[Work], chosen: dict[int, Work]) -> list[str]:
+    """What was handed in after the work that counts and cannot be read."""
+    return [
+        f"оценён не последний файл: {other.file} — {text}"
+        for other in results
+        if other.number == result.number and other.status == "refused" and other is not result
+        and other.submitter is None and not _is_beside(other, chosen)
+        for text in other.manual[:1]
+    ]  # fmt: skip
+
+
 def table_rows(register: Register, results: Sequence[Work]) -> list[dict[str, Any]]:
     """A row for each student of the register, then one for each file without an owner."""
     count = register.rubric.attempts.count
     chosen, held = choose(results, count), suspicions(results)
-    copies = Counter(r.number for r in results if r.number is not None and r.submitter is None)
+    copies = Counter(
+        r.number
+        for r in results
+        if r.number is not None and r.submitter is None and not _is_beside(r, chosen)
+    )
     strange = {r.submitter: r for r in results if r.submitter is not None}
     rows = []
     for book in register.books:
@@ -60,7 +88,8 @@ def table_rows(register: Register, results: Sequence[Work]) -> list[dict[str, An
         if result is not None and foreign and not doubts and not word:
             doubts = list(result.manual)
         points = result.points if result else None
-        remarks = _remarks(result, copies[book.number], count)
+        unread = _unread(result, results, chosen) if result is not None else []
+        remarks = [*unread, *_remarks(result, copies[book.number], count)]
         if other is not None:
             remarks = list(doubts)
         remarks = list(dict.fromkeys([*doubts, *remarks]))
@@ -74,12 +103,12 @@ def table_rows(register: Register, results: Sequence[Work]) -> list[dict[str, An
                 "id": book.student.number,
                 "email": book.student.email,
                 "file": seen.file if seen else "",
-                "status": "ждёт решения" if doubts else _status(result),
+                "status": "ждёт решения" if doubts else _status(result, unread),
                 "points": None if doubts else points,
                 "provisional": points,
                 "result": result,
                 "page": result.page if result else "",
-                "manual": bool(doubts or (result and result.manual)),
+                "manual": bool(doubts or unread or (result and result.manual)),
                 "remark": "; ".join(remarks),
                 "decision": word,
             }
@@ -97,12 +126,13 @@ def table_rows(register: Register, results: Sequence[Work]) -> list[dict[str, An
     return rows
 
 
-def _status(result: Work | None) -> str:
+def _status(result: Work | None, unread: Sequence[str] = ()) -> str:
     if result is None:
         return "не сдано"
     words = {"graded": "проверено", "refused": "не принято", "unmatched": "не опознано"}
     word = words[result.status]
-    return "нужна ручная проверка" if result.status == "graded" and result.manual else word
+    asked = result.status == "graded" and (result.manual or unread)
+    return "нужна ручная проверка" if asked else word
 
 
 def _remarks(result: Work | None, copies: int, count: str) -> list[str]:
@@ -148,7 +178,7 @@ def summarise(register: Register, results: Sequence[Work]) -> dict[str, Any]:
                 "page": r.page,
             }
             for r in results
-            if (r.manual or held.get(r.key)) and not r.decision
+            if (r.manual or held.get(r.key)) and not r.decision and not _is_beside(r, chosen)
         ],
         "rows": rows,
     }

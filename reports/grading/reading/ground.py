@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from reports.grading.reading.student import Student, shown_in
+from reports.grading.reading.typed import means_something
 from reports.recalculation.bench import Cells, pinned
 from reports.recalculation.evaluate import BLANK, ERROR, TEXT, Engine
-from reports.recalculation.formulas import is_doubtful
 from reports.recalculation.language import UnknownFormula
 
 
@@ -42,6 +42,22 @@ def circles(student: Student) -> frozenset[str]:
     return frozenset(found)
 
 
+def calculated(student: Student, nodes: frozenset[str]) -> frozenset[str]:
+    """Nodes of circles for which the student's program has saved the right numbers all the same.
+
+    A look-up over a whole column refers to all of it; what it does not take closes no circle there.
+    """
+    found = set()
+    for node in nodes:
+        place, right = student.placement.places[node], student.expected.value(node)
+        column = student.grid.column(place.sheet, place.column)
+        saved = dict(zip(column.saved_rows, column.saved, strict=True))
+        numbers = [saved.get(row or 0, np.nan) for row in place.rows]
+        if not isinstance(right, str) and np.allclose(numbers, np.ravel(right), rtol=1e-6):
+            found.add(node)
+    return frozenset(found)
+
+
 def through(student: Student, node: str) -> frozenset[str]:
     """Asked nodes that a node refers to, through live formulas too, itself among them."""
     found: set[str] = set()
@@ -66,7 +82,7 @@ def is_void(student: Student, node: str) -> bool:
     if TEXT in answer.kinds and answer.typed.any():
         column = student.grid.column(answer.place.sheet, answer.place.column)
         texts = [column.constants.get(row) for row in answer.place.rows if row is not None]
-        nothing += sum(isinstance(t, str) and not is_doubtful(t, in_product=True) for t in texts)
+        nothing += sum(isinstance(text, str) and not means_something(text) for text in texts)
     return nothing > len(answer.kinds) / 2
 
 

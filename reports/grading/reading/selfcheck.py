@@ -19,7 +19,7 @@ from reports.grading.reading.ground import through
 from reports.grading.reading.matching import own_properties
 from reports.grading.reading.restoring import restore
 from reports.grading.reading.student import LOST, Student
-from reports.recalculation.evaluate import BLANK, ERROR, TEXT
+from reports.recalculation.evaluate import BLANK, ERROR, NUMBER, TEXT
 from reports.recalculation.grid import BadBook
 from reports.recalculation.language import UnknownFormula
 from reports.recalculation.read import read_grid, worksheets
@@ -31,6 +31,8 @@ from reports.workbook.inputs import shown
 from reports.workbook.intake import check_package
 from reports.workbook.layout import Layout
 from reports.workbook.package import Package
+
+_TOLD = 20  # remarks at once
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +68,7 @@ def findings(path: Path) -> list[Finding]:
     model = build_model(load_input(path).model)
     assignment = _assignment(model, package)
     student = Student.of(assignment, Layout.of(assignment.model), grid)
+    student.package = package
     found = list(_changed_inputs(student, package))
     restore(student)
     found += [
@@ -88,6 +91,24 @@ def findings(path: Path) -> list[Finding]:
         more = "" if len(followers) <= 6 else f" и ещё {len(followers) - 6}"
         found.append(Finding("Ошибки, пришедшие из названных выше", names + more))
     return found
+
+
+def remarks(path: str) -> dict[str, list[str]]:
+    """What is told of a book that is handed in; it may be handed in whatever is told.
+
+    Raises:
+        InputError: no program reads it.
+    """
+    book = Path(path)
+    check_package(book)
+    if not is_work_book(book):
+        return {"remarks": ["в книге нет идентификатора: это не выданная рабочая книга"]}
+    try:
+        lines = [f"{found.where}: {found.what}" for found in findings(book)]
+    except InputError as error:
+        lines = error.lines()
+    more = [f"и ещё замечаний: {len(lines) - _TOLD}"] if len(lines) > _TOLD else []
+    return {"remarks": lines[:_TOLD] + more}
 
 
 def _assignment(model: Model, package: Package) -> Assignment:
@@ -169,9 +190,13 @@ def _of_node(student: Student, node: str, *, errors: bool) -> list[Finding]:
         found.append(Finding(what, f"формулу программа не пересчитает: {answer.problem}"))
     for kind, words in ((LOST, "строка не найдена: верните угол в первый столбец"),
                         (BLANK, "пусто"), (TEXT, "текст вместо числа")):  # fmt: skip
-        rows = [r for r, k in zip(place.rows, answer.kinds, strict=True) if k == kind]
+        rows = [r for i, r in enumerate(place.rows)
+                if answer.kinds[i] == kind and i not in answer.odd]  # fmt: skip
         if rows:
             found.append(Finding(what, f"{words}: {_ranges(place.sheet, place.column, rows)}"))
+    for words in dict.fromkeys(answer.odd.values()):
+        rows = [place.rows[i] for i, why in answer.odd.items() if why == words]
+        found.append(Finding(what, f"{words}: {_ranges(place.sheet, place.column, rows)}"))
     wrong: dict[str, list[int | None]] = {}
     for row, kind in zip(place.rows, answer.kinds, strict=True):
         if errors and kind == ERROR and row is not None:
@@ -183,8 +208,8 @@ def _of_node(student: Student, node: str, *, errors: bool) -> list[Finding]:
     for text, rows in wrong.items():
         where = _ranges(place.sheet, place.column, rows)
         found.append(Finding(what, f"ошибка {text}: {where}"))
-    typed = [r for r, t in zip(place.rows, answer.typed, strict=True) if t]
-    typed = [r for r, k in zip(place.rows, answer.kinds, strict=True) if r in typed and k == "n"]
+    typed = [r for i, r in enumerate(place.rows)
+             if answer.typed[i] and answer.kinds[i] == NUMBER and i not in answer.odd]  # fmt: skip
     if typed:
         where = _ranges(place.sheet, place.column, typed)
         found.append(Finding(what, f"число вместо формулы: {where}"))

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import chain
 
@@ -13,13 +12,15 @@ from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.reading.placement import Place, Placement, find_places
+from reports.grading.reading.typed import DATE, as_meant, carried, dates, number_of
 from reports.recalculation.bench import Cells, needed, pinned
 from reports.recalculation.evaluate import BLANK, ERROR, NUMBER, Engine
 from reports.recalculation.formulas import is_doubtful
 from reports.recalculation.grid import Area, Grid, Run
 from reports.recalculation.language import UnknownFormula
 from reports.spec.evaluation import Evaluation
-from reports.workbook.layout import Layout
+from reports.workbook.layout import Cell, Layout
+from reports.workbook.package import Package
 
 Array = NDArray[np.float64]
 _MANY_AREAS = 100  # rectangles of one column that are looked at one by one
@@ -31,6 +32,7 @@ class Answer:
     """What stands in the cells of one node.
 
     ``kinds`` has a letter for each row: number, blank, text, error value, lost row.
+    A number that was typed as a text is a number here.
     """
 
     place: Place | None
@@ -38,6 +40,7 @@ class Answer:
     kinds: str
     typed: NDArray[np.bool_]
     problem: str = ""
+    odd: Mapping[int, str] = field(default_factory=dict)  # what was typed and taken otherwise
 
     @property
     def known(self) -> Array:
@@ -66,6 +69,7 @@ class Student:
     expected: Evaluation
     changed: list[Changed] = field(default_factory=list)
     rewritten: set[str] = field(default_factory=set)  # given formulas that read otherwise
+    package: Package | None = None  # of the grid: how its cells are shown
     _settled: frozenset[str] = frozenset()
 
     @classmethod
@@ -121,8 +125,30 @@ class Student:
         except UnknownFormula as problem:
             return Answer(place, nothing, ERROR * count, none, str(problem) or "?")
         typed = self.grid.column(place.sheet, place.column).constants
-        marks = np.array([row in typed for row in place.rows]) if typed else none
-        return Answer(place, numbers, kinds, marks)
+        if not typed:
+            return Answer(place, numbers, kinds, none)
+        marks = np.array([row in typed for row in place.rows])
+        return self._as_meant(Answer(place, numbers, kinds, marks), typed)
+
+    def _as_meant(self, answer: Answer, typed: Mapping[int, object]) -> Answer:
+        """An answer with the numbers that were typed as texts, and what else is odd about it."""
+        place = answer.place
+        assert place is not None
+        numbers, odd = as_meant([typed.get(row or 0) for row in place.rows])
+        for i, row in enumerate(place.rows):
+            if Cell(place.sheet, row or 0, place.column) in self._dates:
+                odd[i] = DATE
+        if not odd:
+            return answer
+        values = np.array([numbers.get(i, own) for i, own in enumerate(answer.values)])
+        kinds = "".join(NUMBER if i in numbers else own for i, own in enumerate(answer.kinds))
+        return replace(answer, values=values, kinds=kinds, odd=dict(sorted(odd.items())))
+
+    @cached_property
+    def _dates(self) -> frozenset[Cell]:
+        """Cells to fill in that hold dates."""
+        places = filter(None, map(self.placement.places.get, self.assignment.fill_nodes))
+        return dates(self.package, self.grid, places) if self.package else frozenset()
 
     def runs(self, node: str) -> list[Run]:
         """Runs of formulas in a node's cells."""
@@ -224,7 +250,7 @@ class Student:
                     claim = saved.get(row, np.nan)
                     found[row] = number if np.isnan(claim) else claim
                 elif row is not None and isinstance(text, str) and is_doubtful(text):
-                    found[row] = _read(text, number)
+                    found[row] = number if (own := number_of(text)) is None else own
             if found:
                 rows = tuple(found)
                 values = tuple(found.values())
@@ -249,7 +275,7 @@ class Student:
 
     @cached_property
     def own_constants(self) -> list[tuple[str, int, int, float]]:
-        """Numbers typed into cells that are none of the work-book's."""
+        """Numbers typed into cells that are none of the work-book's, as texts too."""
         taken: dict[tuple[str, int], set[int | None]] = {}
         for place in self.placement.places.values():
             taken.setdefault((place.sheet, place.column), set()).update(place.rows)
@@ -257,8 +283,9 @@ class Student:
             (sheet, number, row, value)
             for sheet, columns in self.grid.sheets.items()
             for number, column in columns.items()
-            for row, value in column.constants.items()
-            if type(value) is float and row not in taken.get((sheet, number), ())
+            for row, given in column.constants.items()
+            if row not in taken.get((sheet, number), ())
+            if (value := carried(given)) is not None
         ]
 
     def own_numbers(self, node: str) -> list[float]:
@@ -337,14 +364,6 @@ class Student:
     @cached_property
     def _areas_known(self) -> dict[tuple[object, ...], bool]:
         return {}
-
-
-def _read(text: str, otherwise: float) -> float:
-    """A number written as a text."""
-    try:
-        return float(re.sub(r"\s", "", text).replace(",", "."))
-    except ValueError:
-        return otherwise
 
 
 def _covered(low: int, high: int, taken: list[tuple[int, int, Place]]) -> bool:

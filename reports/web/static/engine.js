@@ -1,6 +1,5 @@
 // The page of an engine: a mapping of the file's values is all its state, the rest follows from it.
-import {alerts, ask, choice, given, html, list, picker, printed, row, send, set, state, symbol, table}
-  from "./common.js";
+import {alerts, ask, choice, given, html, list, picker, printed, row, send, set, state, symbol, table} from "./common.js";
 import {between, figure, mechanism, star} from "./drawn.js";
 import {put, section} from "./fields.js";
 

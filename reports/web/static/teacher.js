@@ -17,11 +17,11 @@ const act = async (path, data, news) => await send(path, data) && look({news});
 
 async function issue(event) {
   const data = given(event);
-  for (const key of ["base.toml", "roster.csv", "rubric.toml"]) {
+  for (const key of ["base.toml", "rubric.toml"]) {
     const bytes = await data[key].arrayBuffer(), text = new TextDecoder().decode(bytes);
-    // A list in Windows-1251 is a list as well.
     data[key] = text.includes("\ufffd") ? new TextDecoder("windows-1251").decode(bytes) : text;
   }
+  data.roster = Array.from(new Uint8Array(await data.roster.arrayBuffer()), code => String.fromCharCode(code)).join("");
   const made = await send("api/teacher", data);
   if (!made) return;
   event.target.reset();
@@ -87,11 +87,11 @@ const page = () => html`
         <form id="issue" onSubmit=${issue}>
           ${asked("Название", "title", {required: true, maxlength: 120})}
           ${asked("Двигатель с [variants], .toml", "base.toml", {type: "file", accept: ".toml", required: true})}
-          ${asked("Список группы, .csv", "roster.csv", {type: "file", accept: ".csv,.txt", required: true})}
+          ${asked("Список группы, .xlsx или .csv", "roster", {type: "file", accept: ".xlsx,.csv,.txt", required: true})}
           ${asked("Рубрика, .toml (можно без неё)", "rubric.toml", {type: "file", accept: ".toml"})}
           ${asked("Зерно", "seed", {type: "number", defaultValue: 1, required: true})}
           <button>Выдать</button></form></details>
-      <p>${choice("Группа", "classes", state.classes.map(c => [c.name, `${c.title}, ${c.date.slice(0, 10)}`]),
+      <p hidden=${!state.chosen}>${choice("Группа", "classes", state.classes.map(c => [c.name, `${c.title}, ${c.date.slice(0, 10)}`]),
         state.chosen, chosen => look({chosen, own: null}))}</p>
       ${state.own && html`<div id="class"><p role="status">${state.news} ${status(state.own)}</p>
         ${list(state.own.lines || [], state.own.state === "failed" ? "bad" : "warn")}

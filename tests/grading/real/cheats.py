@@ -71,6 +71,32 @@ def _times(
     return edit
 
 
+def _hidden(cell: str, formula: str) -> Callable[[Workbook, Desk], None]:
+    """A column pasted on a sheet of its own as no number, scaled as the right one is.
+
+    ``{v}`` is the value in millionths, ``~`` stands for so many signs as it has hundredths, ``{c}``
+    for the cell, ``{d}`` for the value by the digits in ten other cells.
+    """
+
+    def edit(book: Workbook, here: Desk) -> None:
+        sheet, place = book.create_sheet("Числа"), here.layout.columns[V1]
+        for digit in range(10):
+            sheet.cell(digit + 1, 3).value = digit
+        for row, value in zip(rows(), here.column(V1), strict=False):
+            whole, sign = f"{round(abs(value) * 1e6)}", "-" if value < 0 else ""
+            sheet.cell(row, 1).value = cell.replace("{v}", whole).replace(
+                "~", "x" * round(abs(value) * 100)
+            )
+            digits = "+".join(f"Числа!$C${int(d) + 1}*10^{len(whole) - 1 - i}"
+                              for i, d in enumerate(whole))  # fmt: skip
+            text = formula.replace("{c}", f"Числа!A{row}").replace("{d}", f"({digits})")
+            text = text.replace("{r}", f"{max(1, round(abs(value) * 1000))}")
+            text = f"={sign}{text}*regime_speed_rpm/{here.issued.drawn['regime.speed_rpm']}"
+            book[place[0].sheet].cell(row, place[1]).value = text
+
+    return edit
+
+
 def _picked(text: str) -> Callable[[Desk], dict[str, object]]:
     """A short list of numbers in one formula, scaled by the input data as the right one is.
 
@@ -268,6 +294,12 @@ CHEATS = (
     ),
     Work("pasted and scaled", edit=_times("{v}", J1, digits=1), unpaid=(J1,)),
     Work("a friend's column scaled", edit=_times("{v}", V1, friend=True), unpaid=(V1,)),
+    Work("texts of digits, scaled", edit=_hidden("{v}", "{c}/10^6"), unpaid=(V1,)),
+    Work("digits within texts, scaled", edit=_hidden("x{v}", "MID({c},2,9)/10^6"), unpaid=(V1,)),
+    Work("formulas of texts, scaled", edit=_hidden('="{v}"', "{c}/10^6"), unpaid=(V1,)),
+    Work("lengths of texts, scaled", edit=_hidden("~", "LEN({c})/100"), unpaid=(V1,)),
+    Work("rows of blank cells, scaled", edit=_hidden("x", "(ROW(Z{r})-1)/1000"), unpaid=(V1,)),
+    Work("digits of other cells, scaled", edit=_hidden("x", "{d}/10^6"), unpaid=(V1,)),
     Work("formulas of numbers, scaled", edit=_times("={v}*1", J1), unpaid=(J1,)),
     Work("names of numbers", edit=_name_constant, unpaid=(S1,)),
     Work("everything pasted", edit=_solved_with_ticket, unpaid=_ALL),

@@ -116,7 +116,7 @@ MISTAKES = (
     Work("one empty row", _bad_row("P4_1.S_MPa", 9, None), verdicts={"P4_1.S_MPa": "empty"}),
     one("division by nought", "lam", "=C5/0", "error"),
     one("not available", "lam", "=NA()", "error"),
-    Work("a number as a text", edit=_text_number, verdicts={"geometry.omega": "wrong"}),
+    Work("a number as a text", edit=_text_number, verdicts={"geometry.omega": "typed"}),
     one("of the wrong rod", "lam", "", cause="из варианта"),
     one("rounded too far", "P3_1.s_mm", "=ROUND(B{r}+C{r},0)", cause="округл"),
     one("typed omega", "P3_1.v1_m_s", "={r_}", "typed"),

@@ -1,0 +1,202 @@
+"""The list of a group as people make it: CSV and books of Excel under the same rules."""
+
+from __future__ import annotations
+
+import io
+import re
+import zipfile
+from collections.abc import Callable, Sequence
+from datetime import date
+from pathlib import Path
+
+import pytest
+from openpyxl import Workbook
+from openpyxl.worksheet.worksheet import Worksheet
+
+from reports.grading.issuing.roster import read_roster
+from reports.shared.errors import InputError
+
+PEOPLE = 'Фамилия;Имя;Группа\nИванов;Иван;ДВС-1\nПётр "Первый";Анна;ДВС-1\n'
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp1251"])
+@pytest.mark.parametrize("delimiter", [";", ",", "\t"])
+def test_a_roster_in_any_usual_form(tmp_path, encoding, delimiter):
+    path = tmp_path / "group.csv"
+    text = PEOPLE.replace('"Первый"', "Ёлкин").replace(";", delimiter).replace("\n", "\r\n")
+    path.write_bytes(text.encode(encoding))
+    found = read_roster(path)
+    assert [student.full for student in found] == ["Иванов Иван", "Пётр Ёлкин Анна"]
+    assert found[0].group == "ДВС-1"
+
+
+@pytest.mark.parametrize("delimiter", [";", ",", "\t"])
+@pytest.mark.parametrize("first", ["sep=@\r\n", "\r\n\r\n"])
+@pytest.mark.parametrize("head", ["Ф. И. О.", "Ф.И.О. студента", "Фамилия Имя Отчество"])
+def test_a_roster_may_begin_with_what_excel_puts_before_it(tmp_path, delimiter, first, head):
+    path = tmp_path / "group.csv"
+    text = f"{first}{head}@Группа\r\nИванов Иван Ильич@Д-1\r\n"
+    path.write_text(text.replace("@", delimiter), encoding="utf-8-sig", newline="")
+    (found,) = read_roster(path)
+    assert (found.surname, found.name, found.group) == ("Иванов", "Иван Ильич", "Д-1")
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        (b"", "список пуст"),
+        ("Фамилия;Имя\n".encode(), "нет ни одного студента"),
+        ("Иванов;Иван\nПетров;Пётр\n".encode(), "нет столбца «Фамилия»"),
+        ("Фамилия;Имя\nИванов;Иван\nИванов;Иван\n".encode(), "уже есть в строке 2"),
+        ("Фамилия;Имя\n;Иван\n".encode(), "строка 2: нет фамилии"),
+        ('Фамилия;Имя\n"Иванов;Иван\n'.encode(), "не закрыта кавычка"),
+        (b"PK\x03\x04xxxx", "файл .xlsx повреждён"),
+        (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "зашифрована или в старом формате .xls"),
+        ("Фамилия;Имя\nИванов;Иван\n".encode("utf-16"), "UTF-16"),
+        (b"\x80\x81\xff\xfa surname name\n\xf0\xf1\n", "не UTF-8 и не Windows-1251"),
+    ],
+)
+def test_a_bad_roster_is_one_clear_line(tmp_path, data, words):
+    path = tmp_path / "group.csv"
+    path.write_bytes(data)
+    with pytest.raises(InputError, match=words) as caught:
+        read_roster(path)
+    assert len(caught.value.lines()) == 1
+
+
+# --- books of Excel --------------------------------------------------------------------------
+
+HEAD = ("Фамилия", "Имя", "Отчество", "Группа")
+IVANOV, PETROV = ("Иванов", "Иван", "Ильич", "Д-1"), ("Петров", "Пётр", None, "Д-1")
+
+
+def book(tmp_path: Path, *sheets: Sequence[Sequence[object]],
+         edit: Callable[[Worksheet], None] | None = None) -> Path:  # fmt: skip
+    """A file that a person calls as it comes, with these rows on its sheets."""
+    made = Workbook()
+    made.remove(made.active)
+    for number, rows in enumerate(sheets, 1):
+        sheet = made.create_sheet(f"Группа {number}")
+        for row in rows:
+            sheet.append(row)
+        if edit is not None:
+            edit(sheet)
+    path = tmp_path / "Список (1).XLSX"
+    made.save(path)
+    return path
+
+
+def as_csv(tmp_path: Path, rows: Sequence[Sequence[object]]) -> Path:
+    path = tmp_path / "group.csv"
+    lines = (";".join("" if cell is None else str(cell) for cell in row) for row in rows)
+    path.write_text("\r\n".join(lines), encoding="cp1251", newline="")
+    return path
+
+
+TITLE = ("Список группы Д-1, осень, 3 курс", None, None, None)
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        [HEAD, IVANOV, PETROV],
+        [TITLE, (), TITLE, HEAD, IVANOV, (), PETROV],
+        [("№", *HEAD), (1, *IVANOV), ("2.", *PETROV), ("3)", None, None), (4,)],
+        [("ФИО студента", "Группа"), ("Иванов Иван\u00a0Ильич", "Д-1"), ("Петров  Пётр", "Д-1")],
+        [("№", "Студент", None, None, "Группа"), (None, "Фамилия", "Имя", "Отчество"),
+         (1, *IVANOV), (2, *PETROV)],
+        [HEAD, IVANOV, HEAD, PETROV],  # on the next printed page
+        [(*HEAD, "Дата рождения"), (*IVANOV, date(2005, 5, 1)), PETROV],
+    ],
+)  # fmt: skip
+def test_a_book_and_a_csv_file_are_read_alike(tmp_path, rows):
+    for path in (book(tmp_path, rows), as_csv(tmp_path, rows)):
+        found = [(student.full, student.group) for student in read_roster(path)]
+        assert found == [("Иванов Иван Ильич", "Д-1"), ("Петров Пётр", "Д-1")]
+
+
+def test_numbers_of_a_book_are_as_its_sheet_shows_them(tmp_path):
+    def edit(sheet: Worksheet) -> None:
+        sheet["B2"].number_format = "000000"
+
+    rows = [("ФИО", "Номер"), ("Иванов Иван", 1234), ("Петров Пётр", 20230115.0), ("Яшин Я", 7)]
+    assert [s.number for s in read_roster(book(tmp_path, rows, edit=edit))] == [
+        "001234", "20230115", "7",
+    ]  # fmt: skip
+
+
+def test_hidden_rows_are_people_and_hidden_sheets_are_not(tmp_path):
+    def edit(sheet: Worksheet) -> None:
+        sheet.row_dimensions[3].hidden = True
+        sheet.sheet_state = "hidden" if sheet.title.endswith("1") else "visible"
+
+    found = read_roster(book(tmp_path, [HEAD, ("Кто", "То")], [HEAD, IVANOV, PETROV], edit=edit))
+    assert [student.surname for student in found] == ["Иванов", "Петров"]
+
+
+def test_saved_values_of_formulas_are_read(tmp_path):
+    """A full name put together by a formula; without its saved value it is not guessed."""
+    path = book(tmp_path, [("ФИО", "Группа"), ("=B9", "Д-1")])
+    with pytest.raises(InputError, match="«Группа 1», A2: значение формулы не сохранено"):
+        read_roster(path)
+    path.write_bytes(with_value(path.read_bytes(), "Иванов Иван"))
+    (found,) = read_roster(path)
+    assert found.full == "Иванов Иван"
+
+
+def with_value(data: bytes, text: str) -> bytes:
+    """A book as Excel saves it: the only formula with its value."""
+    made = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(data)) as source, zipfile.ZipFile(made, "w") as target:
+        for info in source.infolist():
+            part = source.read(info).decode("utf-8")
+            part = part.replace('<c r="A2"><f>', '<c r="A2" t="str"><f>')
+            part = re.sub(r"(</f>)<v\s*/?>(</v>)?", rf"\1<v>{text}</v>", part)
+            target.writestr(info, part)
+    return made.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("rows", "words"),
+    [
+        ([[]], r"\.XLSX: список пуст"),
+        ([[HEAD]], "нет ни одного студента"),
+        ([[IVANOV, PETROV]], "нет столбца «Фамилия» или «ФИО»"),
+        ([[TITLE, HEAD, (None, "Иван")]], "лист «Группа 1», A3: нет фамилии"),
+        ([[("№", *HEAD), (1, *IVANOV), ("Староста Иванов",)]], "лист «Группа 1», B3: нет фамилии"),
+        ([[HEAD, IVANOV, IVANOV]], "лист «Группа 1», A3: студент .* уже есть в строке 2"),
+        ([[HEAD, (*IVANOV[:3], date(2026, 12, 3))]], "«Группа 1», D2: дата вместо текста"),
+        ([[HEAD, ("#N/A", "Иван")]], "«Группа 1», A2: ошибка #N/A"),
+        ([[HEAD, IVANOV], [HEAD, PETROV]], "на листе «Группа 2» есть студенты, которых нет"),
+        ([[HEAD, ("Ы" * 300, "Иван")]], "слишком длинный"),
+    ],
+)
+def test_a_bad_book_is_one_clear_line(tmp_path, rows, words):
+    with pytest.raises(InputError, match=words) as caught:
+        read_roster(book(tmp_path, *rows))
+    assert len(caught.value.lines()) == 1
+
+
+def test_a_sheet_of_marks_of_the_same_people_is_no_other_group(tmp_path):
+    marks = [("Студент", "Оценка"), ("Петров П.", 5), ("Иванов И.", 4)]
+    found = read_roster(book(tmp_path, [("Журнал",)], [HEAD, IVANOV, PETROV], marks))
+    assert [student.surname for student in found] == ["Иванов", "Петров"]
+
+
+def test_a_book_that_no_program_wrote_is_refused(tmp_path):
+    path = book(tmp_path, [HEAD, IVANOV])
+    made = io.BytesIO()
+    with zipfile.ZipFile(path) as source, zipfile.ZipFile(made, "w") as target:
+        for info in source.infolist():
+            part = source.read(info)
+            target.writestr(info, part[:200] if "sheet1" in info.filename else part)
+    path.write_bytes(made.getvalue())
+    with pytest.raises(InputError, match="книга не читается; сохраните список как CSV"):
+        read_roster(path)
+
+
+def test_a_cell_at_the_edge_costs_nothing(tmp_path):
+    def edit(sheet: Worksheet) -> None:
+        sheet["XFD1048576"] = " "
+
+    assert len(read_roster(book(tmp_path, [HEAD, IVANOV], edit=edit))) == 1

@@ -299,20 +299,26 @@ def table_masses(
         f"{SHAFTS[layout, kind].counterweights:.0%}".replace("%", " %"),
     }
     masses = {
-        "piston_group_kg": _inside(near.piston * area, PISTON["aluminium", kind], area),
-        "rod_kg": _inside(near.rod * area, ROD[kind], area),
+        "piston_group_kg": _inside(near.piston * area, PISTON["aluminium", kind], near.piston),
+        "rod_kg": _inside(near.rod * area, ROD[kind], near.rod),
         "rod_small_end_share": share,
     }
+    throw_span = THROW["steel", kind]
     return masses, ThrowMasses(
-        _grams(pin * area), _grams(web * area), _grams(taken * area / 2), notes
+        _inside(pin * area, throw_span, near.throw),
+        _inside(web * area, throw_span, near.throw),
+        _grams(taken * area / 2),
+        notes,
     )
 
 
-def _inside(value: float, bounds: tuple[float, float], area: float) -> float:
-    """A mass to four digits that stays within the table's bounds."""
+def _inside(value: float, bounds: tuple[float, float], taken: float) -> float:
+    """A mass to four digits, rounded away from the nearer bound of the value ``taken``."""
     unit = 10.0 ** (math.floor(math.log10(value)) - 3)
-    up = value < sum(bounds) / 2 * area
-    return _grams((math.ceil if up else math.floor)(value / unit) * unit)
+    up = taken < sum(bounds) / 2
+    # What has four digits already is noise away from a whole number of units.
+    steps = round(value / unit, 6)
+    return _grams((math.ceil if up else math.floor)(steps) * unit)
 
 
 def _grams(value: float) -> float:

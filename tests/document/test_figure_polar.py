@@ -66,3 +66,16 @@ def test_numbers_of_an_axis_do_not_touch():
     assert any(text == "0" for _, text in row)
     for (left, before), (right, after) in pairwise(row):
         assert right - left > (text_size(before, SMALL)[0] + text_size(after, SMALL)[0]) / 2 + 2
+
+
+@pytest.mark.parametrize("reverse", [(False, False), (True, False), (True, True)])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_the_name_of_an_axis_at_an_edge_is_not_cut_off(reverse, sign):
+    """Of a load on one side of the journal the axis stands at the edge of the figure."""
+    turn = np.radians(np.arange(0, 370, 10))
+    x, y = sign * (2 + np.cos(turn)), np.sin(turn)
+    names = "$R'_{x}$, МПа", "$R'_{y}$, МПа"
+    svg = polar_path(x, y, np.degrees(turn), names, reverse=reverse)
+    width = float(re.search(r'data-size="([\d.]+)/', svg).group(1))
+    halos = re.findall(r'<rect x="([\d.-]+)" y="[\d.-]+" width="([\d.]+)"', svg)
+    assert len(halos) > 2 and all(float(x) + float(wide) <= width + 1 for x, wide in halos)

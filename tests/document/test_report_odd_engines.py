@@ -281,3 +281,10 @@ def test_one_cylinder_has_no_order_of_work():
 def test_the_aim_is_what_the_chapters_find(chapters, aim):
     text = text_of(in_line([1, 3, 2], report={"chapters": chapters} if chapters else {}))
     assert f"Цель работы — найти {aim}" in text
+
+
+def test_an_articulated_rod_stands_beside_no_other_on_the_pin():
+    text = text_of(engine("articulated"))
+    assert "главный шатун цилиндра 1, на нём висит прицепной цилиндра" in text
+    assert "массы m2 главного шатуна" in text and "расстояние между ними вдоль" not in text
+    assert "расстояние между ними вдоль шейки не учтено" in text_of(engine("v_six"))

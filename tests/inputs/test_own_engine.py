@@ -10,10 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kshm import solve
+from kshm.mechanics.rod_masses import THROW
 from reports.cli import main
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_text, load_toml
-from reports.inputs.own_engine import USUAL, own_engine
+from reports.inputs.own_engine import USUAL, own_engine, table_masses
 from reports.inputs.own_file import LINE, file_text
 from reports.inputs.own_similar import alternative
 from reports.inputs.to_si.engine import engine_and_cycle
@@ -265,3 +266,14 @@ def test_an_engine_with_a_spark_is_not_said_to_burn_petrol():
     """Whoever writes methane into [cycle] keeps the name."""
     assert "ензин" not in file_text(own_engine(4, kind="petrol"))
     assert own_engine(4).data["engine"]["name"].startswith("Двигатель с искровым зажиганием: ")
+
+
+@pytest.mark.parametrize("kind", ["petrol", "diesel"])
+def test_masses_of_a_throw_are_within_the_table_they_are_taken_from(kind):
+    """Four digits of the pin and of the webs made 200.003 kg/m² of 200."""
+    low, high = THROW["steel", kind]
+    for tenths in range(500, 1500, 7):
+        bore = tenths / 10
+        shaft = table_masses("inline", kind, bore, bore)[1]
+        area = math.pi * (bore / 1000) ** 2 / 4
+        assert low <= (shaft.pin + 2 * shaft.web) / area <= high, bore

@@ -150,7 +150,9 @@ def _ends(
     pen.arrow((y_tip[0], y_tip[1] - 14 * y_out), y_tip, THIN, 6)
     wide, tall = (text_size(title, FONT_SIZE)[0] / 2 for title in titles)
     pen.text((x_tip[0] + x_out * (wide + 4), x_tip[1] + 1), titles[0])
-    pen.text((y_tip[0] + tall + 7, y_tip[1] + y_out * 4), titles[1])
+    # Right of the axis, but left of one that stands at the figure's right edge.
+    aside = tall + 7 if y_tip[0] + 2 * tall + 7 < pen.page.width else -tall - 7
+    pen.text((y_tip[0] + aside, y_tip[1] + y_out * 4), titles[1])
 
 
 def _pole(pen: Pen, room: Room, place: NDArray[np.float64], name: str, reverse: Sides) -> None:

@@ -51,6 +51,12 @@ def shown(item: Field) -> float | int | str:
     return item.value
 
 
+def options(item: Field) -> list[int | str]:
+    """What the cell of a choice may hold: numbers without the words that a file has for them."""
+    choices = item.choices or {}
+    return list(map(int, choices)) if isinstance(item.value, int) else [*choices.values()]
+
+
 def range_text(item: Field) -> str:
     """Allowed range in words."""
     if item.minimum is None or item.maximum is None:
@@ -93,7 +99,7 @@ def _entry(sheet: Worksheet, item: Field, row: int, column: int, header_row: int
 
 def _validate(sheet: Worksheet, item: Field, coordinate: str) -> None:
     if item.choices is not None:
-        labels = list(item.choices.values())
+        labels = list(map(str, options(item)))
         rule = DataValidation(type="list", formula1=f'"{",".join(labels)}"', allow_blank=False)
         if any("," in label for label in labels) or len(",".join(labels)) > 250:
             return

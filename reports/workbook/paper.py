@@ -34,6 +34,8 @@ _LIST = {
     1: TITLE_WIDTH, 2: SYMBOL_WIDTH, VALUE_COLUMN: 14, 4: 11, SOURCE_COLUMN: SOURCE_WIDTH, 6: 30,
 }  # fmt: skip
 _SUBTITLE_LETTER = 1.18  # in digits of a column: bold and larger
+_THIN, _HEADER_LETTER = 0.65, 1.25  # the same of thin letters and of others of a header
+_THIN_LETTERS, _EDGES = frozenset("()ijlt1/·.,'"), 1.5
 _BESIDE, _WIDEST = (34, 10, 11, 8, 20), 64  # of a list beside a table
 _CYCLE_WIDTHS = {2: 20, 4: 17, SOURCE_COLUMN: 28, 6: 17, 7: 17, 8: 17}
 _RANGE_WIDTHS = {1: 76, 2: 4, 4: 16, SOURCE_COLUMN: 42}
@@ -113,13 +115,24 @@ def _widen(sheet: Worksheet, blocks: Sequence[Block], layout: Layout, values: Va
                 numbers = values.columns[block.id][column.key]
                 for end in (numbers.min(), numbers.max()):
                     hold(index, float(end), column.quantity)
+                _hold(sheet, index, max(map(_word, column.quantity.header.split())))
         for scalar in scalars_of(block):
             value = values.scalars[scalar.key]
             if not isinstance(value, str):
                 hold(layout.cells[scalar.key].column, float(value), scalar.quantity)
     for index, letters in longest.items():
-        dimension = sheet.column_dimensions[get_column_letter(index)]
-        dimension.width = max(dimension.width, room_of(letters))
+        _hold(sheet, index, room_of(letters))
+
+
+def _hold(sheet: Worksheet, index: int, width: float) -> None:
+    dimension = sheet.column_dimensions[get_column_letter(index)]
+    dimension.width = max(dimension.width, width)
+
+
+def _word(word: str) -> float:
+    """Width of a column in which a word of a header is not broken."""
+    thin = sum(letter in _THIN_LETTERS for letter in word)
+    return _EDGES + thin * _THIN + (len(word) - thin) * _HEADER_LETTER
 
 
 def _fold(sheet: Worksheet, table: TableSpec, layout: Layout, values: Values) -> None:

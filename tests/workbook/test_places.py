@@ -5,9 +5,12 @@ from __future__ import annotations
 import itertools
 import math
 
+import matplotlib
 import pytest
 from openpyxl.worksheet.worksheet import Worksheet
+from PIL import ImageFont
 
+from reports.workbook import styles
 from reports.workbook.chapters import CHAPTERS, chapter_of, diagrams_of, heading, ordered, place_of
 from reports.workbook.layout import HEADER_ROW
 from reports.workbook.motion import SHEET
@@ -149,3 +152,42 @@ def test_no_text_runs_under_a_chart(name: str) -> None:
             if any(x < box.x < end and box.y <= y < box.bottom for box in boxes):
                 covered.append(f"{sheet.title}!{cell.coordinate}: {cell.value}")
     assert covered == []
+
+
+# Letters as wide as Times New Roman's, and as installed as matplotlib.
+_BOLD = ImageFont.truetype(matplotlib.get_data_path() + "/fonts/ttf/STIXGeneralBol.ttf", 440)
+_PX, _EDGES, _LINE = 11 / 440 * 4 / 3, 5, 19  # of a header of 11 pt
+
+
+def header_problems(text: str, width: int, height: int) -> list[str]:
+    """Words that are broken, lines that are cut off."""
+    room = width - _EDGES
+
+    def long(words: str) -> bool:
+        return _BOLD.getlength(words) * _PX > room
+
+    lines = [""]
+    for word in text.split():
+        if long(f"{lines[-1]} {word}".strip()):
+            lines.append("")
+        lines[-1] = f"{lines[-1]} {word}".strip()
+    found = [f"«{word}» is broken" for word in text.split() if long(word)]
+    return [*found, f"{len(lines)} lines"] if len(lines) * _LINE > height else found
+
+
+@pytest.mark.parametrize("name", samples_with(charts, quantities))
+def test_headers_of_tables_are_whole(name: str) -> None:
+    book, made = coarse_opened(name), coarse_model(name)
+    for title in {table.sheet for table in made.tables.values()}:
+        sheet = book[title]
+        for cell in sheet[HEADER_ROW]:
+            width = column_px(sheet, cell.column)
+            if width and cell.value and cell.style == styles.HEADER:
+                said = header_problems(cell.value, width, row_px(sheet, HEADER_ROW))
+                assert said == [], (title, cell.value)
+
+
+def test_a_header_too_long_for_its_column_is_seen() -> None:
+    assert header_problems("εш (точно), с⁻²", 66, 64) == []
+    assert header_problems("εш (приближённо), с⁻²", 66, 64) == ["«(приближённо),» is broken"]
+    assert header_problems("M по статике шейки 1, Н·м", 70, 64) == ["4 lines"]

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 from math import isfinite
 
-from openpyxl.formatting.rule import CellIsRule
+from openpyxl.formatting.rule import FormulaRule
 from openpyxl.styles import Alignment, PatternFill
 from openpyxl.styles import Font as CellFont
 from openpyxl.worksheet.worksheet import Worksheet
@@ -110,8 +110,9 @@ def _verdict(sheet: Worksheet, writer: Writer, row: int, verdict: tuple[str, str
     sheet.cell(row, 1, "Проверки расчёта").style = styles.TEXT
     writer.formula(sheet, row, 2, *verdict)
     sheet.cell(row, 2).style = styles.LINE
-    wrong = CellIsRule("notEqual", [f'"{GOOD}"'], **styles.wrong())
-    sheet.conditional_formatting.add(f"B{row}", wrong)
+    # Not bold: the longest verdict ends before the charts.
+    wrong = FormulaRule([f'$B{row}<>"{GOOD}"'], fill=styles.wrong()["fill"])
+    sheet.conditional_formatting.add(f"B{row}:D{row}", wrong)
     return row + 1
 
 

@@ -38,7 +38,7 @@ from reports.workbook.links import link
 from reports.workbook.sheets import CacheValues, Writer
 
 GOOD, BAD = "все выполнены", "не все, см. «Проверки»"
-BEYOND, UNKNOWN = f"вне пределов, см. «{INPUT_SHEET}»", "не посчитаны, см. «Проверки»"
+BEYOND, UNKNOWN = "вне пределов, см. «Проверки»", "не посчитаны, см. «Проверки»"
 _BEYOND = "Строк вне пределов"
 _WITHIN = f"{INPUT_SHEET}: сколько строк вне допустимых пределов"
 

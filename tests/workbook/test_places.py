@@ -12,7 +12,7 @@ from PIL import ImageFont
 
 from reports.workbook import styles
 from reports.workbook.chapters import CHAPTERS, chapter_of, diagrams_of, heading, ordered, place_of
-from reports.workbook.layout import HEADER_ROW
+from reports.workbook.layout import HEADER_ROW, INPUT_SHEET, Layout
 from reports.workbook.motion import SHEET
 from reports.workbook.places import DIGIT, FOLD, SCREEN, Box, column_px, extent, row_px
 from tests.conftest import sample_names
@@ -191,3 +191,13 @@ def test_a_header_too_long_for_its_column_is_seen() -> None:
     assert header_problems("εш (точно), с⁻²", 66, 64) == []
     assert header_problems("εш (приближённо), с⁻²", 66, 64) == ["«(приближённо),» is broken"]
     assert header_problems("M по статике шейки 1, Н·м", 70, 64) == ["4 lines"]
+
+
+@pytest.mark.parametrize("name", sample_names())
+def test_every_group_of_input_data_has_its_title(name: str) -> None:
+    made, sheet = coarse_model(name), coarse_opened(name)[INPUT_SHEET]
+    layout = Layout.of(made)
+    for section, run in itertools.groupby(made.inputs, lambda item: item.section):
+        first = next(run)
+        row = layout.cells[first.name].row - (2 if first.listed else 1)
+        assert sheet.cell(row, 1).value == section

@@ -106,7 +106,7 @@ def test_no_wrong_cell_leaves_a_book_that_says_all_is_well(name: str) -> None:
         if errors:
             assert said.startswith("не посчитаны"), told
         elif red:
-            assert said == "вне пределов, см. «Исходные данные»", told
+            assert said == "вне пределов, см. «Проверки»", told
         else:
             assert said in ("все выполнены", "не все, см. «Проверки»"), told
         seen.add((bool(errors), red))

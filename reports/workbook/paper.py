@@ -40,9 +40,9 @@ _BESIDE, _WIDEST = (34, 10, 11, 8, 20), 64  # of a list beside a table
 _CYCLE_WIDTHS = {2: 20, 4: 17, SOURCE_COLUMN: 28, 6: 17, 7: 17, 8: 17}
 _RANGE_WIDTHS = {1: 76, 2: 4, 4: 16, SOURCE_COLUMN: 42}
 UPRIGHT = 1290  # px: wider sheets lie
-_PAPER = {"portrait": (690, 1010), "landscape": (1030, 670)}  # px: A4 less its margins
+PAPER = {"portrait": (690, 1010), "landscape": (1030, 670)}  # px: A4 less its margins
 _LEAST = 0.45  # scale below which a sheet rather takes more pages, down and across
-_SURE = 0.93  # part of the paper that no program's own widths of columns go beyond
+SURE = 0.93  # part of the paper that no program's own widths of columns go beyond
 _SQUEEZED = 0.3  # what is made smaller by less than this saves a page
 
 
@@ -162,12 +162,12 @@ def set_page(sheet: Worksheet, boxes: Sequence[Box], *, charts_alone: bool = Fal
         height = max(height, *(box.bottom for box in boxes))
     page = sheet.page_setup
     page.paperSize = sheet.PAPERSIZE_A4
-    scales = {name: min(w / width, h / height) for name, (w, h) in _PAPER.items()}
+    scales = {name: min(w / width, h / height) for name, (w, h) in PAPER.items()}
     page.orientation = max(scales, key=lambda name: scales[name])
     pages = int(scales[page.orientation] >= _LEAST)
     if not pages and width > UPRIGHT:
         page.orientation = "landscape"
-    w, h = _PAPER[page.orientation]
+    w, h = PAPER[page.orientation]
     across = ceil(width * _LEAST / w)
     if not pages:
         sheets = height * min(1, across * w / width) / h
@@ -179,6 +179,11 @@ def set_page(sheet: Worksheet, boxes: Sequence[Box], *, charts_alone: bool = Fal
     if across > 1 and (boxes or not _part(sheet, height)):
         sheet.print_title_cols = "A:A"
     sheet.print_area = area(Cell("", 1, 1), last)
+    set_margins(sheet)
+
+
+def set_margins(sheet: Worksheet) -> None:
+    """Margins, the file's name above, the sheet's below with the number of the page."""
     margins = sheet.page_margins
     margins.left, margins.right, margins.top, margins.bottom = 0.6, 0.3, 0.5, 0.6
     margins.header = margins.footer = 0.3
@@ -199,7 +204,7 @@ def _part(sheet: Worksheet, height: int) -> bool:
         sum(column_px(sheet, i) for i in range(start, end))
         for start, end in zip(starts, ends, strict=True)
     )
-    w, h = (_SURE * side for side in _PAPER["portrait"])
+    w, h = (SURE * side for side in PAPER["portrait"])
     scale = min(w / widest, 1)
     if scale < _LEAST:
         return False

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Mapping, Sequence
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from math import ceil, floor, isfinite
 
 import numpy as np
@@ -27,7 +28,16 @@ from reports.workbook.layout import (
     Layout,
     area,
 )
-from reports.workbook.places import DIGIT, Box, column_px, extent, last_cell, room_of, wrap_across
+from reports.workbook.places import (
+    DIGIT,
+    Box,
+    column_px,
+    extent,
+    last_cell,
+    room_of,
+    row_px,
+    wrap_across,
+)
 from reports.workbook.sheets import NARROW, SOURCE_WIDTH, SYMBOL_WIDTH, TITLE_WIDTH
 
 _LIST = {
@@ -178,6 +188,8 @@ def set_page(sheet: Worksheet, boxes: Sequence[Box], *, charts_alone: bool = Fal
     sheet.sheet_properties.pageSetUpPr.fitToPage = True
     if across > 1 and (boxes or not _part(sheet, height)):
         sheet.print_title_cols = "A:A"
+    if boxes and pages != 1 and across == 1:
+        _end_between(sheet, boxes, width)
     sheet.print_area = area(Cell("", 1, 1), last)
     set_margins(sheet)
 
@@ -189,6 +201,40 @@ def set_margins(sheet: Worksheet) -> None:
     margins.header = margins.footer = 0.3
     sheet.oddHeader.right.text = "&F"
     sheet.oddFooter.center.text = "&A — лист &P из &N"
+
+
+def _end_between(sheet: Worksheet, boxes: Sequence[Box], width: int) -> None:
+    """Pages that end between charts, where these take several; smaller where that saves pages."""
+    w, h = (SURE * side for side in PAPER[sheet.page_setup.orientation])
+    most = floor(100 * min(w / width, 1))
+    if max(box.bottom for box in boxes) <= 100 * h / most:
+        return
+    tops = [0, *accumulate(row_px(sheet, row) for row in range(1, last_cell(sheet, boxes)[0] + 1))]
+    repeated = tops[NUMBER_ROW] - tops[HEADER_ROW - 2] if sheet.print_title_rows else 0
+    scales = range(most, floor(most / (1 + _SQUEEZED)), -1)
+    ends = {scale: _ends(boxes, tops, 100 * h / scale, repeated) for scale in scales}
+    scale = min(scales, key=lambda scale: len(ends[scale]))
+    for row in ends[scale]:
+        sheet.row_breaks.append(Break(id=row))
+    _own_scale(sheet, scale)
+
+
+def _ends(boxes: Sequence[Box], tops: Sequence[int], room: float, repeated: int) -> list[int]:
+    """Last rows of pages of some height, of which all but the first repeat headers."""
+    top, rows = 0, list[int]()
+    while (end := top + room - (repeated if top else 0)) < max(box.bottom for box in boxes):
+        row = bisect_right(tops, end) - 1
+        while cut := [box.y for box in boxes if top < box.y < tops[row] < box.bottom]:
+            row = bisect_right(tops, min(cut)) - 1
+        rows.append(row)
+        top = tops[row]
+    return rows
+
+
+def _own_scale(sheet: Worksheet, percent: int) -> None:
+    page = sheet.page_setup
+    page.scale, page.fitToWidth, page.fitToHeight = percent, None, None
+    sheet.sheet_properties.pageSetUpPr.fitToPage = False
 
 
 def _part(sheet: Worksheet, height: int) -> bool:
@@ -211,10 +257,8 @@ def _part(sheet: Worksheet, height: int) -> bool:
     down = floor(height * scale / h)
     if down and height * scale <= down * h * (1 + _SQUEEZED):
         scale = min(scale, down * h / height)
-    page = sheet.page_setup
-    page.orientation, page.scale = "portrait", floor(100 * scale)
-    page.fitToWidth = page.fitToHeight = None
-    sheet.sheet_properties.pageSetUpPr.fitToPage = False
+    sheet.page_setup.orientation = "portrait"
+    _own_scale(sheet, floor(100 * scale))
     for start in starts[1:]:
         sheet.col_breaks.append(Break(id=start - 1))
     return True

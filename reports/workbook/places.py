@@ -115,7 +115,8 @@ def flow(sizes: Sequence[tuple[int, int]], x: int, y: int, right: int) -> list[B
     left, row, bottom = x, y, y
     for width, height in sizes:
         if left > x and left + width > right:
-            left, row = x, bottom + GAP
+            # Where a page of the print may end, rows of cells end too.
+            left, row = x, row + ceil((bottom + GAP - row) / ROW) * ROW
         boxes.append(Box(left, row, width, height))
         left, bottom = left + width + GAP, max(bottom, row + height)
     return boxes

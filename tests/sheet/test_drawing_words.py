@@ -9,8 +9,10 @@ from hypothesis import strategies as st
 from reports.document.figures.parts import mechanism_of, throw_of
 from reports.drawing.lettering import parts_of, plain, width_of
 from reports.drawing.parts import Mechanism, Throw, mechanism_drawing, throw_drawing
-from reports.drawing.primitives import AXES, Canvas, Line, Words, interrupted, overlap
+from reports.drawing.primitives import AXES, Canvas, Line, Words, box_of, interrupted, overlap
 from reports.drawing.svg import svg_of
+from reports.sheet.cell import Room
+from reports.sheet.schemes import shaft
 from tests.sheet.sheet_samples import terms
 
 
@@ -64,3 +66,13 @@ def test_an_index_stands_lower_and_smaller():
     assert plain("l_1 = 18") == "l1 = 18" and width_of("l_1", 3) < width_of("l1", 3)
     svg = svg_of([Words((0, 0), "l_1 = 18", 3.0)], (-5, -5, 40, 10))
     assert svg.count("<text") == 3 and ">1</text>" in svg
+
+
+@pytest.mark.parametrize("name", ["ecoboost-10", "gots-diesel", "two-stroke", "vw-1600"])
+def test_no_axis_runs_through_the_number_of_a_throw(name):
+    canvas = Canvas()
+    shaft(canvas, Room(0.0, 0.0, 100.0, 60.0), terms(name))
+    texts = [item for item in canvas.items if isinstance(item, Words)]
+    axes = [item for item in canvas.items if isinstance(item, Line) and item.layer is AXES]
+    assert len(axes) == 3
+    assert [text.text for text in texts for axis in axes if overlap(text.box, box_of(axis))] == []

@@ -45,7 +45,8 @@ _LIST = {
 }  # fmt: skip
 _SUBTITLE_LETTER = 1.18  # in digits of a column: bold and larger
 _THIN, _HEADER_LETTER = 0.65, 1.25  # the same of thin letters and of others of a header
-_THIN_LETTERS, _EDGES = frozenset("()ijlt1/·.,'"), 1.5
+_HEADER_LINE = 16  # pt
+_THIN_LETTERS, _EDGES = frozenset(" ()ijlt1/·.,'"), 1.5
 _BESIDE, _WIDEST = (34, 10, 11, 8, 20), 64  # of a list beside a table
 _CYCLE_WIDTHS = {2: 20, 4: 17, SOURCE_COLUMN: 28, 6: 17, 7: 17, 8: 17}
 _RANGE_WIDTHS = {1: 76, 2: 4, 4: 16, SOURCE_COLUMN: 42}
@@ -81,7 +82,11 @@ def set_widths(sheet: Worksheet, model: Model, layout: Layout, values: Values) -
                 sheet, {first + i: width for i, width in enumerate(_fitting(sheet, layout, block))}
             )
     _widen(sheet, blocks, layout, values)
-    sheet.row_dimensions[HEADER_ROW].height = 48
+    sheet.row_dimensions[HEADER_ROW].height = _HEADER_LINE * max(
+        _lines(column.quantity.header, column_px(sheet, index) / DIGIT)
+        for table in tables
+        for index, column in enumerate(table.columns, layout.places[table.id].column)
+    )
     for table in tables:
         _fold(sheet, table, layout, values)
     _wrap_titles(sheet)
@@ -137,6 +142,18 @@ def _widen(sheet: Worksheet, blocks: Sequence[Block], layout: Layout, values: Va
 def _hold(sheet: Worksheet, index: int, width: float) -> None:
     dimension = sheet.column_dimensions[get_column_letter(index)]
     dimension.width = max(dimension.width, width)
+
+
+def _lines(header: str, width: float) -> int:
+    """Lines of a header in a column, three at least."""
+    lines = [""]
+    for word in header.split():
+        longer = f"{lines[-1]} {word}".strip()
+        if _word(longer) > width:
+            lines.append(word)
+        else:
+            lines[-1] = longer
+    return max(3, len(lines))
 
 
 def _word(word: str) -> float:

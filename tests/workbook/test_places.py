@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
+import io
 import itertools
 import math
 
 import matplotlib
 import pytest
+from openpyxl import Workbook, load_workbook
 from openpyxl.worksheet.worksheet import Worksheet
 from PIL import ImageFont
 
+from reports.inputs.load import load_text
+from reports.inputs.own_engine import own_engine
+from reports.inputs.own_file import file_text
+from reports.spec.blocks import Model
+from reports.tables.registry import build_model
 from reports.workbook import styles
 from reports.workbook.chapters import CHAPTERS, chapter_of, diagrams_of, heading, ordered, place_of
 from reports.workbook.layout import HEADER_ROW, INPUT_SHEET, Layout
 from reports.workbook.motion import SHEET
 from reports.workbook.places import DIGIT, FOLD, SCREEN, Box, column_px, extent, row_px
+from reports.workbook.write import workbook_bytes
 from tests.conftest import sample_names
 from tests.cover import charts, quantities, samples_with
 from tests.workbook.made import coarse_model, coarse_opened
@@ -177,7 +185,16 @@ def header_problems(text: str, width: int, height: int) -> list[str]:
 
 @pytest.mark.parametrize("name", samples_with(charts, quantities))
 def test_headers_of_tables_are_whole(name: str) -> None:
-    book, made = coarse_opened(name), coarse_model(name)
+    whole_headers(coarse_opened(name), coarse_model(name))
+
+
+def test_headers_of_twelve_throws_are_whole() -> None:
+    """«Mш.ш10 по» has no room in one line where «Mш.ш9 по» has."""
+    made = build_model(load_text(file_text(own_engine(12)), source="twelve").model)
+    whole_headers(load_workbook(io.BytesIO(workbook_bytes(made))), made)
+
+
+def whole_headers(book: Workbook, made: Model) -> None:
     for title in {table.sheet for table in made.tables.values()}:
         sheet = book[title]
         for cell in sheet[HEADER_ROW]:

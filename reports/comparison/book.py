@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from openpyxl import Workbook
 from openpyxl.styles import Alignment, Font
 from openpyxl.utils import get_column_letter
-from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.comparison.conclusions import conclusions
@@ -23,13 +22,13 @@ from reports.comparison.engines import (
 from reports.workbook.caches import finish
 from reports.workbook.charts import curves_chart
 from reports.workbook.drawn import Curve
+from reports.workbook.gallery import hang, lay
 from reports.workbook.layout import Cell, column_range
 from reports.workbook.sheets import CacheValues
 from reports.workbook.styles import FONT, excel_format
 
 DATA, RESULTS, FIGURES, CURVES = "Данные", "Сравнение", "Диаграммы", "Кривые"
 _HEAD = 3  # rows of titles above the values
-_CHART_ROWS = 17
 
 
 class _Book:
@@ -45,10 +44,6 @@ class _Book:
         for number, width in enumerate(widths, 1):
             made.column_dimensions[get_column_letter(number)].width = width
         made.cell(1, 1, title).font = Font(name=FONT, bold=True, size=13)
-        made.page_setup.orientation = "landscape"
-        made.page_setup.paperSize = Worksheet.PAPERSIZE_A4
-        made.page_setup.fitToWidth, made.page_setup.fitToHeight = 1, 0
-        made.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
         return made
 
     def head(self, sheet: Worksheet, texts: Sequence[str]) -> None:
@@ -79,7 +74,8 @@ def _data(made: _Book) -> None:
     sheet.append(["Двигатель", "", "", *[engine.model.engine.name for engine in made.engines]])
     sheet.append(["Файл", "", "", *[engine.source.name for engine in made.engines]])
     for row in differences(made.engines):
-        sheet.append([row.title, row.symbol, row.unit, *row.values])
+        symbol = row.symbol.replace("_", "")
+        sheet.append([row.title, symbol, row.unit, *row.values])
     for cells in sheet.iter_rows(min_row=_HEAD + 1):
         for cell in cells:
             cell.alignment = Alignment(wrap_text=True, vertical="top")
@@ -89,6 +85,7 @@ def _data(made: _Book) -> None:
             if isinstance(cell.value, str):  # names of people are no formulas
                 cell.data_type = "s"
     sheet.freeze_panes = Cell(DATA, _HEAD + 1, 4).coordinate
+    lay(sheet, rows=f"{_HEAD}:{_HEAD}")
 
 
 def _results(made: _Book) -> None:
@@ -124,6 +121,7 @@ def _results(made: _Book) -> None:
         number += 1
         sheet.cell(number, 1, sentence)
     sheet.freeze_panes = Cell(RESULTS, _HEAD + 1, 4).coordinate
+    lay(sheet, rows=f"{_HEAD}:{_HEAD}")
 
 
 def _charts(made: _Book, found: Sequence[Chart]) -> None:
@@ -134,7 +132,8 @@ def _charts(made: _Book, found: Sequence[Chart]) -> None:
     column, texts = 2, ["Строка"]
     sheet.cell(low, 1, "наименьшее")
     sheet.cell(high, 1, "наибольшее")
-    for number, chart in enumerate(found):
+    pictures = []
+    for chart in found:
         curves = []
         for engine, x, y in chart.curves:
             label = made.engines[engine].label
@@ -158,8 +157,9 @@ def _charts(made: _Book, found: Sequence[Chart]) -> None:
         ends = (0.0, max(x[-1] for _, x, _ in chart.curves))
         picture = curves_chart(chart.title, X_TITLE, chart.y_title, curves, ends)
         picture.x_axis.majorUnit = ends[1] / 12
-        at = Cell(FIGURES, 3 + _CHART_ROWS * (number // 2), 1 + 10 * (number % 2))
-        drawn.add_chart(picture, at.coordinate)
+        pictures.append(picture)
+    hang(drawn, pictures, _HEAD)
+    lay(sheet, rows=f"1:{_HEAD}", columns="A:A")
     made.head(sheet, texts)
     sheet.row_dimensions[_HEAD].height = 45
     sheet.freeze_panes = Cell(CURVES, _HEAD + 1, 2).coordinate

@@ -15,8 +15,13 @@ _SLANT = 15.0
 _BLACK, _GREY = 7, 8
 
 
-def dxf_bytes(items: Iterable[Item]) -> bytes:
-    """The drawing as a DXF file; the same items give the same bytes."""
+def dxf_bytes(items: Iterable[Item], dashes: float = 1.0) -> bytes:
+    """The drawing as a DXF file; the same items give the same bytes.
+
+    Args:
+        items: The drawing, in millimetres of the thing where it is drawn true to size.
+        dashes: How much longer the dashes of lines are than on paper.
+    """
     import ezdxf
     from ezdxf import units
     from ezdxf.enums import TextEntityAlignment
@@ -27,6 +32,7 @@ def dxf_bytes(items: Iterable[Item]) -> bytes:
         document = ezdxf.new("R2010", setup=False, units=units.MM)
         document.header["$MEASUREMENT"] = 1
         document.header["$LWDISPLAY"] = 1
+        document.header["$LTSCALE"] = dashes
         document.styles.add(STYLE, font=_FONT).dxf.oblique = _SLANT
         for layer in LAYERS:
             made = document.layers.add(layer.name, color=_GREY if layer.grey else _BLACK)

@@ -14,6 +14,7 @@ from reports.sheet.cell import TEXT, Room, headed
 from reports.spec.shape import Shape
 
 _BEARING = 5.0  # half a bearing on the scheme
+_BEYOND = 3.0  # of an axis beyond the throws, before their numbers
 _SECOND = ("F_order_kN", "M_order_Nm")
 
 
@@ -61,7 +62,7 @@ def _from_side(
 
 
 def _star(canvas: Canvas, centre: Point, radius: float, angles: tuple[float, ...]) -> None:
-    for dx, dy in ((radius + 5, 0.0), (0.0, radius + 5)):
+    for dx, dy in ((radius + _BEYOND, 0.0), (0.0, radius + _BEYOND)):
         ends = (centre[0] - dx, centre[1] - dy), (centre[0] + dx, centre[1] + dy)
         canvas.line(*ends, layer=AXES)
     rays: dict[float, list[str]] = {}

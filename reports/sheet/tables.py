@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from reports.document.chapters import facts
+from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms
 from reports.drawing.lettering import fitted
 from reports.drawing.primitives import TABLES, THIN, Canvas
@@ -56,7 +57,9 @@ def running(canvas: Canvas, room: Room, terms: Terms) -> None:
     kept = [n for n, a in enumerate(angles) if abs(np.remainder(a + 1e-6, step)) < 1e-3]
     columns = [terms.column(f"P4_4.Mmain{k}_Nm") for k in range(2, throws + 2)]
     rows = [["φ, °", *(f"шейка {k}" for k in range(2, throws + 2))]]
-    rows += [[fixed(angles[n], 0), *(fixed(float(c[n]), 0) for c in columns)] for n in kept]
+    digits = terms.quantity("P4_4.Mmain2_Nm").digits
+    rows += [[fixed(angles[n], 0), *(of_digits(float(c[n]), digits) for c in columns)]
+             for n in kept]  # fmt: skip
     swings = [terms.num(f"dM_main{k}") for k in range(2, throws + 2)]
     rows.append(["размах", *swings])
     grid(canvas, room, rows, [1.2, *[1.0] * throws])

@@ -20,6 +20,7 @@ from reports.spec.blocks import Model
 from reports.spec.evaluation import Values
 
 _LETTERS = 0.02  # height of the letters of a drawing true to size, of its extent
+_PRINTED = 3.5  # mm: the height of letters on paper that the dashes of lines go with
 _PAGE = """<!DOCTYPE html><html lang="ru"><head><meta charset="utf-8"><title>{title}</title>
 <meta name="dcterms.created" content="{year}-01-01">
 <meta name="dcterms.modified" content="{year}-01-01"><style>{fonts}
@@ -44,12 +45,12 @@ def sheet_files(model: Model, values: Values) -> dict[str, bytes]:
     return {
         "-sheet.pdf": sheet_pdf(canvas.items, width, height, model),
         "-sheet.dxf": dxf_bytes(canvas.items),
-        "-throw.dxf": dxf_bytes(_throws(throws_of(terms))),
-        "-mechanism.dxf": dxf_bytes(_mechanism(mechanism_of(terms))),
+        "-throw.dxf": _throws(throws_of(terms)),
+        "-mechanism.dxf": _mechanism(mechanism_of(terms)),
     }
 
 
-def _throws(throws: list[Throw]) -> list[Item]:
+def _throws(throws: list[Throw]) -> bytes:
     """Every throw true to size beside the one before it; letters in proportion."""
     items: list[Item] = []
     letters, place = _LETTERS * max(throw.size for throw in throws), 0.0
@@ -60,11 +61,12 @@ def _throws(throws: list[Throw]) -> list[Item]:
         middle = place + (right - left) / 2
         items.append(Words((middle, low - 4 * letters), f"Колено {number}", 1.4 * letters, 0.5))
         place += right - left + 12 * letters
-    return items
+    return dxf_bytes(items, letters / _PRINTED)
 
 
-def _mechanism(mechanism: Mechanism) -> list[Item]:
-    return mechanism_drawing(mechanism, letters=_LETTERS * mechanism.size)
+def _mechanism(mechanism: Mechanism) -> bytes:
+    letters = _LETTERS * mechanism.size
+    return dxf_bytes(mechanism_drawing(mechanism, letters=letters), letters / _PRINTED)
 
 
 def sheet_pdf(items: list[Item], width: float, height: float, model: Model) -> bytes:

@@ -10,8 +10,6 @@ from openpyxl import Workbook
 from openpyxl.cell import WriteOnlyCell
 from openpyxl.styles import Alignment, Font
 from openpyxl.utils import get_column_letter
-from openpyxl.worksheet.properties import PageSetupProperties
-from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.shared.errors import InputError, Problem
 from reports.shared.russian import capital, uncapital
@@ -21,6 +19,7 @@ from reports.studies.quantities import Wanted, described, format_of, symbol_of
 from reports.workbook.caches import finish
 from reports.workbook.charts import curves_chart
 from reports.workbook.drawn import Curve
+from reports.workbook.gallery import hang, lay
 from reports.workbook.layout import Cell, column_range
 from reports.workbook.sheets import CacheValues
 from reports.workbook.styles import FONT
@@ -30,7 +29,6 @@ MOST_CURVES = 12
 MOST_CHARTS = 24
 DATA, SUMMARY, CHARTS = "Результаты", "Сводка", "Диаграммы"
 _FIRST = 3  # rows of keys and titles stand above
-_CHART_ROWS = 17
 _NOWHERE = "не меняется"  # the place of an extreme of what stays the same
 # Shown where nothing is asked for.
 _USUAL = ("M_mean", "M_max", "M_e", "N_i_calc", "Rpin_max", "q_pin_max", "worst_main_load")
@@ -80,6 +78,8 @@ class StudyBook:
         self._data.row_dimensions[1].height, self._data.row_dimensions[2].height = 20, 62
         self._formats = [format_of(name) for name in names]
         self._data.freeze_panes = Cell(DATA, _FIRST, len(self.plan.axes) + 1).coordinate
+        last = get_column_letter(len(self.plan.axes))
+        lay(self._data, rows=f"1:{_FIRST - 1}", columns=f"A:{last}")
         keys = [axis.key for axis in self.plan.axes]
         titles = [_headed(axis.title, axis.unit) for axis in self.plan.axes]
         titles += [_headed(*described(name)) for name in names]
@@ -135,7 +135,7 @@ class StudyBook:
 
     def _summary(self) -> None:
         sheet = self._first
-        _landscape(sheet)
+        lay(sheet, rows=f"{len(self.plan.axes) + 2}:{len(self.plan.axes) + 2}")
         for letter, width in (("A", 26), ("B", 60), ("C", 12)):
             sheet.column_dimensions[letter].width = width
         for number in range(4, 6 + 2 * len(self.plan.axes)):
@@ -169,10 +169,10 @@ class StudyBook:
         sheet = self._drawn
         if sheet is None:
             return ranges
-        _landscape(sheet)
         x = self.plan.axes[0]
         names = self.wanted.names
-        for number, (name, values) in enumerate(self._shown.items()):
+        charts = []
+        for name, values in self._shown.items():
             column = len(self.plan.axes) + 1 + names.index(name)
             curves = []
             for label, first, count in self._runs():
@@ -199,8 +199,8 @@ class StudyBook:
             if level is not None:  # else the axis would show rounding
                 span = abs(level) / 10 or 1.0
                 chart.y_axis.scaling.min, chart.y_axis.scaling.max = level - span, level + span
-            place = Cell(CHARTS, 1 + _CHART_ROWS * (number // 2), 1 + 10 * (number % 2))
-            sheet.add_chart(chart, place.coordinate)
+            charts.append(chart)
+        hang(sheet, charts, 1)
         return ranges
 
     def _runs(self) -> Iterator[tuple[str, int, int]]:
@@ -221,13 +221,6 @@ def _level(values: Sequence[float]) -> float | None:
     if not known or max(known) - min(known) > 1e-9 * max(map(abs, known)):
         return None
     return float(f"{known[0]:.6g}")
-
-
-def _landscape(sheet: Worksheet) -> None:
-    sheet.page_setup.orientation = "landscape"
-    sheet.page_setup.paperSize = Worksheet.PAPERSIZE_A4
-    sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight = 1, 0
-    sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
 
 
 def _valued(axis: Axis, number: int) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 from math import isfinite
 
+from openpyxl.formatting.rule import FormulaRule
 from openpyxl.styles import Alignment, PatternFill
 from openpyxl.styles import Font as CellFont
 from openpyxl.worksheet.worksheet import Worksheet
@@ -14,12 +15,11 @@ from reports.shared.russian import capital
 from reports.spec.blocks import Model
 from reports.spec.shape import Shape, pin_figure, pin_name
 from reports.tables.overview.left_out import left_out_note
-from reports.tables.overview.summary import NO, YES
 from reports.workbook import styles
 from reports.workbook.chapters import chapter_of, heading
 from reports.workbook.charts import HIGH, WIDE, make_chart, ranges_of
 from reports.workbook.inputs import shown
-from reports.workbook.layout import INPUT_SHEET, Cell, column_range
+from reports.workbook.layout import Cell
 from reports.workbook.links import link
 from reports.workbook.places import (
     GAP,
@@ -32,6 +32,7 @@ from reports.workbook.places import (
     wrap_across,
 )
 from reports.workbook.sheets import Writer
+from reports.workbook.verdict import GOOD
 
 # Inputs and scalars that say which engine this is, and what came out; those that there are.
 DATA = (
@@ -64,6 +65,7 @@ def write_cockpit(
     model: Model,
     writer: Writer,
     legend: Sequence[tuple[str, str]],
+    verdict: tuple[str, str] | None,
 ) -> list[Box]:
     """Fill the first sheet; the places of its charts."""
     for letter, width in _WIDTHS.items():
@@ -72,7 +74,7 @@ def write_cockpit(
     title = model.input.report.title or "Кинематика и динамика КШМ"
     styles.as_text(sheet.cell(1, 1, title)).style = styles.TITLE
     row = _people(sheet, model, _TOP)
-    row = _verdict(sheet, model, writer, row)
+    row = _verdict(sheet, writer, row, verdict)
     row = _values(sheet, writer, row + 1, "Двигатель", DATA)
     row = _values(sheet, writer, row + 1, "Главные результаты", RESULTS)
     boxes = _charts(sheet, model, writer)
@@ -101,23 +103,16 @@ def _people(sheet: Worksheet, model: Model, row: int) -> int:
     return row
 
 
-def _verdict(sheet: Worksheet, model: Model, writer: Writer, row: int) -> int:
-    """Whether all checks hold; nothing where they are not in the book."""
-    values = writer.values.scalars
-    keys = [key for key in model.scalars if key.startswith("check_") and key in values]
-    if not keys or any(values[key] not in (YES, NO) for key in keys):
+def _verdict(sheet: Worksheet, writer: Writer, row: int, verdict: tuple[str, str] | None) -> int:
+    """Whether the numbers of the book hold; nothing where no checks are in it."""
+    if verdict is None:
         return row
-    passed = sum(values[key] == YES for key in keys) == len(keys)
-    good, bad = "все выполнены", "не все, см. «Проверки»"
-    # A verdict that is an error is neither.
-    unknown = f"не посчитаны, см. «{INPUT_SHEET}»"
-    first, last = (writer.layout.cells[key] for key in (keys[0], keys[-1]))
-    run = column_range(first.sheet, first.column, first.row, last.row)
     sheet.cell(row, 1, "Проверки расчёта").style = styles.TEXT
-    failed = f'IF(COUNTIF({run},"{NO}")>0,"{bad}","{unknown}")'
-    formula = f'=IF(COUNTIF({run},"{YES}")={len(keys)},"{good}",{failed})'
-    writer.formula(sheet, row, 2, formula, good if passed else bad)
+    writer.formula(sheet, row, 2, *verdict)
     sheet.cell(row, 2).style = styles.LINE
+    # Not bold: the longest verdict ends before the charts.
+    wrong = FormulaRule([f'$B{row}<>"{GOOD}"'], fill=styles.wrong()["fill"])
+    sheet.conditional_formatting.add(f"B{row}:D{row}", wrong)
     return row + 1
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from itertools import groupby
 
 from openpyxl.formatting.rule import CellIsRule
 from openpyxl.worksheet.datavalidation import DataValidation
@@ -25,23 +26,27 @@ from reports.workbook.layout import (
 
 def write_inputs(sheet: Worksheet, model: Model, layout: Layout) -> None:
     """All input fields of a model."""
-    headed: set[str] = set()
-    for item in model.inputs:
-        place = layout.places[f"input:{item.section}"]
-        listed = item.listed
-        if item.section not in headed:
-            headed.add(item.section)
-            sheet.cell(place.row, 1, item.section).style = styles.SUBTITLE
-        cell = layout.cells[item.name]
-        if listed:
-            _entry(sheet, item, cell.row, cell.column, place.row + 1)
-        else:
-            _labels(sheet, item, cell.row)
-        target = styles.as_text(sheet.cell(cell.row, cell.column, shown(item)))
-        target.style = styles.STRUCTURE if item.structural else styles.INPUT
-        target.number_format = "@" if isinstance(item.value, str) else "General"
-        _validate(sheet, item, cell.coordinate)
+    # A section may be interrupted by the lists that stand within it in the file.
+    for section, run in groupby(model.inputs, lambda item: item.section):
+        items = list(run)
+        top = layout.cells[items[0].name].row - (2 if items[0].listed else 1)
+        sheet.cell(top, 1, section).style = styles.SUBTITLE
+        for item in items:
+            _field(sheet, item, layout, top)
     _mark_wrong(sheet, model, layout)
+
+
+def _field(sheet: Worksheet, item: Field, layout: Layout, top: int) -> None:
+    """One value with its labels; the headers of a list stand below the title at ``top``."""
+    cell = layout.cells[item.name]
+    if item.listed:
+        _entry(sheet, item, cell.row, cell.column, top + 1)
+    else:
+        _labels(sheet, item, cell.row)
+    target = styles.as_text(sheet.cell(cell.row, cell.column, shown(item)))
+    target.style = styles.STRUCTURE if item.structural else styles.INPUT
+    target.number_format = "@" if isinstance(item.value, str) else "General"
+    _validate(sheet, item, cell.coordinate)
 
 
 def shown(item: Field) -> float | int | str:
@@ -49,6 +54,12 @@ def shown(item: Field) -> float | int | str:
     if item.choices is not None and isinstance(item.value, str):
         return item.choices[item.value]
     return item.value
+
+
+def options(item: Field) -> list[int | str]:
+    """What the cell of a choice may hold: numbers without the words that a file has for them."""
+    choices = item.choices or {}
+    return list(map(int, choices)) if isinstance(item.value, int) else [*choices.values()]
 
 
 def range_text(item: Field) -> str:
@@ -93,7 +104,7 @@ def _entry(sheet: Worksheet, item: Field, row: int, column: int, header_row: int
 
 def _validate(sheet: Worksheet, item: Field, coordinate: str) -> None:
     if item.choices is not None:
-        labels = list(item.choices.values())
+        labels = list(map(str, options(item)))
         rule = DataValidation(type="list", formula1=f'"{",".join(labels)}"', allow_blank=False)
         if any("," in label for label in labels) or len(",".join(labels)) > 250:
             return

@@ -108,7 +108,6 @@ class Layout:
             if item.section != section:
                 row += 2 if section else 0
                 section, entry = item.section, None
-                self.places[f"input:{section}"] = Cell(INPUT_SHEET, row, 1)
                 row += 2 if listed else 1
             if listed:
                 # Lists of records stand as small tables: a row an entry, a column a key.

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Mapping, Sequence
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from math import ceil, floor, isfinite
 
 import numpy as np
@@ -27,20 +28,32 @@ from reports.workbook.layout import (
     Layout,
     area,
 )
-from reports.workbook.places import DIGIT, Box, column_px, extent, last_cell, room_of, wrap_across
+from reports.workbook.places import (
+    DIGIT,
+    Box,
+    column_px,
+    extent,
+    last_cell,
+    room_of,
+    row_px,
+    wrap_across,
+)
 from reports.workbook.sheets import NARROW, SOURCE_WIDTH, SYMBOL_WIDTH, TITLE_WIDTH
 
 _LIST = {
     1: TITLE_WIDTH, 2: SYMBOL_WIDTH, VALUE_COLUMN: 14, 4: 11, SOURCE_COLUMN: SOURCE_WIDTH, 6: 30,
 }  # fmt: skip
 _SUBTITLE_LETTER = 1.18  # in digits of a column: bold and larger
+_THIN, _HEADER_LETTER = 0.65, 1.25  # the same of thin letters and of others of a header
+_HEADER_LINE = 16  # pt
+_THIN_LETTERS, _EDGES = frozenset(" ()ijlt1/·.,'"), 1.5
 _BESIDE, _WIDEST = (34, 10, 11, 8, 20), 64  # of a list beside a table
 _CYCLE_WIDTHS = {2: 20, 4: 17, SOURCE_COLUMN: 28, 6: 17, 7: 17, 8: 17}
 _RANGE_WIDTHS = {1: 76, 2: 4, 4: 16, SOURCE_COLUMN: 42}
 UPRIGHT = 1290  # px: wider sheets lie
-_PAPER = {"portrait": (690, 1010), "landscape": (1030, 670)}  # px: A4 less its margins
+PAPER = {"portrait": (690, 1010), "landscape": (1030, 670)}  # px: A4 less its margins
 _LEAST = 0.45  # scale below which a sheet rather takes more pages, down and across
-_SURE = 0.93  # part of the paper that no program's own widths of columns go beyond
+SURE = 0.93  # part of the paper that no program's own widths of columns go beyond
 _SQUEEZED = 0.3  # what is made smaller by less than this saves a page
 
 
@@ -69,7 +82,11 @@ def set_widths(sheet: Worksheet, model: Model, layout: Layout, values: Values) -
                 sheet, {first + i: width for i, width in enumerate(_fitting(sheet, layout, block))}
             )
     _widen(sheet, blocks, layout, values)
-    sheet.row_dimensions[HEADER_ROW].height = 48
+    sheet.row_dimensions[HEADER_ROW].height = _HEADER_LINE * max(
+        _lines(column.quantity.header, column_px(sheet, index) / DIGIT)
+        for table in tables
+        for index, column in enumerate(table.columns, layout.places[table.id].column)
+    )
     for table in tables:
         _fold(sheet, table, layout, values)
     _wrap_titles(sheet)
@@ -113,13 +130,36 @@ def _widen(sheet: Worksheet, blocks: Sequence[Block], layout: Layout, values: Va
                 numbers = values.columns[block.id][column.key]
                 for end in (numbers.min(), numbers.max()):
                     hold(index, float(end), column.quantity)
+                _hold(sheet, index, max(map(_word, column.quantity.header.split())))
         for scalar in scalars_of(block):
             value = values.scalars[scalar.key]
             if not isinstance(value, str):
                 hold(layout.cells[scalar.key].column, float(value), scalar.quantity)
     for index, letters in longest.items():
-        dimension = sheet.column_dimensions[get_column_letter(index)]
-        dimension.width = max(dimension.width, room_of(letters))
+        _hold(sheet, index, room_of(letters))
+
+
+def _hold(sheet: Worksheet, index: int, width: float) -> None:
+    dimension = sheet.column_dimensions[get_column_letter(index)]
+    dimension.width = max(dimension.width, width)
+
+
+def _lines(header: str, width: float) -> int:
+    """Lines of a header in a column, three at least."""
+    lines = [""]
+    for word in header.split():
+        longer = f"{lines[-1]} {word}".strip()
+        if _word(longer) > width:
+            lines.append(word)
+        else:
+            lines[-1] = longer
+    return max(3, len(lines))
+
+
+def _word(word: str) -> float:
+    """Width of a column in which a word of a header is not broken."""
+    thin = sum(letter in _THIN_LETTERS for letter in word)
+    return _EDGES + thin * _THIN + (len(word) - thin) * _HEADER_LETTER
 
 
 def _fold(sheet: Worksheet, table: TableSpec, layout: Layout, values: Values) -> None:
@@ -149,12 +189,12 @@ def set_page(sheet: Worksheet, boxes: Sequence[Box], *, charts_alone: bool = Fal
         height = max(height, *(box.bottom for box in boxes))
     page = sheet.page_setup
     page.paperSize = sheet.PAPERSIZE_A4
-    scales = {name: min(w / width, h / height) for name, (w, h) in _PAPER.items()}
+    scales = {name: min(w / width, h / height) for name, (w, h) in PAPER.items()}
     page.orientation = max(scales, key=lambda name: scales[name])
     pages = int(scales[page.orientation] >= _LEAST)
     if not pages and width > UPRIGHT:
         page.orientation = "landscape"
-    w, h = _PAPER[page.orientation]
+    w, h = PAPER[page.orientation]
     across = ceil(width * _LEAST / w)
     if not pages:
         sheets = height * min(1, across * w / width) / h
@@ -165,12 +205,53 @@ def set_page(sheet: Worksheet, boxes: Sequence[Box], *, charts_alone: bool = Fal
     sheet.sheet_properties.pageSetUpPr.fitToPage = True
     if across > 1 and (boxes or not _part(sheet, height)):
         sheet.print_title_cols = "A:A"
+    if boxes and pages != 1 and across == 1:
+        _end_between(sheet, boxes, width)
     sheet.print_area = area(Cell("", 1, 1), last)
+    set_margins(sheet)
+
+
+def set_margins(sheet: Worksheet) -> None:
+    """Margins, the file's name above, the sheet's below with the number of the page."""
     margins = sheet.page_margins
     margins.left, margins.right, margins.top, margins.bottom = 0.6, 0.3, 0.5, 0.6
     margins.header = margins.footer = 0.3
     sheet.oddHeader.right.text = "&F"
     sheet.oddFooter.center.text = "&A — лист &P из &N"
+
+
+def _end_between(sheet: Worksheet, boxes: Sequence[Box], width: int) -> None:
+    """Pages that end between charts, where these take several; smaller where that saves pages."""
+    w, h = (SURE * side for side in PAPER[sheet.page_setup.orientation])
+    most = floor(100 * min(w / width, 1))
+    if max(box.bottom for box in boxes) <= 100 * h / most:
+        return
+    tops = [0, *accumulate(row_px(sheet, row) for row in range(1, last_cell(sheet, boxes)[0] + 1))]
+    repeated = tops[NUMBER_ROW] - tops[HEADER_ROW - 2] if sheet.print_title_rows else 0
+    scales = range(most, floor(most / (1 + _SQUEEZED)), -1)
+    ends = {scale: _ends(boxes, tops, 100 * h / scale, repeated) for scale in scales}
+    scale = min(scales, key=lambda scale: len(ends[scale]))
+    for row in ends[scale]:
+        sheet.row_breaks.append(Break(id=row))
+    _own_scale(sheet, scale)
+
+
+def _ends(boxes: Sequence[Box], tops: Sequence[int], room: float, repeated: int) -> list[int]:
+    """Last rows of pages of some height, of which all but the first repeat headers."""
+    top, rows = 0, list[int]()
+    while (end := top + room - (repeated if top else 0)) < max(box.bottom for box in boxes):
+        row = bisect_right(tops, end) - 1
+        while cut := [box.y for box in boxes if top < box.y < tops[row] < box.bottom]:
+            row = bisect_right(tops, min(cut)) - 1
+        rows.append(row)
+        top = tops[row]
+    return rows
+
+
+def _own_scale(sheet: Worksheet, percent: int) -> None:
+    page = sheet.page_setup
+    page.scale, page.fitToWidth, page.fitToHeight = percent, None, None
+    sheet.sheet_properties.pageSetUpPr.fitToPage = False
 
 
 def _part(sheet: Worksheet, height: int) -> bool:
@@ -186,17 +267,15 @@ def _part(sheet: Worksheet, height: int) -> bool:
         sum(column_px(sheet, i) for i in range(start, end))
         for start, end in zip(starts, ends, strict=True)
     )
-    w, h = (_SURE * side for side in _PAPER["portrait"])
+    w, h = (SURE * side for side in PAPER["portrait"])
     scale = min(w / widest, 1)
     if scale < _LEAST:
         return False
     down = floor(height * scale / h)
     if down and height * scale <= down * h * (1 + _SQUEEZED):
         scale = min(scale, down * h / height)
-    page = sheet.page_setup
-    page.orientation, page.scale = "portrait", floor(100 * scale)
-    page.fitToWidth = page.fitToHeight = None
-    sheet.sheet_properties.pageSetUpPr.fitToPage = False
+    sheet.page_setup.orientation = "portrait"
+    _own_scale(sheet, floor(100 * scale))
     for start in starts[1:]:
         sheet.col_breaks.append(Break(id=start - 1))
     return True

@@ -23,7 +23,7 @@ FOLD = 640  # px: 900 less ribbon, formula bar, tabs
 GAP = 8
 LINE = 15  # pt of height
 _EMU = 9525  # in a pixel
-DIGIT, _COLUMN, _ROW = 7, 64, 20  # px
+DIGIT, COLUMN, ROW = 7, 64, 20  # px
 _LETTERS = 0.93  # letters of a text in the room of a digit
 
 
@@ -51,15 +51,15 @@ def column_px(sheet: Worksheet, index: int) -> int:
     """Width of a column as it is seen."""
     letter = get_column_letter(index)
     if letter not in sheet.column_dimensions:
-        return _COLUMN
+        return COLUMN
     about = sheet.column_dimensions[letter]
-    return 0 if about.hidden else round(about.width * DIGIT) if about.width else _COLUMN
+    return 0 if about.hidden else round(about.width * DIGIT) if about.width else COLUMN
 
 
 def row_px(sheet: Worksheet, index: int) -> int:
     """Height of a row."""
     height = sheet.row_dimensions[index].height if index in sheet.row_dimensions else None
-    return _ROW if height is None else round(height * 4 / 3)
+    return ROW if height is None else round(height * 4 / 3)
 
 
 def extent(sheet: Worksheet) -> tuple[int, int]:
@@ -115,7 +115,8 @@ def flow(sizes: Sequence[tuple[int, int]], x: int, y: int, right: int) -> list[B
     left, row, bottom = x, y, y
     for width, height in sizes:
         if left > x and left + width > right:
-            left, row = x, bottom + GAP
+            # Where a page of the print may end, rows of cells end too.
+            left, row = x, row + ceil((bottom + GAP - row) / ROW) * ROW
         boxes.append(Box(left, row, width, height))
         left, bottom = left + width + GAP, max(bottom, row + height)
     return boxes
@@ -140,7 +141,7 @@ def keep_columns(sheet: Worksheet, boxes: Sequence[Box]) -> None:
     for index in range(1, last_cell(sheet, boxes)[1] + 1 if boxes else 0):
         letter = get_column_letter(index)
         if letter not in sheet.column_dimensions:
-            sheet.column_dimensions[letter].width = _COLUMN / DIGIT
+            sheet.column_dimensions[letter].width = COLUMN / DIGIT
 
 
 def last_cell(sheet: Worksheet, boxes: Sequence[Box]) -> tuple[int, int]:

@@ -6,8 +6,6 @@ from collections.abc import Sequence
 
 from lxml.etree import SerialisationError
 from openpyxl import Workbook
-from openpyxl.formatting.rule import CellIsRule
-from openpyxl.styles import PatternFill
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.worksheet import Worksheet
@@ -31,10 +29,8 @@ from reports.workbook.layout import (
     NOTE_ROW,
     SOURCE_COLUMN,
     TITLE_ROW,
-    UNIT_COLUMN,
     Cell,
     Layout,
-    area,
     check_names,
 )
 from reports.workbook.links import link
@@ -54,6 +50,7 @@ from reports.workbook.places import (
     wrap_across,
 )
 from reports.workbook.sheets import CacheValues, Writer
+from reports.workbook.verdict import colour_verdicts, write_verdict
 
 _MOST_CHECKS = 40
 NOTE_COLUMN, _NOTE_PX = 3, 560  # where a sheet's note begins, and how wide it is at least
@@ -96,8 +93,9 @@ def assemble(
             _heading(book.create_sheet(title, _index(book, title)), heading(title))
         boxes[motion.SHEET] = motion.write_motion(book, model, writer)
         what_if.write_what_if(book, model, writer)
+    verdict = write_verdict(book, model, writer)
     boxes[CONTENTS_SHEET] = write_cockpit(
-        book[CONTENTS_SHEET], book.sheetnames, model, writer, legend
+        book[CONTENTS_SHEET], book.sheetnames, model, writer, legend, verdict
     )
     for sheet in book.worksheets:
         keep_columns(sheet, boxes.get(sheet.title, ()))
@@ -140,21 +138,11 @@ def _blocks(sheet: Worksheet, model: Model, writer: Writer) -> None:
         elif isinstance(block, ScalarTable):
             writer.list(sheet, block)
             if block.verdicts is not None:
-                _colour_verdicts(sheet, *block.verdicts)
+                colour_verdicts(sheet, HEADER_ROW, HEADER_ROW + _MOST_CHECKS, *block.verdicts)
             if block.id == "checks":
                 _remarks(sheet, model.remarks)
         elif isinstance(block, Grid):
             writer.grid(sheet, block)
-
-
-def _colour_verdicts(sheet: Worksheet, good: str, bad: str) -> None:
-    first, last = (
-        Cell(sheet.title, row, UNIT_COLUMN) for row in (HEADER_ROW, HEADER_ROW + _MOST_CHECKS)
-    )
-    place = area(first, last)
-    green = PatternFill(bgColor="C6EFCE")
-    sheet.conditional_formatting.add(place, CellIsRule("equal", [f'"{good}"'], fill=green))
-    sheet.conditional_formatting.add(place, CellIsRule("equal", [f'"{bad}"'], **styles.wrong()))
 
 
 def _remarks(sheet: Worksheet, remarks: Sequence[str]) -> None:

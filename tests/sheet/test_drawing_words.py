@@ -9,8 +9,10 @@ from hypothesis import strategies as st
 from reports.document.figures.parts import mechanism_of, throw_of
 from reports.drawing.lettering import parts_of, plain, width_of
 from reports.drawing.parts import Mechanism, Throw, mechanism_drawing, throw_drawing
-from reports.drawing.primitives import AXES, Canvas, Line, Words, interrupted, overlap
+from reports.drawing.primitives import AXES, Canvas, Line, Words, box_of, interrupted, overlap
 from reports.drawing.svg import svg_of
+from reports.sheet.cell import Room
+from reports.sheet.schemes import shaft
 from tests.sheet.sheet_samples import terms
 
 
@@ -71,3 +73,13 @@ def test_an_index_stands_lower_and_smaller():
 def test_no_line_runs_through_a_long_size_of_a_small_mechanism(sizes, scale):
     """The radius has a place past the circle on the other side, the rod beyond its end."""
     assert crossed(mechanism_drawing(Mechanism(*sizes), letters=2.5, scale=scale)) == []
+
+
+@pytest.mark.parametrize("name", ["ecoboost-10", "gots-diesel", "two-stroke", "vw-1600"])
+def test_no_axis_runs_through_the_number_of_a_throw(name):
+    canvas = Canvas()
+    shaft(canvas, Room(0.0, 0.0, 100.0, 60.0), terms(name))
+    texts = [item for item in canvas.items if isinstance(item, Words)]
+    axes = [item for item in canvas.items if isinstance(item, Line) and item.layer is AXES]
+    assert len(axes) == 3
+    assert [text.text for text in texts for axis in axes if overlap(text.box, box_of(axis))] == []

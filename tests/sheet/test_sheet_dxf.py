@@ -18,12 +18,13 @@ from hypothesis import strategies as st
 
 from reports.drawing.dxf import dxf_bytes
 from reports.drawing.lettering import plain
+from reports.drawing.parts import Throw
 from reports.drawing.primitives import LAYERS, Line, Words
 from reports.inputs.load import load_text
 from reports.inputs.own_engine import own_engine
 from reports.inputs.own_file import file_text
 from reports.sheet.layout import sheet_items
-from reports.sheet.write import sheet_files
+from reports.sheet.write import _throws, sheet_files
 from tests.cover import chapters, charts, samples_with
 from tests.sheet.sheet_samples import drawn, terms, terms_of
 from tests.sheet.test_sheet_places import faults
@@ -221,3 +222,20 @@ def test_words_stand_in_the_file_where_the_list_has_them():
     for item, text in zip(words, texts, strict=True):
         assert text.dxf.text == plain(item.text) and text.dxf.height == pytest.approx(item.height)
         assert tuple(text.get_placement()[1])[:2] == pytest.approx(item.place)
+
+
+@pytest.mark.parametrize("size", [1.0, 0.1, 10.0])
+def test_of_any_engine_dashes_go_with_the_letters(size: float) -> None:
+    """Drawn true to size, the axes of a small crank were two dashes, of a large one dust."""
+    lengths = (18.0, 19.0, 10.0, 10.0, 19.0, 18.0)
+    throw = Throw(
+        tuple(size * arm for arm in lengths), (19 * size, 19 * size), 43 * size, 59 * size,
+        (71 * size, 71 * size), (37 * size, 37 * size),
+    )  # fmt: skip
+    document = read(_throws([throw]))
+    letters = min(text.dxf.height for text in document.modelspace().query("TEXT"))
+    assert document.header["$LTSCALE"] == pytest.approx(letters / 3.5)
+
+
+def test_on_paper_dashes_are_as_long_as_they_say() -> None:
+    assert read(files()["-sheet.dxf"]).header["$LTSCALE"] == 1.0

@@ -6,10 +6,14 @@ import itertools
 
 import pytest
 
+from reports.document.text.numbers import of_digits
 from reports.drawing.primitives import THIN, Line, Words, box_of, overlap
+from reports.inputs.fields import to_mapping
+from reports.inputs.load import load_mapping
 from reports.inputs.sections.sheet import DIAGRAMS, USUAL, SheetSection
 from reports.sheet.layout import SIZES, cells
 from reports.sheet.stamp import HEIGHT, MARGINS, WIDTH
+from tests.conftest import sample
 from tests.cover import chapters, charts, samples_with
 from tests.layouts import MAKERS, made
 from tests.sheet.sheet_samples import drawn, terms, terms_of
@@ -70,9 +74,9 @@ def test_a_sample_in_the_legend_shows_how_its_line_is_broken():
     lines = [item for item in canvas.items if isinstance(item, Line) and len(item.points) == 2]
     samples = [line for line in lines if line.dash and line.layer is THIN]
     assert len(samples) > 3
-    for sample in samples:
-        (left, _), (right, _) = sample.points
-        assert right - left >= sum(sample.dash) + sample.dash[0] - 0.1
+    for shown in samples:
+        (left, _), (right, _) = shown.points
+        assert right - left >= sum(shown.dash) + shown.dash[0] - 0.1
 
 
 def test_the_place_of_an_oil_hole_is_the_reports():
@@ -80,3 +84,15 @@ def test_the_place_of_an_oil_hole_is_the_reports():
     canvas, *_ = drawn(model)
     said = [item.text for item in canvas.items if isinstance(item, Words)]
     assert any(text.endswith(f"отверстие {model.num('hole_pin_deg')}°") for text in said)
+
+
+def test_running_on_torques_of_a_small_engine_are_not_rounded_to_nothing() -> None:
+    """Of a bore of 15 mm and 2.4 N·m nearly all of them stood as 0."""
+    raw = to_mapping(sample("two-stroke"))
+    raw["geometry"] |= {"bore_mm": 15.0}
+    t = terms_of(load_mapping(raw, source="small").model)
+    written = {item.text for item in drawn(t)[0].items if isinstance(item, Words)}
+    torques = t.column("P4_4.Mmain2_Nm")
+    digits = t.quantity("P4_4.Mmain2_Nm").digits
+    assert digits.decimals > 0
+    assert of_digits(float(torques[9]), digits) in written

@@ -13,6 +13,7 @@ from reports.formula.parse import SCALES, parse
 from reports.spec.blocks import Model, TableSpec, scalars_of
 from reports.workbook.chapters import chapter_of
 from reports.workbook.charts import HIGH, WIDE
+from reports.workbook.inputs import options
 from reports.workbook.motion import SHAPE as MECHANISM
 from reports.workbook.motion import WIDE as MOVING
 
@@ -23,8 +24,8 @@ MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 # All of Excel 2007 and before, none volatile, the same in LibreOffice and formualizer.
 ALLOWED = {
     "ABS", "ACOS", "AND", "ASIN", "ATAN2", "AVERAGE", "CHOOSE", "COS", "COUNT", "COUNTIF",
-    "DEGREES", "EXP", "IF", "INDEX", "INT", "LN", "MATCH", "MAX", "MIN", "MOD", "NOT", "OR", "PI",
-    "RADIANS", "ROUND", "SIN", "SQRT", "SUM", "SUMPRODUCT", "TAN",
+    "DEGREES", "EXP", "IF", "INDEX", "INT", "ISERROR", "LN", "MATCH", "MAX", "MIN", "MOD", "NOT",
+    "OR", "PI", "RADIANS", "ROUND", "SIN", "SQRT", "SUM", "SUMPRODUCT", "TAN",
 }  # fmt: skip
 VOLATILE = {"CELL", "INDIRECT", "INFO", "NOW", "OFFSET", "RAND", "RANDBETWEEN", "TODAY"}
 OF_RANGES = {
@@ -229,6 +230,15 @@ def expressions(model: Model) -> dict[str, str]:
         else:
             found |= {scalar.key: scalar.expr for scalar in scalars_of(block)}
     return found
+
+
+def limits(model: Model) -> set[float]:
+    """Numbers by which the sheet of inputs tells whether a cell holds what it may."""
+    found = {0.0, 1.0}
+    for item in model.inputs:
+        found |= {float(end) for end in (item.minimum, item.maximum) if end is not None}
+        found |= {float(value) for value in options(item) if isinstance(value, int)}
+    return found | {abs(end) for end in found}  # a sign is no part of a literal
 
 
 def constants(model: Model) -> set[float]:

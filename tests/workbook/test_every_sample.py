@@ -16,6 +16,7 @@ from reports.inputs.sections.input_file import InputFile
 from reports.tables.registry import build_model
 from reports.workbook import motion, what_if
 from reports.workbook.caches import sheet_parts
+from reports.workbook.layout import INPUT_SHEET
 from reports.workbook.read import load_workbook_input
 from tests.conftest import sample_names
 from tests.cover import charts, formulas, samples_with
@@ -28,6 +29,7 @@ from tests.workbook.lint import (
     expressions,
     formula_problems,
     has_value,
+    limits,
     literals,
 )
 from tests.workbook.made import MOVING, coarse_book, coarse_model, drawn
@@ -54,7 +56,8 @@ def test_the_workbook_keeps_the_rules(name: str, tmp_path: Path) -> None:
                 where = (title, cell.get("r"), formula)
                 assert formula_problems(cell) == [], where
                 drawn_or_beside = title in (motion.SHEET, what_if.SHEET)  # shapes, percents
-                assert drawn_or_beside or literals(formula) <= known, where
+                allowed = limits(model) if title == INPUT_SHEET else known
+                assert drawn_or_beside or literals(formula) <= allowed, where
     path = tmp_path / "book.xlsx"
     path.write_bytes(book)
     assert to_mapping(load_workbook_input(path).model) == to_mapping(model.input)

@@ -2,16 +2,27 @@
 
 from __future__ import annotations
 
+import io
 import itertools
 import math
 
+import matplotlib
 import pytest
+from openpyxl import Workbook, load_workbook
 from openpyxl.worksheet.worksheet import Worksheet
+from PIL import ImageFont
 
+from reports.inputs.load import load_text
+from reports.inputs.own_engine import own_engine
+from reports.inputs.own_file import file_text
+from reports.spec.blocks import Model
+from reports.tables.registry import build_model
+from reports.workbook import styles
 from reports.workbook.chapters import CHAPTERS, chapter_of, diagrams_of, heading, ordered, place_of
-from reports.workbook.layout import HEADER_ROW
+from reports.workbook.layout import HEADER_ROW, INPUT_SHEET, Layout
 from reports.workbook.motion import SHEET
 from reports.workbook.places import DIGIT, FOLD, SCREEN, Box, column_px, extent, row_px
+from reports.workbook.write import workbook_bytes
 from tests.conftest import sample_names
 from tests.cover import charts, quantities, samples_with
 from tests.workbook.made import coarse_model, coarse_opened
@@ -149,3 +160,61 @@ def test_no_text_runs_under_a_chart(name: str) -> None:
             if any(x < box.x < end and box.y <= y < box.bottom for box in boxes):
                 covered.append(f"{sheet.title}!{cell.coordinate}: {cell.value}")
     assert covered == []
+
+
+# Letters as wide as Times New Roman's, and as installed as matplotlib.
+_BOLD = ImageFont.truetype(matplotlib.get_data_path() + "/fonts/ttf/STIXGeneralBol.ttf", 440)
+_PX, _EDGES, _LINE = 11 / 440 * 4 / 3, 5, 19  # of a header of 11 pt
+
+
+def header_problems(text: str, width: int, height: int) -> list[str]:
+    """Words that are broken, lines that are cut off."""
+    room = width - _EDGES
+
+    def long(words: str) -> bool:
+        return _BOLD.getlength(words) * _PX > room
+
+    lines = [""]
+    for word in text.split():
+        if long(f"{lines[-1]} {word}".strip()):
+            lines.append("")
+        lines[-1] = f"{lines[-1]} {word}".strip()
+    found = [f"«{word}» is broken" for word in text.split() if long(word)]
+    return [*found, f"{len(lines)} lines"] if len(lines) * _LINE > height else found
+
+
+@pytest.mark.parametrize("name", samples_with(charts, quantities))
+def test_headers_of_tables_are_whole(name: str) -> None:
+    whole_headers(coarse_opened(name), coarse_model(name))
+
+
+def test_headers_of_twelve_throws_are_whole() -> None:
+    """«Mш.ш10 по» has no room in one line where «Mш.ш9 по» has."""
+    made = build_model(load_text(file_text(own_engine(12)), source="twelve").model)
+    whole_headers(load_workbook(io.BytesIO(workbook_bytes(made))), made)
+
+
+def whole_headers(book: Workbook, made: Model) -> None:
+    for title in {table.sheet for table in made.tables.values()}:
+        sheet = book[title]
+        for cell in sheet[HEADER_ROW]:
+            width = column_px(sheet, cell.column)
+            if width and cell.value and cell.style == styles.HEADER:
+                said = header_problems(cell.value, width, row_px(sheet, HEADER_ROW))
+                assert said == [], (title, cell.value)
+
+
+def test_a_header_too_long_for_its_column_is_seen() -> None:
+    assert header_problems("εш (точно), с⁻²", 66, 64) == []
+    assert header_problems("εш (приближённо), с⁻²", 66, 64) == ["«(приближённо),» is broken"]
+    assert header_problems("M по статике шейки 1, Н·м", 70, 64) == ["4 lines"]
+
+
+@pytest.mark.parametrize("name", sample_names())
+def test_every_group_of_input_data_has_its_title(name: str) -> None:
+    made, sheet = coarse_model(name), coarse_opened(name)[INPUT_SHEET]
+    layout = Layout.of(made)
+    for section, run in itertools.groupby(made.inputs, lambda item: item.section):
+        first = next(run)
+        row = layout.cells[first.name].row - (2 if first.listed else 1)
+        assert sheet.cell(row, 1).value == section

@@ -5,15 +5,18 @@ from __future__ import annotations
 import io
 import re
 import subprocess
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
 from openpyxl import load_workbook
 
 from reports.workbook.layout import HEADER_ROW
-from reports.workbook.places import column_px
+from reports.workbook.paper import PAPER
+from reports.workbook.places import column_px, extent, top_of
 from tests.conftest import sample_names
 from tests.workbook.made import book, coarse_book
+from tests.workbook.test_places import boxes_of
 from tools.referees.by_libreoffice import LibreOffice
 
 MOST_PAGES = 60
@@ -46,6 +49,11 @@ def test_no_page_begins_within_a_table_beside_others(name: str) -> None:
         if sheet.sheet_properties.pageSetUpPr.fitToPage:
             assert len(starts) < 2 or sheet.page_setup.fitToWidth == 1, sheet.title
             continue
+        if sheet.row_breaks.brk:  # one page across all the same
+            wide = extent(sheet)[0] * sheet.page_setup.scale / 100
+            assert not sheet.col_breaks.brk
+            assert wide <= PAPER[sheet.page_setup.orientation][0], sheet.title
+            continue
         breaks = [found.id + 1 for found in sheet.col_breaks.brk]
         assert breaks == starts[1:]
         assert not sheet.print_title_cols
@@ -54,3 +62,30 @@ def test_no_page_begins_within_a_table_beside_others(name: str) -> None:
         for start, end in zip([1, *breaks], ends, strict=True):
             width = sum(column_px(sheet, i) for i in range(start, end))
             assert width * sheet.page_setup.scale / 100 <= 690
+
+
+@pytest.mark.parametrize("name", ["d-240-bearings", "gots-regimes", "mwm-6"])
+def test_no_chart_is_cut_by_the_end_of_a_page(name: str) -> None:
+    """Where charts take several pages: fitted to pages these would end anywhere."""
+    ended = []
+    for sheet in load_workbook(io.BytesIO(book(name))).worksheets:
+        boxes, page = boxes_of(sheet), sheet.page_setup
+        if not boxes or (page.fitToWidth, page.fitToHeight) == (1, 1):
+            continue
+        wide, high = PAPER[page.orientation]
+        scale = wide / max(extent(sheet)[0], *(box.right for box in boxes))
+        if not sheet.row_breaks.brk:  # then all of them stand on the first page
+            fitted = sheet.sheet_properties.pageSetUpPr.fitToPage
+            own = min(scale, 1) if fitted else page.scale / 100
+            assert max(box.bottom for box in boxes) * own <= high, sheet.title
+            continue
+        ended.append(sheet.title)
+        edges = [0, *(top_of(sheet, found.id + 1) for found in sheet.row_breaks.brk)]
+        edges.append(max(box.bottom for box in boxes))
+        assert not sheet.sheet_properties.pageSetUpPr.fitToPage
+        assert page.scale / 100 <= scale
+        for top, low in pairwise(edges):
+            assert (low - top) * page.scale / 100 <= high, sheet.title
+        for box in boxes:
+            assert any(top <= box.y and box.bottom <= low for top, low in pairwise(edges)), box
+    assert "Диаграммы, шейки и подшипники" in ended

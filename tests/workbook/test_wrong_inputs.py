@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import io
+import re
+from collections.abc import Iterator
 
 import formualizer
 import openpyxl
 import pytest
 
+from reports.inputs.fields import Field
 from reports.shared.russian import capital, uncapital
 from reports.tables.overview.summary import NO
+from reports.workbook.inputs import options, shown
 from reports.workbook.layout import INPUT_SHEET, Layout
 from reports.workbook.what_if import SHEET
 from tests.conftest import sample_names
 from tests.workbook.made import book, coarse_book, coarse_model, model
-from tools.referees.cells import stripped
+from tools.referees.cells import formula_cells, row_and_column, stripped
 
 NAME = "two-stroke"
 
@@ -44,6 +48,69 @@ def test_a_check_that_fails_is_said_to_fail() -> None:
     engine = changed("geometry_rod_length_mm", 500.0)
     assert any(engine.get_value("Проверки", row, 4) == NO for row in range(4, 20))
     assert verdict(engine) == "не все, см. «Проверки»"
+
+
+WRONG = (0.0, None, "сто", -1.0)
+
+
+def answers(name: str) -> Iterator[tuple[Field, float | str | None, str, int, bool]]:
+    """What the first sheet says of every wrong value of a cell, errors, whether it is red.
+
+    Of the other engine's cells those that the first has not.
+    """
+    made, data = model(name), book(name)
+    layout = Layout.of(made)
+    engine = formualizer.load_workbook_bytes(stripped(data)[0])
+    cells = [
+        (sheet, *row_and_column(at)) for sheet, found in formula_cells(data).items() for at in found
+    ]
+    reds = red_rows(data)
+    known = set() if name == NAME else set(model(NAME).fields)
+    for item in (item for item in made.inputs if item.name not in known):
+        place = layout.cells[item.name]
+        for value in WRONG:
+            engine.set_value(place.sheet, place.row, place.column, value)
+            engine.evaluate_all()
+            errors = sum(str(engine.get_value(*cell)).startswith(("#", "{")) for cell in cells)
+            red = engine.get_value(INPUT_SHEET, place.row, reds) == 1
+            yield item, value, verdict(engine), errors, red
+        engine.set_value(place.sheet, place.row, place.column, shown(item))
+
+
+def red_rows(data: bytes) -> int:
+    """The column by which rows of the input sheet turn red."""
+    sheet = openpyxl.load_workbook(io.BytesIO(data))[INPUT_SHEET]
+    (column,) = {
+        re.fullmatch(r"\$([A-Z]+)\d+=1", rule.formula[0])[1]
+        for places in sheet.conditional_formatting
+        for rule in places.rules
+        if rule.type == "expression"
+    }
+    return row_and_column(f"{column}1")[1]
+
+
+def allowed(item: Field, value: float | str | None) -> bool:
+    if item.choices is not None:
+        return value in options(item)
+    if item.minimum is None or item.maximum is None:
+        return True
+    return isinstance(value, float) and item.minimum <= value <= item.maximum
+
+
+@pytest.mark.parametrize("name", [NAME, "d-240-bearings"])
+def test_no_wrong_cell_leaves_a_book_that_says_all_is_well(name: str) -> None:
+    seen = set()
+    for item, value, said, errors, red in answers(name):
+        told = f"{item.name} = {value!r}: «{said}», ошибок {errors}"
+        assert red is not allowed(item, value), told
+        if errors:
+            assert said.startswith("не посчитаны"), told
+        elif red:
+            assert said == "вне пределов, см. «Проверки»", told
+        else:
+            assert said in ("все выполнены", "не все, см. «Проверки»"), told
+        seen.add((bool(errors), red))
+    assert {(True, True), (False, True), (False, False)} <= seen
 
 
 @pytest.mark.parametrize("name", sample_names())
@@ -80,3 +147,15 @@ def test_a_symbol_is_no_word_to_begin_with_a_large_letter() -> None:
     assert uncapital("T в конце сжатия") == "T в конце сжатия"
     assert uncapital("КПД компрессора") == "КПД компрессора"
     assert uncapital("Частота вращения") == "частота вращения"
+
+
+@pytest.mark.parametrize("name", sample_names())
+def test_a_list_of_a_cell_offers_what_the_cell_holds(name: str) -> None:
+    """A step chosen as «10°» would be a text, and every table without a number."""
+    sheet = openpyxl.load_workbook(io.BytesIO(coarse_book(name)))[INPUT_SHEET]
+    lists = [rule for rule in sheet.data_validations.dataValidation if rule.type == "list"]
+    assert len(lists) > 5
+    for rule in lists:
+        offered = rule.formula1.strip('"').split(",")
+        for place in rule.sqref.ranges:
+            assert str(sheet[place.coord].value) in offered, (place.coord, offered)

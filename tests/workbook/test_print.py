@@ -15,7 +15,7 @@ from reports.workbook.layout import HEADER_ROW
 from reports.workbook.paper import PAPER
 from reports.workbook.places import column_px, extent, top_of
 from tests.conftest import sample_names
-from tests.workbook.made import book, coarse_book
+from tests.workbook.made import book, coarse_opened
 from tests.workbook.test_places import boxes_of
 from tools.referees.by_libreoffice import LibreOffice
 
@@ -44,7 +44,7 @@ def test_tables_repeat_their_headers() -> None:
 @pytest.mark.parametrize("name", sample_names())
 def test_no_page_begins_within_a_table_beside_others(name: str) -> None:
     """Its rest would stand under the beginning of the first one's title."""
-    for sheet in load_workbook(io.BytesIO(coarse_book(name))).worksheets:
+    for sheet in coarse_opened(name).worksheets:
         starts = [cell.column for cell in sheet[HEADER_ROW - 1] if cell.value]
         if sheet.sheet_properties.pageSetUpPr.fitToPage:
             assert len(starts) < 2 or sheet.page_setup.fitToWidth == 1, sheet.title

@@ -29,6 +29,14 @@ class _Russian(RussianGroup):
         except BrokenPipeError:
             _forget_output()
             return DONE
+        except Exception:
+            from reports.shared.interrupt import asked
+
+            # A library that calls back, as one that builds a schema, may tell of the signal by an
+            # error of its own.
+            if asked():
+                raise click.Abort from None
+            raise
 
     def main(self, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401
         """Run; exit codes as in the contract."""

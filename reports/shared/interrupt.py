@@ -51,9 +51,14 @@ def _stop(_: int, frame: FrameType | None) -> None:
     raise Stopped
 
 
+def asked() -> bool:
+    """Whether a signal to stop has come, wherever it went."""
+    return _state["stopped"]
+
+
 def check() -> None:
     """Stop here if a signal was lost in a place that lets no exception through."""
-    if _state["stopped"]:
+    if asked():
         raise Stopped
 
 

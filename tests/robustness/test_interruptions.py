@@ -11,8 +11,10 @@ from collections.abc import Callable
 from pathlib import Path
 from types import FrameType
 
+import click
 import pytest
 
+from reports.cli import main
 from reports.shared import files, interrupt
 from reports.shared.aside import can_split
 from tests.robustness.command import leftovers, small_input, started
@@ -210,3 +212,17 @@ def test_a_command_that_gives_up_is_silent_about_its_second_process(tmp_path):
     command = [sys.executable, "-c", code]
     done = subprocess.run(command, capture_output=True, text=True, timeout=30, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+def test_a_stop_that_a_library_turns_into_its_own_error_is_told_as_one(capsys, monkeypatch):
+    def building() -> None:
+        try:
+            signal.raise_signal(signal.SIGINT)
+        except interrupt.Stopped:
+            raise ValueError("SchemaError: Stopped") from None
+
+    monkeypatch.setitem(main.commands, "building", click.Command("building", callback=building))
+    with pytest.raises(SystemExit) as ended:
+        main(["building"])
+    assert ended.value.code == 2
+    assert capsys.readouterr().err.splitlines() == ["прервано"]

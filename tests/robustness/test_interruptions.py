@@ -222,7 +222,12 @@ def test_a_stop_that_a_library_turns_into_its_own_error_is_told_as_one(capsys, m
             raise ValueError("SchemaError: Stopped") from None
 
     monkeypatch.setitem(main.commands, "building", click.Command("building", callback=building))
-    with pytest.raises(SystemExit) as ended:
-        main(["building"])
+    # In the background the signal is ignored, and stays so.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        with pytest.raises(SystemExit) as ended:
+            main(["building"])
+    finally:
+        signal.signal(signal.SIGINT, before)
     assert ended.value.code == 2
     assert capsys.readouterr().err.splitlines() == ["прервано"]

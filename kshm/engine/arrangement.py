@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import cache
 
 from kshm.engine.checks import NOT_NEGATIVE, POSITIVE, check_numbers, refuse
 
@@ -147,7 +147,6 @@ def throws(arrangement: Arrangement) -> tuple[tuple[int, ...], ...]:
     )
 
 
-@lru_cache(maxsize=256)  # engines of a study share their rods
 def side_reach(
     crank_radius: float, rod_length: float, offset: float, radius: float, angle: float, bank: float
 ) -> float:
@@ -156,10 +155,9 @@ def side_reach(
     Lengths in one unit, angles in radians: ``radius`` and ``angle`` are those of
     ``ArticulatedRod``, ``bank`` the own axis from the master's.
     """
-    widest = 0.0
-    for degrees in range(360):
-        phi = math.radians(degrees)
-        beta = math.asin((crank_radius * math.sin(phi) - offset) / rod_length)
-        across = crank_radius * math.sin(phi - bank) + radius * math.sin(angle - beta - bank)
-        widest = max(widest, abs(across - offset))
-    return widest
+    import numpy as np  # an engine without articulated rods is made without it
+
+    phi = np.radians(np.arange(360.0))
+    beta = np.arcsin((crank_radius * np.sin(phi) - offset) / rod_length)
+    across = crank_radius * np.sin(phi - bank) + radius * np.sin(angle - beta - bank)
+    return float(np.abs(across - offset).max())

@@ -221,6 +221,7 @@ def forced_columns(study: Study) -> Columns:
 
     by_order = torsion_response.stresses(study.train, bare)
     shafts = summed(by_order)
+    worst = shafts.argmax(axis=0)
     damped = stress(study.train, study.response(speeds, damper=study.damper))
     other = stress(study.other, study.response(speeds, study.other))
     return {
@@ -229,8 +230,8 @@ def forced_columns(study: Study) -> Columns:
         "tor_tau_MPa": shafts.max(axis=0),
         "tor_tau_damped_MPa": damped.max(axis=0),
         "tor_tau_other_MPa": other.max(axis=0),
-        "tor_shaft_no": shafts.argmax(axis=0) + 1.0,
-        "tor_lead_order": study.orders[abs(by_order).max(axis=0).argmax(axis=1)],
+        "tor_shaft_no": worst + 1.0,
+        "tor_lead_order": study.orders[abs(by_order[worst, np.arange(len(speeds))]).argmax(axis=1)],
         "tor_moment_Nm": summed(bare.torques).max(axis=0),
         "tor_front_deg": summed(bare.angles[0]),
         "tor_work_J": (bare.work * periods).sum(axis=1),

@@ -212,12 +212,15 @@ REFUSED = {
 }
 
 
-@pytest.mark.parametrize("name", REFUSED)
-def test_what_no_engine_can_be_is_refused_in_a_line(name: str) -> None:
-    changes, said = REFUSED[name]
+def assert_refused(changes: dict[str, Any], said: str) -> None:
     with pytest.raises(ValueError, match=said) as caught:
         one(**changes)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(("changes", "said"), REFUSED.values(), ids=REFUSED)
+def test_what_no_engine_can_be_is_refused_in_a_line(changes: dict[str, Any], said: str) -> None:
+    assert_refused(changes, said)
 
 
 def test_layouts_that_cannot_be_are_refused() -> None:
@@ -258,12 +261,9 @@ WRONG_KINDS = {
 }
 
 
-@pytest.mark.parametrize("name", WRONG_KINDS)
-def test_what_is_no_number_is_refused_by_its_name(name: str) -> None:
-    changes, said = WRONG_KINDS[name]
-    with pytest.raises(ValueError, match=said) as caught:
-        one(**changes)
-    assert "\n" not in str(caught.value)
+@pytest.mark.parametrize(("changes", "said"), WRONG_KINDS.values(), ids=WRONG_KINDS)
+def test_what_is_no_number_is_refused_by_its_name(changes: dict[str, Any], said: str) -> None:
+    assert_refused(changes, said)
 
 
 def test_lists_that_are_none_are_refused_by_their_names() -> None:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import shutil
+import site
+import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -24,6 +27,7 @@ def figures() -> Iterator[Figure]:
     yield Figure("пустой Python", bare.wall, "с")
     yield Figure("kshm --help: память", help_text.memory, "МБ")
     yield from _uncompiled()
+    yield from _pythons()
 
 
 def _uncompiled() -> Iterator[Figure]:
@@ -39,3 +43,29 @@ def _uncompiled() -> Iterator[Figure]:
             median(check, times=1, env=env)  # where they are kept, they are made here
             cost = median(check, times=5, env=env)
             yield Figure(f"kshm check {told}: процессор", cost.cpu, "с")
+
+
+def _pythons() -> Iterator[Figure]:
+    """What ``./run`` gains by the system's Python, where another of the same version is there."""
+    *_, packages = site.getsitepackages()
+    paths = os.pathsep.join((str(ROOT), packages))
+    env = {"PYTHONPATH": paths, "PYTHONDONTWRITEBYTECODE": ""}
+    check = kshm("check", str(samples_dir() / "gots-diesel.toml"))[1:]
+    for python in sorted(_same_version()):
+        median([python, *check], times=1, env=env)  # its modules are compiled
+        cost = median([python, *check], times=7, env=env)
+        yield Figure(f"kshm check, {python}: процессор", cost.cpu, "с")
+
+
+def _same_version() -> set[str]:
+    """The Pythons of this one's version, those of environments aside."""
+    asked = "import os, sys; print(os.path.realpath(sys.executable), sys.prefix == sys.base_prefix)"
+    folders = ("/usr/bin", *os.environ["PATH"].split(os.pathsep))
+    found = set()
+    for program in {Path(folder, f"python3.{sys.version_info.minor}") for folder in folders}:
+        if program.is_file():
+            done = subprocess.run(
+                [program, "-c", asked], capture_output=True, text=True, check=False
+            )
+            found |= {done.stdout.split()[0]} if done.stdout.endswith("True\n") else set()
+    return found

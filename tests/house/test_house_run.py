@@ -37,6 +37,10 @@ class House:
         self.root.mkdir()
         for name in ("run", "pyproject.toml", "constraints.txt"):
             shutil.copy2(ROOT / name, self.root / name)
+        given = (ROOT / "run").read_text(encoding="utf-8")
+        pretended = given.replace("=/usr/bin/python3\n", f"='{self.bin}/system/python3'\n")
+        assert pretended != given  # the system's Python is pretended too
+        (self.root / "run").write_text(pretended, encoding="utf-8")
         (self.root / ".ci").mkdir()
         shutil.copy2(ROOT / ".ci/run", self.root / ".ci/run")
         for tool in ("kshm", "ruff", "mypy", "lint-imports"):
@@ -323,6 +327,19 @@ def test_what_the_system_lacks_comes_beside_the_packages(house):
     assert len([call for call in called if "update" in call]) == 1
     assert len([call for call in called if "libpango" in call]) == 1
     assert "pip install" in called[0] or "pip install" in called[1]  # apt is not waited for
+
+
+@pytest.mark.parametrize(
+    ("lacks", "taken"), [("nothing", "system"), ("ensurepip", "other"), ("version_info", "other")]
+)
+def test_the_systems_python_comes_first(house, lacks, taken):
+    """It is the faster one; what cannot make an environment is passed by."""
+    (house.root / ".venv/kshm-stamp").unlink()
+    refuses = f'case "$*" in *{lacks}*) exit 1;; *"-m venv"*) echo "{{}} taken" >&2; exit 7;; esac'
+    house.tool(house.bin / "system/python3", refuses.format("system"))
+    house.tool(house.bin / "python3", refuses.format("other").replace(lacks, "nothing"))
+    done = house.run("build", "x", KSHM_NO_SYSTEM="1")
+    assert (done.returncode, f"{taken} taken" in done.stderr) == (3, True)
 
 
 def test_an_old_python_is_refused(house):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import Any
 
 import numpy as np
@@ -347,9 +348,11 @@ def test_timing_outside_the_cycle_is_refused(
     ({"reciprocating_kg": 700}, "reciprocating mass .* kg/m², .* kilograms"),
 ])  # fmt: skip
 def test_units_mistaken_are_said(changes: dict[str, Any], said: str) -> None:
-    with pytest.warns(UserWarning, match=said) as caught:
+    with pytest.warns(UserWarning) as caught:
         one(**changes)
-    assert all("\n" not in str(each.message) for each in caught)
+    told = [str(each.message) for each in caught]
+    assert any(re.search(said, line) for line in told)
+    assert all("\n" not in line for line in told)
     assert caught[0].filename == __file__  # where the numbers were given
 
 

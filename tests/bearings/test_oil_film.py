@@ -77,7 +77,8 @@ def test_the_short_bearing_alone_would_be_wrong_near_contact() -> None:
 
 
 def run(load, half_speed=None, width=0.5, cycles=12):
-    load = np.atleast_2d(np.asarray(load, dtype=complex)) * np.ones(PHI.shape)
+    load = np.atleast_2d(np.asarray(load, dtype=complex))
+    load = np.broadcast_to(load, (len(load), *PHI.shape))
     speed = np.broadcast_to(STILL if half_speed is None else half_speed, load.shape)
     return orbits(PHI, load, np.array(speed), np.full(len(load), width), cycles)
 

@@ -12,8 +12,7 @@ import numpy as np
 
 from reports.grading.issuing.assignment import Assignment, Item
 from reports.grading.judging.causes import Causes
-from reports.grading.judging.marks import fingerprint
-from reports.grading.judging.verdicts import (
+from reports.grading.judging.judgement import (
     BROKEN,
     CARRIED,
     RIGHT,
@@ -22,6 +21,7 @@ from reports.grading.judging.verdicts import (
     WRONG,
     Judgement,
 )
+from reports.grading.judging.marks import fingerprint
 from reports.grading.reading.addresses import address, range_text, stretches
 from reports.grading.reading.placement import Place
 from reports.grading.reading.student import Student

@@ -91,6 +91,8 @@ def grade(
     if rubric_file is not None:
         register = replace(register, rubric=load_rubric(rubric_file))
         Marker(register).assignment(register.books[0])  # the rubric must fit the engine
+    if options.worksheet is not None:
+        read_worksheet(options.worksheet)  # a wrong one is told before the work
     submissions = collect(submitted)
     _refuse_overlap(submitted, folder, issued)
     _refuse_another_class(folder, register)

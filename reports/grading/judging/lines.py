@@ -90,10 +90,9 @@ def _short_heading(item: Item, assignment: Assignment) -> str:
 
 def _cells(student: Student, judgement: Judgement) -> list[dict[str, Any]]:
     item = judgement.item
-    rows = judgement.rows or judgement.typed
     places = _cells_of(student, item)
     cells = []
-    for row in rows[:SHOWN_ROWS]:
+    for row in judgement.rows[:SHOWN_ROWS]:
         place, index = places[row]
         at = place.rows[index] if place is not None else None
         cells.append(
@@ -110,7 +109,7 @@ def _cells(student: Student, judgement: Judgement) -> list[dict[str, Any]]:
 def _where(student: Student, judgement: Judgement) -> list[str]:
     """The cells that a verdict is about, those below each other as ranges."""
     item = judgement.item
-    rows = set(judgement.rows or judgement.typed)
+    rows = set(judgement.rows)
     found: list[tuple[tuple[str, int], int]] = []  # sheet and column, row
     for number, (place, index) in enumerate(_cells_of(student, item)):
         row = place.rows[index] if place is not None else None

@@ -26,8 +26,10 @@ _ROUND = "круговая ссылка: величина считается ч�
 _ROUND_HERE = "круговая ссылка, а верные числа сохранены: поиск во всём столбце или вставка?"
 _ROUND_ELSEWHERE = "при других исходных данных круговая ссылка: величина считается через себя"
 _TAKEN = "взято из готовой таблицы, а не рассчитано"
-_BACK = "получено из чисел, а не рассчитано"
-_BACK_FROM = "получено назад из столбца, который сам не рассчитан верно: есть ли другой путь?"
+_BACK = {
+    STILL: "получено из чисел, а не рассчитано",
+    UNKNOWN: "получено назад из столбца, который сам не рассчитан верно: есть ли другой путь?",
+}
 
 
 def without_ground(found: dict[str, Judgement], student: Student, response: Response) -> None:
@@ -90,11 +92,13 @@ def backwards(found: dict[str, Judgement], student: Student, response: Response)
         for (name, verdict), nodes in sorted(suspects.items()):
             depends = response.depends(nodes, name)
             for node in nodes:
-                if depends[node] and found[owner[node]].paid > 0:
-                    reason = _TAKEN if name in live else _BACK if verdict == STILL else _BACK_FROM
-                    origin = (owner[name],) if name in owner else ()
-                    found[owner[node]] = replace(found[owner[node]], verdict=verdict, paid=0.0,
-                                                 origins=origin, reason=reason)  # fmt: skip
+                judgement = found[owner[node]]
+                if depends[node] and judgement.paid > 0:
+                    found[judgement.item.id] = replace(
+                        judgement, verdict=verdict, paid=0.0, rows=(),
+                        origins=(owner[name],) if name in owner else (),
+                        reason=_TAKEN if name in live else _BACK[verdict],
+                    )  # fmt: skip
                     changed = True
 
 

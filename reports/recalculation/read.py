@@ -9,6 +9,7 @@ from posixpath import join, normpath
 
 from lxml import etree
 
+from reports.recalculation.crossing import cross
 from reports.recalculation.forms import Forms
 from reports.recalculation.grid import MAX_SHEETS, Area, BadBook, Grid
 from reports.recalculation.language import column_number
@@ -55,6 +56,7 @@ def _read(package: Package, forms: Forms | None) -> Grid:
         read_sheet(grid, title, package.read(part), strings, forms)
     if known := meanings(grid, root):
         put_in(grid, known)
+    cross(grid)
     return grid
 
 

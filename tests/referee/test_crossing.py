@@ -17,6 +17,9 @@ from tools.referees.by_libreoffice import LibreOffice
 CROSSING = (
     "-$A$2:$A$5", "A:A*2", "SIN(RADIANS(фи))", "'Другой лист'!$B$1:$B$9^2", "ROUND($A:$A/7,2)+B2",
     "$A$9:$K$9+1", "9:9*2", "SUM(A2:A5)-$A$2:$A$5", "POWER(ABS($A$1:$A$9),2)+MAX(A2:A5)", "A1:A9/2",
+    "INDEX($A$2:$A$5,3)", "INDEX(A:A,4)*2", "INDEX('Другой лист'!B1:C9,3,1)+INDEX(фи,2)",
+    "INDEX($A$9:$K$9,7)", "SUM($A$1:INDEX($A$1:$A$9,3))",
+    "INDEX(A1:B9,2,2)/INDEX($A$2:$A$5,ROW()-1)",
 )  # fmt: skip
 # For these a person is asked: another row, two columns, a function that may take all of it.
 UNKNOWN = ("$A$3:$A$4*2", "$A$2:$B$5*2", "IF($A$2:$A$5>0,1,2)", "SUM($A$2:$A$5*2)", "A7:A9+1")

@@ -74,7 +74,11 @@ def _groups(pairs: list[tuple[str, Work]]) -> dict[str, list[Work]]:
 
 
 def _file_groups(results: Works) -> list[list[Work]]:
-    return list(_groups([(r.sha256, r) for r in results if r.sha256]).values())
+    found: dict[str, list[Work]] = {}
+    for result in results:
+        if result.sha256:
+            found.setdefault(result.sha256, []).append(result)
+    return [group for _, group in sorted(found.items()) if len(group) > 1]
 
 
 def _same_files(results: Works) -> list[str]:

@@ -66,3 +66,14 @@ def test_what_is_not_one_cell_for_certain_is_unknown(text: str) -> None:
 def test_a_newer_excel_writes_the_same_as_single(text: str) -> None:
     values, _ = Engine(read_grid(book((text,)))).values("Sheet", 4, 2, 2)
     assert values == pytest.approx([15.0 * SINGLES[text]])
+
+
+@pytest.mark.parametrize(
+    ("text", "rows"),
+    [("INDEX($A$2:$A$5,4)", (5, 5)), ("INDEX($A$2:$A$5,5)", (2, 5)), ("INDEX(A:A,3)", (3, 3)),
+     ("INDEX($A$2:$A$5,1+2)", (2, 5))],
+)  # fmt: skip
+def test_a_place_that_is_written_out_is_one_cell(text: str, rows: tuple[int, int]) -> None:
+    grid = read_grid(book((text,)))
+    (area,) = grid.precedents(grid.column("Sheet", 4).runs[0])
+    assert (area.first_row, area.last_row) == rows

@@ -31,10 +31,21 @@ _AREAS = ("ref", "columns", "rows", "name")
 def cross(grid: Grid) -> None:
     """Put the one cell that is meant into the formulas of a grid."""
     for run in grid.runs():
-        if run.formula is not None and run.array is None and not run.problem:
+        if run.formula is None or run.array is not None or run.problem:
+            continue
+        if _has_range(run.formula.pattern, grid):
             made = tuple(_crossed(run.formula.pattern, run, grid))
             if made != run.formula.pattern:
                 run.formula = formula_of(made)
+
+
+def _has_range(tokens: tuple[Token, ...], grid: Grid) -> bool:
+    return any(
+        kind in ("columns", "rows")
+        or value == ":"
+        or (kind == "name" and (value.casefold() in grid.areas or value.upper() in _SINGLE))
+        for kind, value in tokens
+    )
 
 
 def _crossed(tokens: tuple[Token, ...], run: Run, grid: Grid) -> list[Token]:

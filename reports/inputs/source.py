@@ -9,11 +9,18 @@ from typing import Any
 
 from reports.shared import files
 from reports.shared.errors import InputError, Problem, one_line
+from reports.shared.kinds import ARCHIVE, BINARY, OFFICE, PDF, TEXT, UTF16, kind_of
 
 MAX_BYTES = 2_000_000
 MAX_LINES = 20_000
 MAX_DOTS = 40
 MAX_ENTRIES = 10_000  # of a list: longer ones only hold a process up
+_OTHER = {
+    ARCHIVE: "это книга Excel или архив",
+    OFFICE: "это старый или зашифрованный документ Office",
+    PDF: "это документ PDF",
+    BINARY: "двоичный файл",
+}
 _DECIMAL = re.compile(r"(?<![\w.])\d+\.\d+(?:[eE][-+]?\d+)?(?![\w.])")
 
 
@@ -40,17 +47,11 @@ def read_text(file: Path) -> str:
 def _decode(source: str, data: bytes) -> str:
     if not data.strip():
         raise refused(source, "файл пуст", "заготовку даст команда «kshm new»")
-    for magic, name in (
-        (b"PK\x03\x04", "книга Excel или архив"),
-        (b"\xd0\xcf\x11\xe0", "старый или зашифрованный документ Office"),
-        (b"%PDF", "документ PDF"),
-    ):
-        if data.startswith(magic):
-            raise refused(source, f"это {name}, а нужен текст TOML", "выберите другой файл")
-    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+    kind = kind_of(data)
+    if kind == UTF16:
         raise refused(source, "кодировка UTF-16", "сохраните файл в UTF-8")
-    if b"\x00" in data:
-        raise refused(source, "двоичный файл, а нужен текст TOML", "выберите другой файл")
+    if kind != TEXT:
+        raise refused(source, f"{_OTHER[kind]}, а нужен текст TOML", "выберите другой файл")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:

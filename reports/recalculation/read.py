@@ -9,10 +9,12 @@ from posixpath import join, normpath
 
 from lxml import etree
 
+from reports.recalculation.crossing import cross
 from reports.recalculation.forms import Forms
 from reports.recalculation.grid import MAX_SHEETS, Area, BadBook, Grid
 from reports.recalculation.language import column_number
 from reports.recalculation.meanings import meanings, put_in
+from reports.recalculation.picked import pick
 from reports.recalculation.sheets import MAIN, parse_xml, read_sheet, rich_text
 from reports.workbook.package import Package
 
@@ -55,6 +57,8 @@ def _read(package: Package, forms: Forms | None) -> Grid:
         read_sheet(grid, title, package.read(part), strings, forms)
     if known := meanings(grid, root):
         put_in(grid, known)
+    pick(grid)
+    cross(grid)
     return grid
 
 

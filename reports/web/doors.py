@@ -16,7 +16,6 @@ from ipaddress import ip_address
 from pathlib import Path
 from typing import Any, BinaryIO
 from urllib.parse import urlsplit
-from zipfile import is_zipfile
 
 from starlette.exceptions import HTTPException
 from starlette.middleware.base import BaseHTTPMiddleware, RequestResponseEndpoint
@@ -25,6 +24,7 @@ from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route
 from starlette.types import ASGIApp
 
+from reports.grading.pages.moodle import check_upload
 from reports.grading.reading.selfcheck import remarks
 from reports.inputs.described import Data
 from reports.shared.errors import InputError, KshmError, Problem
@@ -201,10 +201,10 @@ async def body(request: Request) -> Data:
 
 
 @contextlib.asynccontextmanager
-async def uploaded(request: Request, most: int) -> AsyncIterator[Path]:
+async def uploaded(request: Request, most: int, name: str = "книга.xlsx") -> AsyncIterator[Path]:
     """The body of a request as a file that goes with the block, unless it is moved."""
-    with tempfile.TemporaryDirectory(prefix="book-", dir=request.app.state.settings.data) as name:
-        path = Path(name, "книга.xlsx")
+    with tempfile.TemporaryDirectory(prefix="book-", dir=request.app.state.settings.data) as folder:
+        path = Path(folder, name)
         with path.open("wb") as stream:
             await _read(request, stream, most, FILE_S)
         yield path
@@ -253,12 +253,12 @@ def shown(path: str, find: Callable[[Request], Shown], files: str = "/{file}") -
         if place is None:
             raise HTTPException(404, "такого файла здесь не ждут")
         is_book, told = place.suffix == ".xlsx", Data()
-        async with uploaded(request, MOST_BOOK if is_book else MOST_ARCHIVE) as file:
+        async with uploaded(request, MOST_BOOK if is_book else MOST_ARCHIVE, place.name) as file:
             if is_book:
                 with contextlib.suppress(HTTPException):  # a busy server turns no work away
                     told = await ask(request, remarks, str(file))
-            elif not file.stat().st_size or is_zipfile(file) != (place.suffix == ".zip"):
-                raise InputError(Problem("", "это не тот файл", "загрузите архив .zip"))
+            else:
+                check_upload(file, place.suffix)
             file.replace(place)
         return told
 

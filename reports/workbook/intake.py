@@ -10,14 +10,13 @@ from typing import NoReturn
 
 from reports.shared.errors import InputError, Problem
 from reports.shared.files import no_file, reason
+from reports.shared.kinds import ARCHIVE, OFFICE, kind_of
 from reports.workbook.package import Package
 
 MAX_FILE = 30 * 2**20
 MAX_UNPACKED = 300 * 2**20
 MAX_PARTS = 2000
 MAX_RATIO = 400
-_OLE2 = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
-_ZIP = b"PK\x03\x04"
 _HEAD = 4096
 _CHUNK = 2**20
 _DAMAGED = (
@@ -60,11 +59,12 @@ def check_data(data: bytes, name: str) -> Package:
     """
     if len(data) > MAX_FILE:
         _refuse(name, f"файл больше {MAX_FILE // 2**20} МБ", "это не книга kshm")
-    if data.startswith(_OLE2):
+    kind = kind_of(data)
+    if kind == OFFICE:
         _refuse(
             name, "книга зашифрована или в старом формате .xls", "сохраните её как .xlsx без пароля"
         )
-    if not data.startswith(_ZIP):
+    if kind != ARCHIVE:
         _refuse(name, "это не книга .xlsx", "сохраните её как .xlsx")
     try:
         package = Package(data)

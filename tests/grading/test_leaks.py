@@ -6,6 +6,7 @@ import io
 import random
 from collections.abc import Callable
 from functools import lru_cache
+from math import radians
 
 import pytest
 from openpyxl import Workbook, load_workbook
@@ -139,6 +140,16 @@ def test_saved_values_of_given_formulas_are_found():
         return re.sub(rb"<v ?/>|<v></v>", lambda m: b"<v>%r</v>" % float(next(values, 0.0)), data)
 
     assert leaks_of(rewritten(classroom.handout(), change), classroom.assignment())
+
+
+@pytest.mark.parametrize("rpm", [3000, 4500, 5400])
+def test_angles_in_radians_are_not_the_speed_that_has_their_digits(rpm):
+    raw = to_mapping(classroom.assignment().model.input)
+    raw["regime"]["speed_rpm"] = rpm
+    model = build_model(load_mapping(raw, source="r").model)
+    assignment = assignment_of(model, rubric_of({"work": {"fill": ["geometry"]}}, "r"))
+    plant = column(lambda _: [radians(angle) for angle in range(0, 720, 6)])
+    assert leaks_of(planted(plant), assignment) == []
 
 
 def test_an_issued_book_has_no_answer_and_no_saved_value():

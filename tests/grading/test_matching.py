@@ -124,6 +124,34 @@ def test_names_of_any_letters_are_found(surname, file):
     assert find_by_name(register, submission(file)).book is register.books[1]
 
 
+def test_the_longer_of_two_names_in_one_another_is_meant():
+    register = renamed(Student("x", "Иванов-Водкин", "Имя"))  # the first is Иванов Имя
+    first, second, third = register.books[:3]
+    for file in ("Иванов-Водкин Имя.xlsx", "Иванов-Водкин.xlsx"):
+        assert find_by_name(register, submission(file)).book is second
+        match = find_owner(register, submission(file), grid_with(third.ticket), Parts())
+        assert (match.book, match.submitter) == (third, second.number)
+    assert find_by_name(register, submission("Иванов Имя.xlsx")).book is first
+
+
+def test_a_name_of_two_students_is_not_that_of_a_third():
+    register = renamed(Student("x", "Иванов", "Имя"))
+    first, second, third = register.books[:3]
+    for book in (first, second):
+        match = find_owner(register, submission("Иванов Имя.xlsx"), grid_with(book.ticket), Parts())
+        assert (match.book, match.doubts, match.submitter) == (book, (), None)
+    match = find_owner(register, submission("Иванов Имя.xlsx"), grid_with(third.ticket), Parts())
+    assert "сдал(а) Иванов Имя (" in match.doubts[0]
+    assert (match.book, match.submitter) == (third, 0)
+
+
+def test_one_word_that_is_both_names_is_a_surname_among_others():
+    register = renamed(Student("x", "Роман", "Роман"))
+    third = register.books[2]
+    file = submission(f"Роман {third.student.surname}.xlsx")
+    assert find_owner(register, file, grid_with(third.ticket), Parts()).doubts == ()
+
+
 def renamed(student: Student) -> Register:
     """The class with another second student."""
     register = classroom.register()

@@ -12,7 +12,7 @@ from types import SimpleNamespace
 import pytest
 
 from reports.grading.batch.grade import Options, grade
-from reports.grading.pages.moodle import filled
+from reports.grading.pages.moodle import filled, read_worksheet
 from reports.grading.reading.submissions import collect
 from reports.shared.errors import InputError
 from tests.grading import classroom
@@ -180,6 +180,12 @@ def test_folders_of_all_versions_are_read(tmp_path, folder):
         archive.writestr(f"{folder}/работа.xlsx", b"x")
     (found,) = collect(tmp_path / "a.zip")
     assert found.moodle_id == "101"
+
+
+def test_an_endless_field_is_no_worksheet(tmp_path):
+    (tmp_path / "w.csv").write_text("Identifier,Grade," + "x" * 200_000, encoding="utf-8")
+    with pytest.raises(InputError, match="это не ведомость оценивания Moodle"):
+        read_worksheet(tmp_path / "w.csv")
 
 
 def test_another_file_is_refused():

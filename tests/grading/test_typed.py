@@ -12,7 +12,7 @@ from reports.grading.issuing.rubric import Formulas
 from reports.grading.judging.marking import Marker
 from reports.grading.reading.selfcheck import findings
 from reports.grading.reading.submissions import Submission
-from reports.grading.reading.typed import number_of
+from reports.grading.reading.typed import carried, number_of
 from reports.spec.evaluation import evaluate_model
 from tests.grading import classroom
 from tests.grading.fill import filled_book
@@ -134,3 +134,10 @@ def test_a_student_is_told_before_handing_in(tmp_path: Path) -> None:
         "вместо числа стоит дата: 1.5 таблица приняла за первое мая: П3.1!E7",
         "формула записана текстом: таблица её не считает: П3.1!E8",
     ]
+
+
+@pytest.mark.parametrize(
+    ("text", "number"), [("123", None), ("1234", 1234.0), ("x12 y34", 1234.0), ("x" * 99, None)]
+)
+def test_a_text_of_four_digits_carries_a_number(text, number):
+    assert carried(text) == number

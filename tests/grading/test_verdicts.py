@@ -12,6 +12,7 @@ from openpyxl import Workbook
 from kshm.nomenclature.quantity import quantity
 from reports.grading.issuing.rubric import Tolerance
 from reports.grading.judging.verdicts import tolerance
+from reports.spec.evaluation import evaluate_model
 from reports.workbook.layout import Layout
 from tests.grading import classroom
 from tests.grading.fill import filled_book, solved_formulas
@@ -68,6 +69,16 @@ def test_what_rests_on_an_empty_column_names_it():
     assert found["origins"] == ["P3_1.v1_m_s"] and found["points"] == 0
     result = graded({"P3_1.v1_m_s": empty, "P3_1.v2_m_s": empty})
     assert line(result, "P3_1.v_m_s")["origins"] == ["P3_1.v1_m_s", "P3_1.v2_m_s"]
+    wrong = [f.replace("+", "-") for f in formulas()["P3_1.v_m_s"]]
+    result = graded({"P3_1.v1_m_s": empty, "P3_1.v_m_s": wrong})
+    assert line(result, "P3_1.v_m_s")["verdict"] == "wrong"  # whatever it rests on
+
+
+def test_a_wrong_way_back_is_wrong():
+    moments = evaluate_model(classroom.assignment().model).columns["P4_1"]["M_Nm"]
+    back = [f"=I{row}/F_piston/10^6" for row in range(6, 6 + len(moments))]  # without r
+    result = graded({"P4_1.M_Nm": [float(v) for v in moments], "P4_1.T_MPa": back})
+    assert line(result, "P4_1.T_MPa")["verdict"] == "wrong"
 
 
 @pytest.mark.parametrize(
@@ -87,14 +98,14 @@ def test_a_usual_mistake_is_named(item, change, cause):
     found = line(result, item)
     assert found["verdict"] == "wrong"
     assert cause in found["cause"]
+    sheet = found["where"][0].partition("!")[0]
+    assert all(cell["cell"].startswith(f"{sheet}!") for cell in found["cells"])
     others = {key: word for key, word in classroom.verdicts(result).items() if key != item}
     assert set(others.values()) <= {"carried"}
 
 
 def test_typed_numbers_are_told_from_formulas():
     values = classroom.marker().assignment(classroom.book())[0]
-    from reports.spec.evaluation import evaluate_model
-
     right = evaluate_model(values.model).columns["P3_1"]["v1_m_s"]
     result = graded({"P3_1.v1_m_s": [round(float(v), 2) for v in right]})
     assert classroom.verdicts(result) == {"P3_1.v1_m_s": "typed"}
@@ -135,9 +146,12 @@ def test_a_copy_of_a_sheet_that_is_filled_instead_is_for_a_person(original):
     assert bool(result["manual"]) == (original == "empty")
 
 
-@pytest.mark.parametrize("saved", [True, False])
-def test_a_look_up_over_a_column_that_follows_from_it_is_for_a_person(saved):
-    """LibreOffice takes one cell of the column; without its number it is a circle."""
+@pytest.mark.parametrize(("saved", "more"), [(True, "+0"), (False, "+0"), (False, "")])
+def test_a_look_up_over_a_column_that_follows_from_it_is_for_a_person(saved, more):
+    """LibreOffice takes one cell of the column; without its number it is a circle.
+
+    A place that is written out is no look-up.
+    """
 
     def on_one_sheet(book: Workbook, layout: Layout) -> None:
         sheet, row = book.create_sheet("Расчёт"), 0
@@ -148,12 +162,15 @@ def test_a_look_up_over_a_column_that_follows_from_it_is_for_a_person(saved):
                 cell = book[table.sheet].cell(at, column)
                 text = re.sub(r"(?<![\w!'$])(\$?[A-Z]\$?\d+)", rf"'{table.sheet}'!\1", cell.value)
                 sheet.cell(row, 2).value = text
-                cell.value = f"=INDEX(Расчёт!$B:$B,{row})"
+                cell.value = f"=INDEX(Расчёт!$B:$B,{row}{more})"
 
     book = filled_book(classroom.handout(), classroom.assignment(), edit=on_one_sheet)
     if saved:
         (book,) = LibreOffice().converted([book])
     result = classroom.marks(book)
-    found = classroom.verdicts(result)
-    assert set(found.values()) == ({"unknown"} if saved else {"error", "groundless"})
+    found = set(classroom.verdicts(result).values())
+    if not more:
+        assert found == set() and result["points"] == 100
+        return
+    assert found == ({"unknown"} if saved else {"error", "groundless"})
     assert bool(result["manual"]) == saved

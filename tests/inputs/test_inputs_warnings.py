@@ -52,6 +52,27 @@ def test_warns(case, raw):
     assert f"f.toml: {message}" in lines
 
 
+@pytest.mark.parametrize("ratio", [0.24, 0.6])
+def test_an_odd_moment_of_inertia_of_the_rod_warns(raw, ratio):
+    rod = 1.7 * (raw["geometry"]["rod_length_mm"] / 1000) ** 2
+    raw["masses"] = {"piston_group_kg": 1.5, "rod_kg": 1.7, "rod_small_end_share": 0.3,
+                     "rod_inertia_kg_m2": ratio * rod}  # fmt: skip
+    lines = [problem.line() for problem in load_mapping(raw, source="f.toml").warnings]
+    assert [line for line in lines if "m_ш·l²" in line] == [
+        "f.toml: masses.rod_inertia_kg_m2: I_ш/(m_ш·l²) = 0,6 необычно; "
+        "обычно от 0,02 до 0,5: проверьте кг·м²"
+    ] * (ratio > 0.5)
+
+
+def test_four_regimes_are_read_and_five_are_not(raw):
+    one = {"speed_rpm": 2400.0, "gas": raw["gas"]}
+    raw["regimes"] = [{"name": f"{n}", **one} for n in range(4)]
+    assert len(load_mapping(raw, source="f.toml").model.regimes) == 4
+    raw["regimes"].append({"name": "4", **one})
+    with pytest.raises(InputError, match="режимов 5, а допустимо не больше 4"):
+        load_mapping(raw, source="f.toml")
+
+
 def test_rod_share_warns(raw):
     raw["masses"] = {"piston_group_kg": 1.5, "rod_kg": 1.7, "rod_small_end_share": 0.4}
     (warning,) = load_mapping(raw, source="f.toml").warnings

@@ -190,6 +190,12 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
         {"name": "works.zip", "mimeType": "", "buffer": stream.getvalue()}
     )
     until(teacher, "document.querySelector('#class').textContent.includes('works.zip: загружено')")
+    for wrong, said in (("moodle.zip", "загрузите архив .zip"), ("worksheet.csv", "не ведомость")):
+        told = teacher.context.request.post(
+            f"{served.page}api/teacher/{name}/file/{wrong}", data=b"a;b\n1;2\n",
+            headers={**MARK, "content-type": "application/octet-stream"},
+        )  # fmt: skip
+        assert told.status == 422 and said in told.text()  # it would stand in the way for ever
     sheet = ("\ufeff" + worksheet(ENGLISH)).encode()
     uploads.nth(1).set_input_files({"name": "moodle.csv", "mimeType": "", "buffer": sheet})
     until(teacher, "document.querySelector('#class').textContent.includes('moodle.csv: загружено')")

@@ -25,8 +25,8 @@ from reports.grading.batch.pool import TIMEOUT_S, Outcome, grade_all
 from reports.grading.issuing.issue import latin
 from reports.grading.issuing.register import FILE, Register, checked_register, load_register
 from reports.grading.issuing.rubric import load_rubric
+from reports.grading.judging.judgement import UNKNOWN
 from reports.grading.judging.marking import FORMAT, Marker, blank_result
-from reports.grading.judging.verdicts import UNKNOWN
 from reports.grading.judging.works import Shared, Work, work_of
 from reports.grading.pages.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
 from reports.grading.pages.moodle import feedback_zip, filled, read_worksheet
@@ -91,6 +91,8 @@ def grade(
     if rubric_file is not None:
         register = replace(register, rubric=load_rubric(rubric_file))
         Marker(register).assignment(register.books[0])  # the rubric must fit the engine
+    if options.worksheet is not None:
+        read_worksheet(options.worksheet)  # a wrong one is told before the work
     submissions = collect(submitted)
     _refuse_overlap(submitted, folder, issued)
     _refuse_another_class(folder, register)

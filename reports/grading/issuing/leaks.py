@@ -26,6 +26,7 @@ from reports.workbook.caches import sheet_parts
 _DIGITS = 4  # that are compared within one place: as few as a table prints
 _EXACT = 11  # that are compared of single values
 _FEWEST = 4  # answers of a column in one place that are no chance
+_TURNS = np.radians(np.arange(1, 721))  # angles in radians: ω at 3000 rpm has the digits of π
 _NUMBER = re.compile(r"(?<![\w.])[-+\u2212]?\d+(?:[.,]\d+)?(?:[eE][-+]?\d+)?(?![\w])")
 
 
@@ -133,8 +134,9 @@ def _of_scalars(
     exact = {name: _digits([value], _EXACT) for name, value in asked.items()}
     shown = {name: _digits([value], 5) for name, value in asked.items()}
     found = []
+    angles = _digits(_TURNS.tolist(), _EXACT)
     for place, numbers in places.items():
-        given, short = _digits(numbers, _EXACT), _digits(numbers, 5)
+        given, short = _digits(numbers, _EXACT) - angles, _digits(numbers, 5)
         hits = [n for n, d in exact.items() if d & given and not _short(asked[n])]
         few = [n for n, d in shown.items() if d & short - known and not _is_round(d)]
         chance = len(asked) * len(short) / 90_000

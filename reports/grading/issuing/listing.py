@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.files import reason
+from reports.shared.kinds import ARCHIVE, OFFICE, TEXT, UTF16, kind_of
 from reports.workbook.intake import check_data
 from reports.workbook.layout import Cell
 
@@ -22,7 +23,6 @@ if TYPE_CHECKING:  # openpyxl is loaded when a book is read
 MAX_BYTES, MAX_FIELD = 2_000_000, 200
 _MOST_COLUMNS, _MOST_ROWS = 100, 10_000  # one cell at the edge makes a sheet 17,000,000,000 cells
 _FIRST_LINES = 20  # by which the delimiter is known
-_BOOK, _OLD_BOOK = b"PK\x03\x04", b"\xd0\xcf\x11\xe0"
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,8 +64,13 @@ def listings(path: Path) -> list[Listing]:
         raise refused(path, f"файл не читается: {reason(error)}", hint) from None
     if len(data) > MAX_BYTES:
         raise refused(path, "файл больше 2 МБ", "это не список группы")
-    if data.startswith((_BOOK, _OLD_BOOK)):
+    kind = kind_of(data)
+    if kind in (ARCHIVE, OFFICE):
         return _sheets(path, data)
+    if kind == UTF16:
+        raise refused(path, "кодировка UTF-16", "сохраните как «CSV UTF-8»")
+    if kind != TEXT:
+        raise refused(path, "это двоичный файл, а нужен CSV или .xlsx", "выберите другой файл")
     return [Listing(path.name, "", _csv_lines(path, _text(path, data)))]
 
 
@@ -96,10 +101,6 @@ def _csv_lines(path: Path, text: str) -> list[Line]:
 
 
 def _text(path: Path, data: bytes) -> str:
-    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise refused(path, "кодировка UTF-16", "сохраните как «CSV UTF-8»")
-    if b"\x00" in data:
-        raise refused(path, "это двоичный файл, а нужен CSV или .xlsx", "выберите другой файл")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:

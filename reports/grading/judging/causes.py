@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from reports.formula.numeric import evaluate_tree
 from reports.formula.parse import names, parse
 from reports.grading.issuing.assignment import Item
+from reports.grading.judging.judgement import Judgement
 from reports.grading.judging.rewriting import (
     SIGNS,
     Flipped,
@@ -27,7 +28,6 @@ from reports.grading.judging.rewriting import (
     without_summand,
 )
 from reports.grading.judging.tolerances import close, tolerance
-from reports.grading.judging.verdicts import Judgement
 from reports.grading.reading.student import Student, known_values
 from reports.inputs.sections.input_file import METHODS
 from reports.shared.russian import fixed, short

@@ -12,8 +12,7 @@ import numpy as np
 
 from reports.grading.issuing.assignment import Assignment, Item
 from reports.grading.judging.causes import Causes
-from reports.grading.judging.marks import fingerprint
-from reports.grading.judging.verdicts import (
+from reports.grading.judging.judgement import (
     BROKEN,
     CARRIED,
     RIGHT,
@@ -22,6 +21,7 @@ from reports.grading.judging.verdicts import (
     WRONG,
     Judgement,
 )
+from reports.grading.judging.marks import fingerprint
 from reports.grading.reading.addresses import address, range_text, stretches
 from reports.grading.reading.placement import Place
 from reports.grading.reading.student import Student
@@ -90,10 +90,9 @@ def _short_heading(item: Item, assignment: Assignment) -> str:
 
 def _cells(student: Student, judgement: Judgement) -> list[dict[str, Any]]:
     item = judgement.item
-    rows = judgement.rows or judgement.typed
     places = _cells_of(student, item)
     cells = []
-    for row in rows[:SHOWN_ROWS]:
+    for row in judgement.rows[:SHOWN_ROWS]:
         place, index = places[row]
         at = place.rows[index] if place is not None else None
         cells.append(
@@ -110,7 +109,7 @@ def _cells(student: Student, judgement: Judgement) -> list[dict[str, Any]]:
 def _where(student: Student, judgement: Judgement) -> list[str]:
     """The cells that a verdict is about, those below each other as ranges."""
     item = judgement.item
-    rows = set(judgement.rows or judgement.typed)
+    rows = set(judgement.rows)
     found: list[tuple[tuple[str, int], int]] = []  # sheet and column, row
     for number, (place, index) in enumerate(_cells_of(student, item)):
         row = place.rows[index] if place is not None else None

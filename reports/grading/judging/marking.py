@@ -15,15 +15,12 @@ from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.causes import Causes, OtherVariant
+from reports.grading.judging.judgement import EMPTY, UNKNOWN
 from reports.grading.judging.lines import feedback_line
 from reports.grading.judging.marks import formula_marks, own_marks
 from reports.grading.judging.response import Proofs, Response
 from reports.grading.judging.trials import trials_of
-from reports.grading.judging.verdicts import (
-    EMPTY,
-    UNKNOWN,
-    judge_all,
-)
+from reports.grading.judging.verdicts import judge_all
 from reports.grading.reading.addresses import address
 from reports.grading.reading.matching import Match, file_properties, find_by_name, find_owner
 from reports.grading.reading.restoring import leave_out_unused, restore
@@ -43,7 +40,7 @@ from reports.workbook.intake import check_data
 from reports.workbook.layout import Layout
 from reports.workbook.package import Package
 
-FORMAT = 6
+FORMAT = 7
 Result = dict[str, Any]
 
 
@@ -258,7 +255,7 @@ def _take_match(result: Result, match: Match) -> None:
     result["evidence"] = list(match.evidence)
     result["manual"] += list(match.doubts)
     result["doubts"] += list(match.doubts)
-    result["submitter"] = match.submitter.number if match.submitter else None
+    result["submitter"] = match.submitter
 
 
 def altered(student: Student, original: Grid | None) -> list[str]:

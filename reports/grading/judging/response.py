@@ -7,7 +7,7 @@ it costs it nothing, and a number in the guise of a formula does not follow.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -130,17 +130,8 @@ class Response:
         changed: Mapping[str, Array] | None = None,
     ) -> list[Cells]:
         """The cells of inputs and nodes with the right values of a trial."""
-        made = []
-        student = self.student
-        for name, value in trial.inputs.items():
-            place = student.placement.places.get(name)
-            if place is not None and place.rows[0] is not None:
-                made.append(Cells(place.sheet, place.column, (place.rows[0],), (value,)))
-            made += [
-                Cells(sheet, column, (row,), (value * factor,))
-                for sheet, column, row, factor in self._copies.get(name, ())
-            ]
-        assignment = student.assignment
+        made = self._inputs(trial)
+        student, assignment = self.student, self.student.assignment
         for node in sorted(assignment.fill_nodes | assignment.live_nodes | assignment.given_nodes):
             right = trial.expected.value(node)
             if isinstance(right, str) and not everything:
@@ -148,6 +139,28 @@ class Response:
             if changed is not None and node in changed:
                 right = changed[node]
             made += student.cells_of(node, right)
+        return made
+
+    def whole(self) -> Iterator[list[Cells]]:
+        """What the book was issued with, of each trial: all else it calculates itself."""
+        student = self.student
+        for trial in self.trials:
+            made = self._inputs(trial)
+            for node in sorted(student.assignment.given_nodes):
+                made += student.cells_of(node, trial.expected.value(node))
+            yield made
+
+    def _inputs(self, trial: Trial) -> list[Cells]:
+        """The cells of the input data, and the student's own that repeat them."""
+        made = []
+        for name, value in trial.inputs.items():
+            place = self.student.placement.places.get(name)
+            if place is not None and place.rows[0] is not None:
+                made.append(Cells(place.sheet, place.column, (place.rows[0],), (value,)))
+            made += [
+                Cells(sheet, column, (row,), (value * factor,))
+                for sheet, column, row, factor in self._copies.get(name, ())
+            ]
         return made
 
     @cached_property
@@ -349,7 +362,7 @@ class Response:
         """Whether the values of some nodes change with those of another."""
         if not self.trials:
             return dict.fromkeys(nodes, False)
-        trial = self.trials[0]
+        trial = self.trials[-1]  # nobody's variant: what tells its own from others is not seen
         right = np.ravel(np.asarray(trial.expected.value(on), dtype=float))
         other = {on: right * 1.37 + 1.0}
         student = self.student

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,58 +11,30 @@ from numpy.typing import NDArray
 from reports.grading.issuing.assignment import Item
 from reports.grading.judging import response as say
 from reports.grading.judging.errors import shown_errors
+from reports.grading.judging.judgement import (
+    BROKEN,
+    CARRIED,
+    EMPTY,
+    RIGHT,
+    STILL,
+    TYPED,
+    UNKNOWN,
+    WRONG,
+    Array,
+    Judgement,
+)
 from reports.grading.judging.response import Response
+from reports.grading.judging.resting import backwards, carried, without_ground
 from reports.grading.judging.tolerances import close, tolerance
-from reports.grading.reading.ground import calculated, circles, filled_copy, is_void, resting_on
+from reports.grading.reading.ground import filled_copy
 from reports.grading.reading.student import LOST, Answer, Student, known_values
 from reports.grading.reading.typed import TEXT_NUMBER
 from reports.recalculation.bench import rounded_to
 from reports.recalculation.evaluate import BLANK, ERROR, TEXT
 from reports.recalculation.language import UnknownFormula
 
-Array = NDArray[np.float64]
-
-RIGHT, CARRIED, TYPED, STILL, WRONG, EMPTY, GROUNDLESS, BROKEN, UNKNOWN = (
-    "right", "carried", "typed", "still", "wrong", "empty", "groundless", "error", "unknown",
-)  # fmt: skip
-
-WORDS = {
-    WRONG: "неверно",
-    BROKEN: "ошибка в ячейке",
-    STILL: "формула не считает",
-    GROUNDLESS: "считает по пустым ячейкам",
-    EMPTY: "не заполнено",
-    TYPED: "число вместо формулы",
-    UNKNOWN: "нужна ручная проверка",
-    CARRIED: "верно по вашим предыдущим значениям",
-    RIGHT: "верно",
-}
-_ROUND = "круговая ссылка: величина считается через саму себя"
-_ROUND_HERE = "круговая ссылка, а верные числа сохранены: поиск во всём столбце или вставка?"
 _PASTED = "считает от столбца вписанных чисел, и не для всех исходных данных верно: откуда они?"
 _ENOUGH = 0.5  # share of right rows from which a column is paid by rows
-
-
-@dataclass(frozen=True)
-class Judgement:
-    """A verdict with its evidence; rows are indices into the item's values."""
-
-    item: Item
-    verdict: str
-    expected: Array
-    values: Array
-    rows: tuple[int, ...] = ()  # rows that the verdict is about
-    typed: tuple[int, ...] = ()  # rows with numbers instead of formulas
-    reason: str = ""
-    precedents: frozenset[str] = field(default_factory=frozenset)
-    origins: tuple[str, ...] = ()  # items that it is carried from
-    paid: float = 0.0  # share of the points, before the rubric's share for the verdict
-    coarse: bool = False  # rounded more than the book prints
-
-    @property
-    def finite(self) -> bool:
-        """Whether there is any number."""
-        return bool(np.isfinite(self.values).any())
 
 
 def judge_all(student: Student, response: Response) -> list[Judgement]:
@@ -71,9 +43,9 @@ def judge_all(student: Student, response: Response) -> list[Judgement]:
     nodes = [node for item in items for node in item.nodes]
     student.assume({n for n in nodes if student.answers[n].problem and response.problem(n)})
     found = {item.id: _judged(item, student, response) for item in items}
-    _without_ground(found, student)
-    _backwards(found, student, response)
-    _carried(found, student)
+    without_ground(found, student, response)
+    backwards(found, student, response)
+    carried(found, student)
     return [found[item.id] for item in items]
 
 
@@ -270,113 +242,6 @@ def _is_linked(item: Item, student: Student) -> bool:
         return True
     names = frozenset().union(*(student.precedents(node) for node in item.nodes))
     return any(not name.startswith("report_") for name in names)
-
-
-# --- what an item rests on -------------------------------------------------------------------
-
-
-def _without_ground(found: dict[str, Judgement], student: Student) -> None:
-    """Blanks and circles pass nothing on: what rests on them is no result."""
-    round_ = circles(student)
-    held = calculated(student, round_)
-    for id_, judgement in found.items():
-        at = round_ & set(judgement.item.nodes)
-        if at and judgement.verdict != UNKNOWN:
-            verdict, reason = (UNKNOWN, _ROUND_HERE) if at <= held else (BROKEN, _ROUND)
-            found[id_] = replace(judgement, verdict=verdict, paid=0.0, reason=reason)
-    void = set(round_ - held)
-    for judgement in found.values():
-        for node in judgement.item.nodes:
-            if is_void(student, node):
-                void.add(node)
-    if not void:
-        return
-    resting = resting_on(student, frozenset(void))
-    names = {node: j.item for j in found.values() for node in j.item.nodes}
-    for id_, judgement in found.items():
-        nodes = set(judgement.item.nodes)
-        if not nodes & resting or nodes & void or judgement.paid <= 0:
-            continue
-        near = frozenset().union(*(student.precedents(node) for node in nodes)) & (void | resting)
-        roots = sorted({names[n].id for n in near & void or void if n in names})[:4]
-        circle = near and near <= round_
-        why = "опирается на круговую ссылку" if circle else "опирается на незаполненное"
-        found[id_] = replace(judgement, verdict=GROUNDLESS, paid=0.0, origins=tuple(roots),
-                             reason=why)  # fmt: skip
-
-
-def _backwards(found: dict[str, Judgement], student: Student, response: Response) -> None:
-    """Nothing is earned by going back from numbers that were typed in or given.
-
-    A column that the textbook's way leads to must not be where its own values come from,
-    unless it is calculated itself.
-    """
-    owner = {node: j.item.id for j in found.values() for node in j.item.nodes}
-    live = student.assignment.live_nodes
-    changed = True
-    while changed:
-        changed = False
-        suspects: dict[str, list[str]] = {}
-        for judgement in found.values():
-            if judgement.verdict != RIGHT or judgement.paid <= 0:
-                continue
-            ancestors = student.assignment.ancestors(judgement.item)
-            for node in judgement.item.nodes:
-                if not student.runs(node):
-                    continue
-                for name in student.precedents(node) - ancestors - set(judgement.item.nodes):
-                    bad = name in live or (
-                        name in owner and found[owner[name]].verdict in (TYPED, STILL)
-                    )
-                    if bad:
-                        suspects.setdefault(name, []).append(node)
-        for name, nodes in sorted(suspects.items()):
-            depends = response.depends(nodes, name)
-            for node in nodes:
-                if depends[node] and found[owner[node]].verdict == RIGHT:
-                    why = "взято из готовой таблицы" if name in live else "получено из чисел"
-                    origin = (owner[name],) if name in owner else ()
-                    found[owner[node]] = replace(
-                        found[owner[node]], verdict=STILL, paid=0.0, origins=origin,
-                        reason=f"{why}, а не рассчитано",
-                    )  # fmt: skip
-                    changed = True
-
-
-def _carried(found: dict[str, Judgement], student: Student) -> None:
-    """Right formulas on earlier values that are not right name the columns these came from."""
-    owner = {node: j.item.id for j in found.values() for node in j.item.nodes}
-    for id_, judgement in found.items():
-        if judgement.verdict != RIGHT or np.isnan(judgement.expected).all():
-            continue
-        allowed = tolerance(judgement.item, judgement.expected, student)
-        good = close(judgement.item, judgement.values, judgement.expected, allowed)
-        if good.all():
-            continue
-        names = frozenset().union(*(student.precedents(n) for n in judgement.item.nodes))
-        near = sorted({owner[n] for n in names if n in owner} - {id_})
-        live = [n for n in names if n in student.assignment.live_nodes]
-        through = student.assignment.graph
-        for name in live:
-            near += sorted({owner[n] for n in through.ancestors(name) if n in owner} - set(near))
-        guilty = [
-            n
-            for n in near
-            if found[n].verdict not in (RIGHT, UNKNOWN) or _is_off(found[n], student)
-        ]
-        if not guilty:
-            continue  # roundings on the way, or a value that is not known
-        wrong = [n for n in guilty if found[n].verdict not in (RIGHT, CARRIED)]
-        found[id_] = replace(judgement, verdict=CARRIED, rows=_where(~good),
-                             origins=tuple((wrong or guilty)[:4]), precedents=names)  # fmt: skip
-
-
-def _is_off(judgement: Judgement, student: Student) -> bool:
-    """Whether a right formula's values are not the right ones for more than roundings."""
-    if judgement.verdict != RIGHT:
-        return judgement.verdict != UNKNOWN
-    allowed = 20 * tolerance(judgement.item, judgement.expected, student)
-    return not close(judgement.item, judgement.values, judgement.expected, allowed).all()
 
 
 def own_values(item: Item, student: Student, precedents: frozenset[str] | None) -> Array:

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from reports.grading.judging.verdicts import STILL, TYPED, WRONG
+from reports.grading.judging.judgement import STILL, TYPED, WRONG
 
 _MARK = 16  # signs of a mark of right values
 _NONE = " " * _MARK

@@ -12,9 +12,10 @@ from reports.grading.issuing.assignment import Item
 from reports.grading.issuing.register import FILE, checked_register
 from reports.grading.issuing.rubric import load_rubric
 from reports.grading.judging.causes import Causes
+from reports.grading.judging.judgement import CARRIED, WORDS, WRONG, Judgement
 from reports.grading.judging.marking import Marker
 from reports.grading.judging.tolerances import tolerance
-from reports.grading.judging.verdicts import CARRIED, WORDS, WRONG, Judgement, judge_all, own_values
+from reports.grading.judging.verdicts import judge_all, own_values
 from reports.grading.pages.pages import number, rows
 from reports.grading.reading.matching import find_owner
 from reports.grading.reading.student import Student

@@ -52,11 +52,23 @@ class Filled:
     left: tuple[str, ...]
 
 
+def check_upload(path: Path, kind: str) -> None:
+    """Look at a file that should be an archive of works, or else a worksheet.
+
+    Raises:
+        InputError: it is neither.
+    """
+    if kind != ".zip":
+        read_worksheet(path)
+    elif not zipfile.is_zipfile(path):
+        raise InputError(Problem("", "это не тот файл", "загрузите архив .zip"))
+
+
 def read_worksheet(path: Path) -> str:
     """The text of a worksheet.
 
     Raises:
-        InputError: it cannot be read.
+        InputError: it cannot be read, or is none.
     """
     try:
         data = path.read_bytes()
@@ -67,10 +79,26 @@ def read_worksheet(path: Path) -> str:
     try:
         if len(data) > MAX_BYTES:
             raise UnicodeError
-        return data.decode("utf-8-sig")
+        text = data.decode("utf-8-sig")
     except UnicodeError:
         hint = "возьмите файл таким, каким его отдал Moodle"
         raise InputError(Problem(path.name, "это не ведомость Moodle", hint)) from None
+    _parsed(text, path.name)
+    return text
+
+
+def _parsed(text: str, source: str) -> tuple[list[list[str]], dict[str, int], str]:
+    """Lines of a worksheet, where its columns are, and what divides them."""
+    delimiter = max(",;\t", key=text.partition("\n")[0].count)
+    try:
+        lines = list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter))
+    except csv.Error:  # an endless field
+        lines = []
+    at = _columns(lines[0] if lines else [])
+    if not at.keys() >= {"id", "grade", "modified"}:
+        hint = "нужны её столбцы «Идентификатор», «Оценка», «Последнее изменение (оценка)»"
+        raise InputError(Problem(source, "это не ведомость оценивания Moodle", hint))
+    return lines, at, delimiter
 
 
 def filled(text: str, rows: Sequence[dict[str, Any]], maximum: float, source: str) -> Filled:
@@ -79,12 +107,7 @@ def filled(text: str, rows: Sequence[dict[str, Any]], maximum: float, source: st
     Raises:
         InputError: the columns of Moodle's worksheet are not there.
     """
-    delimiter = max(",;\t", key=text.partition("\n")[0].count)
-    lines = list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter))
-    at = _columns(lines[0] if lines else [])
-    if not at.keys() >= {"id", "grade", "modified"}:
-        hint = "нужны её столбцы «Идентификатор», «Оценка», «Последнее изменение (оценка)»"
-        raise InputError(Problem(source, "это не ведомость оценивания Moodle", hint))
+    lines, at, delimiter = _parsed(text, source)
     russian = lines[0][at["grade"]].strip().casefold() == "оценка"
     graded, left = 0, []
     by_key = _by_key(rows)

@@ -12,7 +12,7 @@ from markupsafe import Markup
 
 from kshm.nomenclature.digits import Digits
 from reports.grading.issuing.rubric import Rubric
-from reports.grading.judging.verdicts import WORDS
+from reports.grading.judging.judgement import WORDS
 from reports.grading.pages.chart import line_chart
 from reports.shared.resources import templates_dir
 from reports.shared.russian import capital, short, written

@@ -8,8 +8,8 @@ from statistics import mean, median
 from typing import Any
 
 from reports.grading.issuing.register import Register
+from reports.grading.judging.judgement import CARRIED, EMPTY, RIGHT, TYPED
 from reports.grading.judging.similarity import signals, suspicions
-from reports.grading.judging.verdicts import CARRIED, EMPTY, RIGHT, TYPED
 from reports.grading.judging.works import Work
 from reports.grading.pages.pages import moment
 from reports.shared.russian import short

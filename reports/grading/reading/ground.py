@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
+
 import numpy as np
 
 from reports.grading.reading.student import Student, shown_in
@@ -24,11 +26,35 @@ def circles(student: Student) -> frozenset[str]:
             answer.place.span.last,
         )
     }  # fmt: skip
-    if not round_:
+    return _reaching_themselves({node: through(student, node) for node in round_})
+
+
+def hidden_circles(
+    student: Student, nodes: Iterable[str], others: Iterable[Iterable[Cells]]
+) -> frozenset[str]:
+    """Which of some nodes go round in a circle with other input data, which ``others`` hold."""
+    refers = {node: through(student, node) for node in nodes}
+    while free := {node for node, names in refers.items() if names.isdisjoint(refers)}:
+        refers = {node: names for node, names in refers.items() if node not in free}
+    suspects = _reaching_themselves(refers)
+    if not suspects:
         return frozenset()
-    refers = {node: through(student, node) for node in round_}
+    engines = [Engine(pinned(student.grid, cells)) for cells in others]
+    places = {node: student.placement.places[node] for node in suspects}
+    return frozenset(
+        node
+        for node, place in places.items()
+        if place.span is not None
+        and any(
+            engine.is_circular(place.sheet, place.column, place.span.first, place.span.last)
+            for engine in engines
+        )
+    )
+
+
+def _reaching_themselves(refers: Mapping[str, frozenset[str]]) -> frozenset[str]:
     found = set()
-    for node in round_:
+    for node in refers:
         seen: set[str] = set()
         stack = list(refers[node])
         while stack:

@@ -20,14 +20,14 @@ from reports.workbook.package import Package
 class Match:
     """The issued work-book a file belongs to, why, and what speaks against it.
 
-    ``submitter`` is the other student under whose name the file came.  While there are
-    doubts, a person decides before any points are given.
+    ``submitter`` is the number of the other student under whose name the file came, 0 where
+    several have that name.  While there are doubts, a person decides before any points are given.
     """
 
     book: Issued | None
     evidence: tuple[str, ...]
     doubts: tuple[str, ...]
-    submitter: Issued | None = None
+    submitter: int | None = None
 
 
 def find_owner(register: Register, submission: Submission, grid: Grid, package: Package) -> Match:
@@ -35,7 +35,9 @@ def find_owner(register: Register, submission: Submission, grid: Grid, package: 
     tickets = _tickets(grid, package)
     by_ticket = {book.ticket: book for book in register.books}
     known = {text: where for text, where in tickets.items() if text in by_ticket}
-    named = _by_name(register, submission)
+    named, where = _by_name(register, submission)
+    one = named[0] if len(named) == 1 else None
+    submitter = one.number if one else None
     evidence = [f"идентификатор {text} ({where})" for text, where in known.items()]
     doubts = [
         f"идентификатор {text} ({where}) не выдавался в этой группе"
@@ -45,31 +47,29 @@ def find_owner(register: Register, submission: Submission, grid: Grid, package: 
     if len(known) > 1:
         names = ", ".join(by_ticket[text].student.full for text in known)
         text = f"в файле идентификаторы разных работ: {names}"
-        submitter = named[0] if named is not None else None
         return Match(None, tuple(evidence), (*doubts, text), submitter)
     if len(known) == 1:
         book = by_ticket[next(iter(known))]
-        other = named[0] if named is not None and named[0] is not book else None
-        if named is not None and named[0] is not book:
-            doubts.append(
-                f"файл сдал(а) {named[0].student.full} ({named[1]}), "
-                f"а идентификатор выдан: {book.student.full}"
-            )
-        elif named is not None:
-            evidence.append(named[1])
-        return Match(book, tuple(evidence), tuple(doubts), other)
-    if named is None:
+        if named and book not in named:
+            who = " или ".join(dict.fromkeys(other.student.full for other in named))
+            issued = book.student.full
+            doubts.append(f"файл сдал(а) {who} ({where}), а идентификатор выдан: {issued}")
+            return Match(book, tuple(evidence), tuple(doubts), submitter or 0)
+        if one is not None:
+            evidence.append(where)
+        return Match(book, tuple(evidence), tuple(doubts))
+    if one is None:
         return Match(None, (), (*doubts, "нет идентификатора, имя файла не указывает на студента"))
     if tickets:
-        return Match(None, (named[1],), tuple(doubts), named[0])
+        return Match(None, (where,), tuple(doubts), submitter)
     doubts.append("в файле нет идентификатора: это не выданная книга или он удалён")
-    return Match(named[0], (f"идентификатора нет; {named[1]}",), tuple(doubts))
+    return Match(one, (f"идентификатора нет; {where}",), tuple(doubts))
 
 
 def find_by_name(register: Register, submission: Submission) -> Match:
     """Match a file that cannot be read."""
-    named = _by_name(register, submission)
-    return Match(named[0], (named[1],), ()) if named else Match(None, (), ())
+    named, where = _by_name(register, submission)
+    return Match(named[0], (where,), ()) if len(named) == 1 else Match(None, (), ())
 
 
 def _tickets(grid: Grid, package: Package) -> dict[str, str]:
@@ -122,8 +122,11 @@ def file_properties(package: Package) -> dict[str, str]:
     return found
 
 
-def _by_name(register: Register, submission: Submission) -> tuple[Issued, str] | None:
-    """The only student whose name stands in Moodle's folder or in the name of the file."""
+def _by_name(register: Register, submission: Submission) -> tuple[list[Issued], str]:
+    """Whose name stands in Moodle's folder, or else in the name of the file, and where.
+
+    More than one are those that the name does not tell apart.
+    """
     for text, where in (
         (submission.moodle_name, "имя участника Moodle"),
         (submission.key, "имя файла"),
@@ -133,11 +136,11 @@ def _by_name(register: Register, submission: Submission) -> tuple[Issued, str] |
             continue
         hits = [book for book in register.books if book.folder in submission.key.split("/")]
         hits = hits or [book for book in register.books if _file_stem(book) in submission.key]
-        hits = hits or [book for book in register.books if _stand_in(_names(book), words)]
-        hits = hits or [book for book in register.books if _stand_in(_surname(book), words)]
-        if len(hits) == 1:
-            return hits[0], f"{where}: «{text[:120]}»"
-    return None
+        hits = hits or _standing_in(words, [(book, _names(book)) for book in register.books])
+        hits = hits or _standing_in(words, [(book, _surname(book)) for book in register.books])
+        if hits:
+            return hits, f"{where}: «{text[:120]}»"
+    return [], ""
 
 
 def _file_stem(book: Issued) -> str:
@@ -145,8 +148,8 @@ def _file_stem(book: Issued) -> str:
 
 
 def _names(book: Issued) -> set[str]:
-    first = _words(book.student.name.split(" ")[0])
-    return first | _words(book.student.surname) if first else set()
+    first, surname = _words(book.student.name.split(" ")[0]), _words(book.student.surname)
+    return first | surname if first - surname else set()
 
 
 def _surname(book: Issued) -> set[str]:
@@ -155,8 +158,10 @@ def _surname(book: Issued) -> set[str]:
     return words if any(len(word) > 2 for word in words) else set()
 
 
-def _stand_in(name: set[str], words: set[str]) -> bool:
-    return bool(name) and name <= words
+def _standing_in(words: set[str], names: Iterable[tuple[Issued, set[str]]]) -> list[Issued]:
+    """Whose name stands among some words, and is no part of another that does."""
+    found = [(book, name) for book, name in names if name and name <= words]
+    return [book for book, name in found if not any(name < other for _, other in found)]
 
 
 def _words(text: str) -> set[str]:

@@ -19,6 +19,8 @@ from tests.grading.real.written import COLUMNS, WRITTEN
 M, T, S1, V1, J1, N = (
     "P4_1.M_Nm", "P4_1.T_MPa", "P3_1.s1_mm", "P3_1.v1_m_s", "P3_1.j1_m_s2", "P4_1.N_MPa",
 )  # fmt: skip
+PS, S = "P4_1.Ps_MPa", "P4_1.S_MPa"
+_FROM_M = "=I{r}/F_piston/r_crank/10^6"
 
 
 def disguised(name: str, node: str, template: str, **more: object) -> Work:
@@ -124,7 +126,25 @@ def _only_mine(here: Desk) -> dict[str, object]:
 
 
 def _back(here: Desk) -> dict[str, object]:
-    return {M: here.column(M), T: "=I{r}/F_piston/r_crank/10^6"}
+    return {M: here.column(M), T: _FROM_M}
+
+
+def _back_but_one(column: str) -> Callable[[Desk], dict[str, object]]:
+    """Backwards from typed numbers; one cell of ``column`` is another number."""
+
+    def change(here: Desk) -> dict[str, object]:
+        made = {M: here.column(M), T: [_FROM_M.replace("{r}", str(row)) for row in rows()]}
+        made[column][3] = 1.5
+        return made  # type: ignore[return-value]
+
+    return change
+
+
+def _circle_elsewhere(here: Desk) -> dict[str, object]:
+    """A circle that closes for every engine but one's own."""
+    bore = here.issued.drawn["geometry.bore_mm"]
+    text = f"=IF(geometry_bore_mm={bore},{{v}},F{{r}}*COS(J{{r}}))"
+    return {PS: literals(text, here.column(PS)), S: "=D{r}/COS(J{r})"}
 
 
 def _choose(here: Desk) -> dict[str, object]:
@@ -331,6 +351,15 @@ CHEATS = (
         unpaid=(M, T),
     ),
     Work("backwards from typed numbers", _back, unpaid=(T,), verdicts={M: "typed"}),
+    Work("backwards, one number wrong", _back_but_one(M), unpaid=(T,), verdicts={M: "wrong"}),
+    Work("backwards, one cell typed", _back_but_one(T), unpaid=(T,), verdicts={M: "typed"}),
+    Work(
+        "backwards from nothing",
+        lambda here: {M: "=2*A{r}", T: _FROM_M},
+        unpaid=(T,),
+        verdicts={M: "wrong"},
+    ),
+    Work("a circle for all other engines", _circle_elsewhere, unpaid=(PS, S)),
     Work("the given table overwritten", edit=_given_replaced),
     Work(
         "an indirect address", lambda here: {"V_c": '=INDIRECT("C10")/17'}, unpaid=("geometry.V_c",)

@@ -15,7 +15,7 @@ from reports.workbook.layout import Layout
 from tests.grading.classroom import registered
 from tests.grading.real.written import RUBRIC
 
-COUNT = 150
+COUNT = 160
 
 
 @dataclass(frozen=True)

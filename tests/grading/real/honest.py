@@ -226,6 +226,17 @@ def _own_names(book: Workbook, desk: Desk) -> None:
         book["П4.1"].cell(row, 9).value = f"=G{row}*1000000*Fп*радиус"
 
 
+def _columns_by_name(book: Workbook, desk: Desk) -> None:
+    """A column has a name, and the cell in one's own row is meant."""
+    for name, cells in (("фи", "'П3.1'!$A$6:$A$18"), ("Туд", "'П4.1'!$G$6:$G$30")):
+        book.defined_names[name] = DefinedName(name, attr_text=cells)
+    for row in rows():
+        if row <= 18:
+            book["П3.1"].cell(row, 5).value = "=r_crank*omega*SIN(RADIANS(фи))"
+        book["П4.1"].cell(row, 9).value = "=Туд*10^6*F_piston*r_crank"
+        book["П4.1"].cell(row, 12).value = "=-I:I"
+
+
 def _moved_rows(book: Workbook, desk: Desk) -> None:
     insert(book, "П3.1", row=3)
     insert(book, "П3.1", row=9)
@@ -308,6 +319,7 @@ HONEST = (
     Work("look-ups saved by LibreOffice", _look_ups, form="office"),
     Work("the variant copied to an own sheet", edit=_own_copy),
     Work("own names", edit=_own_names, form="excel"),
+    Work("columns by name", edit=_columns_by_name, form="office"),
     Work("array formulas", _arrays),
     Work("array formulas saved by LibreOffice", _arrays, form="office"),
     Work("rounded as printed", _rounded),

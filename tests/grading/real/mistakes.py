@@ -120,6 +120,11 @@ MISTAKES = (
     one("of the wrong rod", "lam", "", cause="из варианта"),
     one("rounded too far", "P3_1.s_mm", "=ROUND(B{r}+C{r},0)", cause="округл"),
     one("typed omega", "P3_1.v1_m_s", "={r_}", "typed"),
+    Work(
+        "N by way of a wrong S",
+        lambda desk: {"P4_1.S_MPa": "=D{r}*COS(J{r})", "P4_1.N_MPa": "=F{r}*SIN(J{r})"},
+        verdicts={"P4_1.S_MPa": "wrong"},
+    ),
     Work("several", _several, verdicts={
         "P3_1.s1_mm": "wrong", "P4_1.N_MPa": "wrong", "geometry.c_m": "wrong",
         "P4_2.Msum_Nm": "empty"}),

@@ -1,0 +1,156 @@
+"""What the verdict on an item rests on: blanks, circles, typed numbers, earlier mistakes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from reports.grading.judging.judgement import (
+    BROKEN,
+    CARRIED,
+    EMPTY,
+    GROUNDLESS,
+    RIGHT,
+    STILL,
+    TYPED,
+    UNKNOWN,
+    Judgement,
+)
+from reports.grading.judging.response import Response
+from reports.grading.judging.tolerances import close, tolerance
+from reports.grading.reading.ground import calculated, circles, hidden_circles, is_void, resting_on
+from reports.grading.reading.student import Student
+
+_ROUND = "круговая ссылка: величина считается через саму себя"
+_ROUND_HERE = "круговая ссылка, а верные числа сохранены: поиск во всём столбце или вставка?"
+_ROUND_ELSEWHERE = "при других исходных данных круговая ссылка: величина считается через себя"
+_TAKEN = "взято из готовой таблицы, а не рассчитано"
+_BACK = {
+    STILL: "получено из чисел, а не рассчитано",
+    UNKNOWN: "получено назад из столбца, который сам не рассчитан верно: есть ли другой путь?",
+}
+
+
+def without_ground(found: dict[str, Judgement], student: Student, response: Response) -> None:
+    """Blanks and circles pass nothing on: what rests on them is no result."""
+    round_ = circles(student)
+    held = calculated(student, round_)
+    paid = [node for j in found.values() if j.paid > 0 for node in j.item.nodes]
+    hidden = hidden_circles(student, paid, response.whole()) - round_
+    for id_, judgement in found.items():
+        at = round_ & set(judgement.item.nodes)
+        if at and judgement.verdict != UNKNOWN:
+            verdict, reason = (UNKNOWN, _ROUND_HERE) if at <= held else (BROKEN, _ROUND)
+            found[id_] = replace(judgement, verdict=verdict, paid=0.0, reason=reason)
+    for id_, judgement in found.items():
+        if hidden & set(judgement.item.nodes):
+            found[id_] = replace(judgement, verdict=UNKNOWN, paid=0.0, reason=_ROUND_ELSEWHERE)
+    void = set(round_ - held)
+    for judgement in found.values():
+        for node in judgement.item.nodes:
+            if is_void(student, node):
+                void.add(node)
+    if not void:
+        return
+    resting = resting_on(student, frozenset(void))
+    names = {node: j.item for j in found.values() for node in j.item.nodes}
+    for id_, judgement in found.items():
+        nodes = set(judgement.item.nodes)
+        if not nodes & resting or nodes & void or judgement.paid <= 0:
+            continue
+        near = frozenset().union(*(student.precedents(node) for node in nodes)) & (void | resting)
+        roots = sorted({names[n].id for n in near & void or void if n in names})[:4]
+        circle = near and near <= round_
+        why = "опирается на круговую ссылку" if circle else "опирается на незаполненное"
+        found[id_] = replace(judgement, verdict=GROUNDLESS, paid=0.0, origins=tuple(roots),
+                             reason=why)  # fmt: skip
+
+
+def backwards(found: dict[str, Judgement], student: Student, response: Response) -> None:
+    """Nothing is earned by going back from what was typed in, given or is not calculated.
+
+    A column that the textbook's way leads to must not be where its own values come from,
+    unless it is calculated itself.
+    """
+    owner = {node: j.item.id for j in found.values() for node in j.item.nodes}
+    live = student.assignment.live_nodes
+    changed = True
+    while changed:
+        changed = False
+        suspects: dict[tuple[str, str], list[str]] = {}
+        for judgement in found.values():
+            if judgement.paid <= 0:
+                continue
+            ancestors = student.assignment.ancestors(judgement.item)
+            for node in filter(student.runs, judgement.item.nodes):
+                for name in student.precedents(node) - ancestors - set(judgement.item.nodes):
+                    source = found.get(owner.get(name, ""))
+                    verdict = STILL if name in live else _going_back(judgement, source, student)
+                    if verdict:
+                        suspects.setdefault((name, verdict), []).append(node)
+        for (name, verdict), nodes in sorted(suspects.items()):
+            depends = response.depends(nodes, name)
+            for node in nodes:
+                judgement = found[owner[node]]
+                if depends[node] and judgement.paid > 0:
+                    found[judgement.item.id] = replace(
+                        judgement, verdict=verdict, paid=0.0, rows=(),
+                        origins=(owner[name],) if name in owner else (),
+                        reason=_TAKEN if name in live else _BACK[verdict],
+                    )  # fmt: skip
+                    changed = True
+
+
+def _going_back(judgement: Judgement, source: Judgement | None, student: Student) -> str:
+    """The verdict on an item whose formulas take a later column, empty where they may.
+
+    What was not calculated at all gives nothing.  A formula that is wrong may be a mistake of
+    one who knew another way: a person sees whether there is one.
+    """
+    if source is None or source.verdict in (RIGHT, CARRIED):
+        return ""
+    half = len(source.values) / 2
+    numbers = len(source.rows if source.verdict == TYPED else source.typed) >= half
+    nothing = source.verdict in (EMPTY, GROUNDLESS) and source.paid <= 0
+    if source.verdict == STILL or (numbers and source.verdict != UNKNOWN) or nothing:
+        return STILL
+    later = student.assignment.ancestors(source.item)
+    return "" if later.isdisjoint(judgement.item.nodes) else UNKNOWN
+
+
+def carried(found: dict[str, Judgement], student: Student) -> None:
+    """Right formulas on earlier values that are not right name the columns these came from."""
+    owner = {node: j.item.id for j in found.values() for node in j.item.nodes}
+    for id_, judgement in found.items():
+        if judgement.verdict != RIGHT or np.isnan(judgement.expected).all():
+            continue
+        allowed = tolerance(judgement.item, judgement.expected, student)
+        good = close(judgement.item, judgement.values, judgement.expected, allowed)
+        if good.all():
+            continue
+        names = frozenset().union(*(student.precedents(n) for n in judgement.item.nodes))
+        near = sorted({owner[n] for n in names if n in owner} - {id_})
+        live = [n for n in names if n in student.assignment.live_nodes]
+        through = student.assignment.graph
+        for name in live:
+            near += sorted({owner[n] for n in through.ancestors(name) if n in owner} - set(near))
+        guilty = [
+            n
+            for n in near
+            if found[n].verdict not in (RIGHT, UNKNOWN) or _is_off(found[n], student)
+        ]
+        if not guilty:
+            continue  # roundings on the way, or a value that is not known
+        wrong = [n for n in guilty if found[n].verdict not in (RIGHT, CARRIED)]
+        found[id_] = replace(judgement, verdict=CARRIED,
+                             rows=tuple(np.flatnonzero(~good).tolist()),
+                             origins=tuple((wrong or guilty)[:4]), precedents=names)  # fmt: skip
+
+
+def _is_off(judgement: Judgement, student: Student) -> bool:
+    """Whether a right formula's values are not the right ones for more than roundings."""
+    if judgement.verdict != RIGHT:
+        return judgement.verdict != UNKNOWN
+    allowed = 20 * tolerance(judgement.item, judgement.expected, student)
+    return not close(judgement.item, judgement.values, judgement.expected, allowed).all()

@@ -1,0 +1,86 @@
+"""``INDEX`` of a range at a place that is written out, ``INDEX(B:B,17)``: one cell is meant.
+
+As a look-up it refers to all of the range, and a book that keeps everything in one column would
+refer to itself throughout.
+"""
+
+from __future__ import annotations
+
+import re
+
+from reports.recalculation.formulas import formula_of
+from reports.recalculation.grid import Grid
+from reports.recalculation.language import MAX_ROW, Ref, Token, column_number, quoted, ref_of
+
+_OPEN, _COMMA, _CLOSE, _TO = (("op", sign) for sign in "(,):")
+_WHOLE = re.compile(r"[1-9][0-9]{0,6}")
+
+
+def pick(grid: Grid) -> None:
+    """Put the cells that are meant into the formulas of a grid."""
+    for run in grid.runs():
+        if run.formula is not None and not run.problem and "INDEX" in run.formula.functions:
+            made = tuple(_picked(run.formula.pattern, grid))
+            if made != run.formula.pattern:
+                run.formula = formula_of(made)
+
+
+def _picked(tokens: tuple[Token, ...], grid: Grid) -> list[Token]:
+    made: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        cell: list[Token] = []
+        if tokens[at][1].upper() == "INDEX" and tokens[at + 1 : at + 2] == (_OPEN,):
+            end = tokens.index(_CLOSE, at) if _CLOSE in tokens[at:] else at
+            cell = _cell(tokens[at + 2 : end], grid)
+            of_range = _TO in (*tokens[at - 1 : at], *tokens[end + 1 : end + 2])
+            cell = [] if of_range and len(cell) > 1 else cell  # with a sheet it ends no range
+        if cell:
+            made += cell
+            at = end + 1
+        else:
+            made.append(tokens[at])
+            at += 1
+    return made
+
+
+def _cell(tokens: tuple[Token, ...], grid: Grid) -> list[Token]:
+    """The cell that these arguments of INDEX name; nothing where it takes reckoning."""
+    sheet = [token for token in tokens[:1] if token[0] == "sheet"]
+    rest = tokens[len(sheet) :]
+    if _COMMA not in rest:
+        return []
+    at = rest.index(_COMMA)
+    area, places = rest[:at], rest[at:]
+    numbers = [value for _, value in places[1::2]]
+    if set(places[::2]) != {_COMMA} or not all(map(_WHOLE.fullmatch, numbers)):
+        return []
+    first, last = (Ref(1, 1), Ref(0, 0))
+    if len(area) == 3 and area[1] == _TO and area[0][0] == area[2][0] == "ref":
+        first, last = ref_of(area[0][1]), ref_of(area[2][1])
+    elif len(area) == 1 and area[0][0] == "columns":
+        left, right = sorted(map(column_number, area[0][1].replace("$", "").split(":")))
+        first, last = Ref(1, left), Ref(MAX_ROW, right)
+    elif len(area) == 1 and area[0][0] == "name" and not sheet:
+        named = grid.areas.get(area[0][1].casefold())
+        if named is not None:
+            sheet = [("sheet", quoted(named.sheet))]
+            first = Ref(named.first_row, named.first_column)
+            last = Ref(named.last_row, named.last_column)
+    found = _at(first, last, [int(number) for number in numbers])
+    return [*sheet, ("ref", found)] if found else []
+
+
+def _at(first: Ref, last: Ref, numbers: list[int]) -> str:
+    """A cell of a range, empty where these numbers name none."""
+    if (first.row_fixed, first.column_fixed) != (last.row_fixed, last.column_fixed):
+        return ""
+    height, width = last.row - first.row + 1, last.column - first.column + 1
+    if len(numbers) == 1:
+        numbers = [1, *numbers] if height == 1 else [*numbers, 1] if width == 1 else []
+    if len(numbers) != 2 or numbers[0] > height or numbers[1] > width:
+        return ""
+    row, column = first.row + numbers[0] - 1, first.column + numbers[1] - 1
+    return (f"R{row}" if first.row_fixed else f"R[{row}]") + (
+        f"C{column}" if first.column_fixed else f"C[{column}]"
+    )

@@ -52,6 +52,7 @@ _OF_PINS = {
 }  # fmt: skip
 CHARTS = ("p_phi", "fig49", "fig50", "fig52")
 _PIN_CHARTS = {"fig50", "fig52"}
+_WORST = "worst_pin_load"
 _WORST_PIN = (
     ("шатунную шейку", "наиболее нагруженную"), ("шатунной шейки", "наиболее нагруженной"),
 )  # fmt: skip
@@ -159,12 +160,18 @@ def known(
 
 def _of_worst_pin(writer: Writer, key: str) -> tuple[str, float | str]:
     """Formula and value of a scalar, of the most loaded pin where each has its own."""
-    values, worst = writer.values.scalars, "worst_pin_load"
-    if key not in _OF_PINS or worst not in values:
+    values = writer.values.scalars
+    if key not in _OF_PINS or _WORST not in values:
         return f"={key}", values[key]
     count = len(Shape.of(writer.layout.model.input).pins)
     keys = [_OF_PINS[key].format(pin_name(number)) for number in range(1, count + 1)]
-    return f"=CHOOSE({worst},{','.join(keys)})", values[keys[round(float(values[worst])) - 1]]
+    return f"=CHOOSE({_WORST},{','.join(keys)})", values[keys[_worst_pin(writer) - 1]]
+
+
+def _worst_pin(writer: Writer) -> int:
+    """The number of the most loaded pin; the first where a student is to find it."""
+    worst = float(writer.values.scalars.get(_WORST, 1))
+    return round(worst) if isfinite(worst) else 1
 
 
 def _finite(value: float | str) -> bool:
@@ -173,7 +180,7 @@ def _finite(value: float | str) -> bool:
 
 def _charts(sheet: Worksheet, model: Model, writer: Writer) -> list[Box]:
     """The four that say most, two to a row and of one size."""
-    worst = round(float(writer.values.scalars.get("worst_pin_load", 1)))
+    worst = _worst_pin(writer)
     charts = [pin_figure(chart, worst) if chart in _PIN_CHARTS else chart for chart in CHARTS]
     specs = [model.charts_by_id[chart] for chart in charts if chart in model.charts_by_id]
     left = sum(round(width * 7) for width in _WIDTHS.values()) + GAP

@@ -196,3 +196,13 @@ def random_assignment(seed: int) -> Assignment:
 def test_no_random_class_is_given_its_answers(seed):
     assignment = random_assignment(seed)
     assert leaks_of(handout_bytes(assignment, TICKET), assignment) == []
+
+
+def test_a_work_that_asks_for_everything_is_issued_for_many_pins():
+    """The first sheet tells of the most loaded pin, which here the student is to find."""
+    raw = to_mapping(sample("yamz-238"))
+    raw["calculation"]["step_deg"] = 30
+    model = build_model(load_mapping(raw, source="r").model)
+    assignment = assignment_of(model, rubric_of({"work": {"fill": ["*"]}}, "r"))
+    assert "worst_pin_load" in assignment.fill_nodes
+    assert leaks_of(handout_bytes(assignment, TICKET), assignment) == []

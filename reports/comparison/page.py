@@ -137,6 +137,8 @@ def _change(percent: float | None) -> str:
     if percent >= _MOST_PERCENT or _NONE_LEFT < percent < LEAST_PERCENT:
         return f"(×{NBSP}{grouped(short(float(f'{1 + percent / 100:.3g}')))})"
     text = fixed(percent, 1)
+    if not float(f"{percent:.1f}"):
+        return ""  # alike: the numbers themselves say so
     return f"({text} %)" if text.startswith(MINUS) else f"(+{text} %)"
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from reports.document.chapters.front import title_block
 from reports.document.page.render import render
 from reports.document.report import report_html, report_page, report_pdf
 from reports.shared.errors import InputError
@@ -249,3 +250,12 @@ def test_outline_language_and_metadata_are_in_the_file(framed):
     assert len([t for t in titles if re.match(r"\d+(\.\d+)*\s", t)]) > 15
     info = poppler("pdfinfo", str(framed[2] / "text.pdf"))
     assert re.search(r"Author:\s+Иванов И\. И\.", info) and "Creator:         kshm" in info
+
+
+def test_a_name_that_would_be_tiny_leaves_the_surname():
+    name = "Александра Владимировна Константинопольская-Преображенская"
+    data = DATA.replace("Иванов И. И.", name)
+    block = title_block(terms_of(ONE.replace("[report]\n", data)).model.input)
+    assert block is not None
+    assert block["developed"] == "Константинопольская-Преображенская"
+    assert block["checked"] == "Петров П. П."  # whole, as it fits

@@ -12,7 +12,7 @@ from reports.document.chapters.profiles import told
 from reports.document.page.fitting import type_pt
 from reports.document.page.style import TitlePage
 from reports.inputs.sections.input_file import InputFile
-from reports.shared.russian import joined
+from reports.shared.russian import joined, surname
 
 Words = dict[str, Any]
 
@@ -115,6 +115,8 @@ def _further(names: set[str]) -> str:
     return f"проверить {joined(left)}" if left else ""
 
 
+_READABLE = 7.0  # pt; a name that would be smaller leaves the surname alone, as ГОСТ 2.104 asks
+_PERSONS = ("developed", "checked", "controlled", "approved")
 # Words of the title block with width and height of their cells [mm] and their usual type [pt].
 _CELLS = {
     "designation": (("Обозначение документа",), 108.0, 14.0, 14.0),
@@ -163,6 +165,10 @@ def title_block(model: InputFile, frame: str | None = None) -> Words | None:
         "approved": report.approver or report.head,
         "organisation": [place for place in places if place],
     }
+    for cell in _PERSONS:
+        name = str(words[cell])
+        small = type_pt(name, *_CELLS[cell][1:]) < _READABLE
+        words[cell] = surname(name) if small else name
     shown = words | {
         "name": f"{report.title} {model.engine.name}",
         "organisation": ", ".join(place for place in places if place),

@@ -3,7 +3,13 @@ from html import unescape
 
 import pytest
 
-from reports.document.text.symbols import SymbolError, indexed, inline_html, remark_html, titled_html
+from reports.document.text.symbols import (
+    SymbolError,
+    indexed,
+    inline_html,
+    remark_html,
+    titled_html,
+)
 from tests.workbook.made import coarse_model
 
 NB = "\u00a0"

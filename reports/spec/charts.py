@@ -80,7 +80,8 @@ class ChartSpec:
     def heading(self) -> str:
         """Title of the workbook's chart: the report's number, the textbook's in brackets."""
         own = f"Рис.{NBSP}{self.number}. " if self.number else ""
-        return f"{own}{self.title} [рис.{NBSP}{self.figure}]" if self.figure else f"{own}{self.title}"
+        textbook = f" [рис.{NBSP}{self.figure}]" if self.figure else ""
+        return f"{own}{self.title}{textbook}"
 
     @property
     def equal_axes(self) -> bool:

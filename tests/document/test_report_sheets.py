@@ -260,3 +260,13 @@ def test_a_name_that_would_be_tiny_leaves_the_surname():
     assert block is not None
     assert block["developed"] == "Константинопольская-Преображенская"
     assert block["checked"] == "Петров П. П."  # whole, as it fits
+
+
+@pytest.mark.parametrize(("name", "said"), [("Д-240", " «Д-240»"), ("", "")])
+def test_an_engine_without_a_name_is_not_called_engine_in_quotes(name, said):
+    text = ONE.replace('name = "Одноцилиндровый"', f'name = "{name}"' if name else "")
+    t = terms_of(text.replace('detail = "full"', 'detail = "short"'))
+    page = report_page(t.model, t.values, media="screen").replace("\xa0", " ")
+    assert f"кривошипно-шатунный механизм двигателя{said}." in page
+    assert f"расчёты двигателя{said} на установившемся режиме" in page
+    assert (f"3. Исходные данные: двигатель{said};" in page) == bool(said)

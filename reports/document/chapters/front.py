@@ -75,7 +75,7 @@ def assignment(chapter: Chapter) -> Words:
     words = _words(chapter.input)
     return words | {
         "department": _department(words["department"]),
-        "engine": chapter.input.engine.name,
+        "named": chapter.named,
         "data": [(present[k].title, chapter.terms.val(k)) for k in _TASK if k in present],
         "chapters": [item.title for item in n.contents if item.level == 1 and item.number],
         "figures": n.count("figure"),

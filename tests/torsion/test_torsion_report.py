@@ -81,6 +81,12 @@ def test_estimates_are_called_so() -> None:
     assert "Крутильные колебания вала" in text
 
 
+@pytest.mark.parametrize(("name", "cylinders"), [("two-stroke", 1), ("d-240", 4)])
+def test_one_vector_is_not_added_to_others(name: str, cylinders: int) -> None:
+    """A star of one cylinder is a line of length one."""
+    assert ("Сложение векторов" in page(name)) == (cylinders > 1)
+
+
 @pytest.mark.parametrize(("coupling", "alike"), [(500.0, True), (1e8, False)])
 def test_formulas_of_stiffness_say_nothing_of_a_frequency_that_does_not_rest_on_it(
     coupling: float, alike: bool

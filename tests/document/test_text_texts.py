@@ -86,6 +86,10 @@ def test_lines_are_filled_whatever_follows_a_space(end, tmp_path):
     [
         ("в НМТ 5 — на рисунке", "в НМТ 5\xa0— на рисунке"),
         ('<span class="num">3</span> — Схема', '<span class="num">3</span> — Схема'),
+        (
+            '<span class="nb"><i>J</i> = 3 кг</span> — это',
+            '<span class="nb"><i>J</i>\xa0=\xa03\xa0кг</span>\xa0— это',
+        ),
         ("Размеры: а — вал; б — шатун", "Размеры: а\xa0—\xa0вал; б\xa0—\xa0шатун"),
         ('Гоца [<a class="ref" href="#x">1</a>]', 'Гоца\xa0[<a class="ref" href="#x">1</a>]'),
         ('по [<a class="ref">1</a>, формулы (4)', 'по [<a class="ref">1</a>, формулы (4)'),

@@ -126,7 +126,8 @@ def quantity(key: str, small: int = 0) -> Quantity:
         KeyError: nobody knows the key.
     """
     about = _quantity(key)
-    more = math.ceil(small * _POWERS.get(about.unit, 0) / _FIFTHS)
+    exact = small * _POWERS.get(about.unit, 0) / _FIFTHS
+    more = math.ceil(exact) if small > 0 else round(exact)
     if not more or about.digits.kind != "fixed":
         return about
     return replace(

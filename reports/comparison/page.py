@@ -24,7 +24,7 @@ from reports.comparison.engines import (
 from reports.document.page.blocks import Column, DocumentInfo, TableBlock, table_block
 from reports.document.page.numbering import Label, Numbering
 from reports.document.text.numbers import of_digits
-from reports.document.text.texts import spaces_inside
+from reports.document.text.texts import rich, spaces_inside
 from reports.shared.russian import MINUS, NBSP, comma, fixed, grouped, short
 
 _TITLE = "Сравнение двигателей"
@@ -137,11 +137,16 @@ def _change(percent: float | None) -> str:
     if percent >= _MOST_PERCENT or _NONE_LEFT < percent < LEAST_PERCENT:
         return f"(×{NBSP}{grouped(short(float(f'{1 + percent / 100:.3g}')))})"
     text = fixed(percent, 1)
+    if not float(f"{percent:.1f}"):
+        return ""  # alike: the numbers themselves say so
     return f"({text} %)" if text.startswith(MINUS) else f"(+{text} %)"
 
 
-def _titled(title: str, unit: str) -> str:
-    return f"{title}, {unit}" if unit else title
+def _titled(title: str, unit: str) -> str | Markup:
+    """A title with its unit, which no line divides."""
+    if not unit:
+        return title
+    return Markup('{}, <span class="nb">{}</span>').format(rich(title), rich(unit))
 
 
 def curves_of(labels: Sequence[str], chart: Chart) -> str:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 CAPITAL = 0.662  # height of a capital of the face [em]
 WIDER = 1.04  # a drawing program may set another face
 INDEX = 0.7  # size of an index
+_SPACE, _ANYWHERE = re.compile("(?<= )"), re.compile(r"(?<= )|(?<=\w-)(?=\w)")  # ends of lines
 _INDEX = re.compile(r"_([^\W_][\w.]*)")
 
 
@@ -65,13 +66,16 @@ def fitted(text: str, room: float, height: float, least: float = 1.8) -> float:
     return height if wide <= room else max(least, height * room / wide)
 
 
-def wrapped(text: str, room: float, height: float) -> list[str]:
-    """A text in lines that fit a room; a word that is too long stays whole."""
+def wrapped(text: str, room: float, height: float, *, hyphens: bool = False) -> list[str]:
+    """A text in lines that fit a room; a word that is too long stays whole.
+
+    With ``hyphens`` a line may end after the hyphen of a double name.
+    """
     lines: list[str] = []
-    for word in text.split(" "):
-        longer = f"{lines[-1]} {word}" if lines else word
-        if lines and width_of(longer, height) <= room:
+    for piece in (_ANYWHERE if hyphens else _SPACE).split(text):
+        longer = lines[-1] + piece if lines else piece
+        if lines and width_of(longer.rstrip(), height) <= room:
             lines[-1] = longer
         else:
-            lines.append(word)
-    return lines
+            lines.append(piece)
+    return [line.rstrip() for line in lines]

@@ -122,3 +122,21 @@ def _follows(before: str, after: str) -> bool:
         re.split(r"(?=\d*$)", n, maxsplit=1) for n in (before, after)
     )
     return stem == other and digits != "" != next_digits and int(next_digits) == int(digits) + 1
+
+
+_INITIALS = re.compile(r"(?:[А-ЯЁA-Z]\.-?)+")
+_PATRONYMIC = re.compile("[А-ЯЁ][а-яё]+(?:ич|вна|чна)")
+
+
+def surname(name: str) -> str:
+    """The surname of a person's name, as title blocks have it; all where none is told.
+
+    Initials are left out, of three words a patronymic tells the order.
+    """
+    words = [word for word in name.split() if not _INITIALS.fullmatch(word)]
+    if len(words) == 3:
+        if _PATRONYMIC.fullmatch(words[1]):
+            return words[2]
+        if _PATRONYMIC.fullmatch(words[2]):
+            return words[0]
+    return words[0] if len(words) == 1 else name

@@ -5,13 +5,15 @@ from __future__ import annotations
 from reports.drawing.lettering import fitted, wrapped
 from reports.drawing.primitives import FRAME, THIN, Canvas
 from reports.inputs.sections.input_file import InputFile
+from reports.shared.russian import surname
 
 WIDTH, HEIGHT = 185.0, 55.0
 MARGINS = (20.0, 5.0, 5.0, 5.0)  # left, right, top, bottom of the frame
 _COLUMNS = (0.0, 7.0, 17.0, 40.0, 55.0, 65.0)
 _HEADS = ("Изм.", "Лист", "№ докум.", "Подп.", "Дата")
 _NAME = (65.0, 135.0)
-_LEAST = 1.5  # height of letters
+_LEAST = 1.0  # height of letters
+_READABLE = 2.0  # of a name; one that would be smaller leaves the surname alone
 
 
 def frame(canvas: Canvas, width: float, height: float) -> None:
@@ -33,13 +35,13 @@ def title_block(canvas: Canvas, model: InputFile, left: float, low: float) -> No
         x1, y1, x2, y2 = box
         room = x2 - x1 - 1
         height = most
-        lines = wrapped(text, room, height)
+        lines = wrapped(text, room, height, hyphens=True)
         while (len(lines) * 1.7 * height > y2 - y1) and height > _LEAST:
             height -= 0.25
-            lines = wrapped(text, room, height)
+            lines = wrapped(text, room, height, hyphens=True)
         y = (y1 + y2) / 2 + (len(lines) * 1.7 * height) / 2 - 1.4 * height
         for words in lines:
-            size = fitted(words, room, height, 1.0)
+            size = fitted(words, room, height, 0.5)
             canvas.words((left + (x1 + x2) / 2, low + y), words, size, align=0.5)
             y -= 1.7 * height
 
@@ -58,7 +60,8 @@ def title_block(canvas: Canvas, model: InputFile, left: float, low: float) -> No
     for row, (post, name) in enumerate(people):
         y = 25.0 - 5.0 * row
         cell(post, (0, y, 17, y + 5))
-        cell(name, (17, y, 40, y + 5))
+        small = fitted(name, 22, 2.5) < _READABLE
+        cell(surname(name) if small else name, (17, y, 40, y + 5))
     line(65, 40, WIDTH, 40)
     line(65, 15, WIDTH, 15)
     line(135, 0, 135, 40)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Literal, TypedDict, Unpack
 
+from reports.shared.russian import NBSP
+
 PHI = "φ, ° ПКВ"
 
 
@@ -77,8 +79,9 @@ class ChartSpec:
     @property
     def heading(self) -> str:
         """Title of the workbook's chart: the report's number, the textbook's in brackets."""
-        own = f"Рис. {self.number}. " if self.number else ""
-        return f"{own}{self.title} [рис. {self.figure}]" if self.figure else f"{own}{self.title}"
+        own = f"Рис.{NBSP}{self.number}. " if self.number else ""
+        textbook = f" [рис.{NBSP}{self.figure}]" if self.figure else ""
+        return f"{own}{self.title}{textbook}"
 
     @property
     def equal_axes(self) -> bool:

@@ -46,6 +46,7 @@ class Pictures:
     def __init__(self, document: Document) -> None:
         self._part = document.part
         self._count = 0
+        self._drawings: dict[str, str] = {}  # of each drawing's name, so that none is kept twice
 
     def figure(self, image: HtmlElement, widest_mm: float) -> Element:
         """A paragraph with the picture of an ``img`` of the page."""
@@ -75,9 +76,11 @@ class Pictures:
         from docx.opc.part import Part
 
         data = svg.encode()
-        name = PackURI(f"/word/media/{hashlib.sha256(data).hexdigest()[:16]}.svg")
-        part = Part(name, "image/svg+xml", data, self._part.package)
-        return str(self._part.relate_to(part, RELATIONSHIP_TYPE.IMAGE))
+        name = f"/word/media/{hashlib.sha256(data).hexdigest()[:16]}.svg"
+        if name not in self._drawings:
+            part = Part(PackURI(name), "image/svg+xml", data, self._part.package)
+            self._drawings[name] = str(self._part.relate_to(part, RELATIONSHIP_TYPE.IMAGE))
+        return self._drawings[name]
 
 
 def _box(svg: str) -> tuple[float, float]:

@@ -46,6 +46,8 @@ _LIST = {
 _SUBTITLE_LETTER = 1.18  # in digits of a column: bold and larger
 _THIN, _HEADER_LETTER = 0.65, 1.25  # the same of thin letters and of others of a header
 _HEADER_LINE = 16  # pt
+_CORNER = 10.5  # width of «Величина»
+_TABLE_LINES = 3  # of a table's header at least
 _THIN_LETTERS, _EDGES = frozenset(" ()ijlt1/·.,'"), 1.5
 _BESIDE, _WIDEST = (34, 10, 11, 8, 20), 64  # of a list beside a table
 _CYCLE_WIDTHS = {2: 20, 4: 17, SOURCE_COLUMN: 28, 6: 17, 7: 17, 8: 17}
@@ -71,6 +73,7 @@ def set_widths(sheet: Worksheet, model: Model, layout: Layout, values: Values) -
             wide |= _CYCLE_WIDTHS if sheet.title == CYCLE_SHEET else _RANGE_WIDTHS
         _widths(sheet, {i: wide.get(i, 12) for i in range(1, last + 1)})
         _widen(sheet, blocks, layout, values)
+        _raise_labels(sheet, blocks, layout)
         return
     sheet.freeze_panes = Cell(sheet.title, FIRST_ROW, 2).coordinate
     sheet.print_title_rows = f"{HEADER_ROW - 1}:{NUMBER_ROW}"
@@ -82,11 +85,13 @@ def set_widths(sheet: Worksheet, model: Model, layout: Layout, values: Values) -
                 sheet, {first + i: width for i, width in enumerate(_fitting(sheet, layout, block))}
             )
     _widen(sheet, blocks, layout, values)
+    _raise_labels(sheet, blocks, layout)
     sheet.row_dimensions[HEADER_ROW].height = _HEADER_LINE * max(
-        _lines(column.quantity.header, column_px(sheet, index) / DIGIT)
-        for table in tables
-        for index, column in enumerate(table.columns, layout.places[table.id].column)
-    )
+        _TABLE_LINES,
+        *(_lines(column.quantity.header, column_px(sheet, index) / DIGIT)
+          for table in tables
+          for index, column in enumerate(table.columns, layout.places[table.id].column)),
+    )  # fmt: skip
     for table in tables:
         _fold(sheet, table, layout, values)
     _wrap_titles(sheet)
@@ -145,7 +150,7 @@ def _hold(sheet: Worksheet, index: int, width: float) -> None:
 
 
 def _lines(header: str, width: float) -> int:
-    """Lines of a header in a column, three at least."""
+    """Lines of a header in a column."""
     lines = [""]
     for word in header.split():
         longer = f"{lines[-1]} {word}".strip()
@@ -153,7 +158,23 @@ def _lines(header: str, width: float) -> int:
             lines.append(word)
         else:
             lines[-1] = longer
-    return max(3, len(lines))
+    return len(lines)
+
+
+def _raise_labels(sheet: Worksheet, blocks: Sequence[Block], layout: Layout) -> None:
+    """Room for the labels of grids, «коренной 10, Δmin»."""
+    for block in blocks:
+        if not isinstance(block, Grid):
+            continue
+        first = layout.cells[next(c for c in block.rows[0].cells if c is not None).key].column
+        labels = list(enumerate(block.labels, first))
+        _hold(sheet, layout.places[block.id].column, _CORNER)
+        for index, label in labels:
+            _hold(sheet, index, max(map(_word, label.split()), default=0.0))
+        lines = max(_lines(label, column_px(sheet, index) / DIGIT) for index, label in labels)
+        row = sheet.row_dimensions[layout.places[block.id].row]
+        if lines > 1:
+            row.height = max(row.height or 0, _HEADER_LINE * lines)
 
 
 def _word(word: str) -> float:

@@ -267,6 +267,8 @@ def test_the_page_says_where_its_numbers_come_from():
         (-131.0, 2.0, ""),  # of the other sign
         (131.0, -2.0, ""),
         (-131.0, -26.2, "(−80,0 %)"),
+        (131.0, 131.0, ""),  # not +0,0 %
+        (131.0, 130.99, ""),
     ],
 )
 def test_a_difference_says_what_is_left(base, value, shown):

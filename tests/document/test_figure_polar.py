@@ -79,3 +79,11 @@ def test_the_name_of_an_axis_at_an_edge_is_not_cut_off(reverse, sign):
     width = float(re.search(r'data-size="([\d.]+)/', svg).group(1))
     halos = re.findall(r'<rect x="([\d.-]+)" y="[\d.-]+" width="([\d.]+)"', svg)
     assert len(halos) > 2 and all(float(x) + float(wide) <= width + 1 for x, wide in halos)
+
+
+def test_points_that_are_counted_all_have_their_numbers():
+    """Cylinders of a star of phases: of five only the farthest had its number."""
+    x, y = [0, 0, -1, 0, -0.6, 0.2], [0, 1, 1.3, 1.6, 0.8, 0.1]
+    svg = polar_path(x, y, range(6), ("$x$", "$y$"), most=70.0, least_step=1)
+    nodes = [n for n in ET.fromstring(svg).iter() if n.attrib.get("font-size") == "8.5"]
+    assert {str(k) for k in range(1, 6)} <= {"".join(n.itertext()) for n in nodes}

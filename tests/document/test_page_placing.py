@@ -114,10 +114,24 @@ def test_text_goes_on_where_a_figure_has_no_room():
 
 
 def test_a_figure_that_misses_by_little_is_made_smaller():
-    made = [text("a", 20), figure("f", 330.0), text("b", 2)]
+    made = [text("a", 20), figure("f", 330.0), heading("h"), text("b", 20)]
     placed, spot = filled(made, Spot(0.0), ROOM, LINE)
     width = float(re.search(r"width:([\d.]+)mm", placed[1])[1])
     assert 70.0 <= width < 100.0 and spot.page == 2
+
+
+@pytest.mark.parametrize(
+    ("made", "pages"),
+    [
+        ([text("a", 20), figure("f", 330.0), text("b", 2)], 1),
+        ([text("a", 7), figure("f"), figure("g"), table("t", 2, keep=True)], 1),
+        ([text("a", 7), figure("f"), figure("g"), figure("h")], 2),  # they would be tiny
+    ],
+)
+def test_figures_are_smaller_rather_than_one_alone_on_the_last_page(made, pages):
+    placed, spot = filled(made, Spot(0.0), ROOM, LINE)
+    widths = re.findall(r"width:([\d.]+)mm", "".join(placed))
+    assert spot.page == pages and all(float(width) >= 70.0 for width in widths)
 
 
 @pytest.mark.parametrize(

@@ -18,4 +18,4 @@ def test_the_workbook_s_charts_have_the_numbers_of_the_report_s_figures():
     assert len(numbered) > 10
     alike = [c for c in numbered if found[c.number].startswith(c.words[:12])]
     assert len(alike) > len(numbered) / 2  # the others share a figure, which has words of its own
-    assert all(chart.heading.startswith(f"Рис. {chart.number}. {chart.title}") for chart in alike)
+    assert all(c.heading.startswith(f"Рис.\xa0{c.number}. {c.title}") for c in alike)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from reports.document.chapters.front import title_block
 from reports.document.page.render import render
 from reports.document.report import report_html, report_page, report_pdf
 from reports.shared.errors import InputError
@@ -249,3 +250,23 @@ def test_outline_language_and_metadata_are_in_the_file(framed):
     assert len([t for t in titles if re.match(r"\d+(\.\d+)*\s", t)]) > 15
     info = poppler("pdfinfo", str(framed[2] / "text.pdf"))
     assert re.search(r"Author:\s+Иванов И\. И\.", info) and "Creator:         kshm" in info
+
+
+def test_a_name_that_would_be_tiny_leaves_the_surname():
+    name = "Александра Владимировна Константинопольская-Преображенская"
+    data = DATA.replace("Иванов И. И.", name)
+    text = ONE.replace('detail = "full"\n', "").replace("[report]\n", data)
+    block = title_block(terms_of(text).model.input)
+    assert block is not None
+    assert block["developed"] == "Константинопольская-Преображенская"
+    assert block["checked"] == "Петров П. П."  # whole, as it fits
+
+
+@pytest.mark.parametrize(("name", "said"), [("Д-240", " «Д-240»"), ("", "")])
+def test_an_engine_without_a_name_is_not_called_engine_in_quotes(name, said):
+    text = ONE.replace('name = "Одноцилиндровый"', f'name = "{name}"' if name else "")
+    t = terms_of(text.replace('detail = "full"', 'detail = "short"'))
+    page = report_page(t.model, t.values, media="screen").replace("\xa0", " ")
+    assert f"кривошипно-шатунный механизм двигателя{said}." in page
+    assert f"расчёты двигателя{said} на установившемся режиме" in page
+    assert (f"3. Исходные данные: двигатель{said};" in page) == bool(said)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from kshm.nomenclature.digits import Digits, scientific
 from reports.document.text import numbers
 from reports.formula.tex import input_symbol_tex, number_tex
-from reports.shared.russian import MINUS, NBSP, fixed, runs
+from reports.shared.russian import MINUS, NBSP, fixed, runs, surname
 
 
 @pytest.mark.parametrize(
@@ -113,3 +113,20 @@ def test_numbers_within_formulas_are_grouped_like_results():
 def test_numbers_that_follow_each_other_are_a_stretch():
     assert runs(["4", "5", "6", "9"]) == [(0, 2), (3, 3)]
     assert runs(["Б.9", "Б.10", "А.11"]) == [(0, 1), (2, 2)] and runs(["", ""]) == [(0, 0), (1, 1)]
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("Александра Владимировна Константинопольская-Чехова", "Константинопольская-Чехова"),
+        ("Абрамович Пётр Ильич", "Абрамович"),
+        ("Иван Петрович Абрамович", "Абрамович"),
+        ("К.К. Ржевский", "Ржевский"),
+        ("Ржевский К. К.", "Ржевский"),
+        ("Ли Мария", "Ли Мария"),  # nothing tells which is which
+        ("Иванов И. И., Петров П. П.", "Иванов И. И., Петров П. П."),
+        ("", ""),
+    ],
+)
+def test_a_surname_is_told_by_initials_or_a_patronymic(name, told):
+    assert surname(name) == told

@@ -3,7 +3,13 @@ from html import unescape
 
 import pytest
 
-from reports.document.text.symbols import SymbolError, indexed, inline_html, titled_html
+from reports.document.text.symbols import (
+    SymbolError,
+    indexed,
+    inline_html,
+    remark_html,
+    titled_html,
+)
 from tests.workbook.made import coarse_model
 
 NB = "\u00a0"
@@ -90,3 +96,18 @@ def test_symbols_as_text_keep_every_letter(name):
 )
 def test_what_text_cannot_show_stays_as_it_is(tex, plain, text):
     assert indexed(tex, plain) == text
+
+
+@pytest.mark.parametrize(
+    ("remark", "html"),
+    [
+        (
+            "a.toml: masses.rod_kg: m_ш.ш/F_п = 563 кг/м² необычно",
+            'a.toml: masses.rod_kg: <span class="nb"><i>m</i><sub>ш.ш</sub>/<i>F</i><sub>п</sub>'
+            '</span> = 563 <span class="nb">кг/м<sup>2</sup></span> необычно',
+        ),
+        ("stroke_mm = 2r, x__ = <b>", "stroke_mm = 2r, x__ = &lt;b&gt;"),
+    ],
+)
+def test_a_remark_has_its_symbols_and_whole_units(remark, html):
+    assert str(remark_html(remark)) == html

@@ -86,6 +86,10 @@ def test_lines_are_filled_whatever_follows_a_space(end, tmp_path):
     [
         ("в НМТ 5 — на рисунке", "в НМТ 5\xa0— на рисунке"),
         ('<span class="num">3</span> — Схема', '<span class="num">3</span> — Схема'),
+        (
+            '<span class="nb"><i>J</i> = 3 кг</span> — это',
+            '<span class="nb"><i>J</i>\xa0=\xa03\xa0кг</span>\xa0— это',
+        ),
         ("Размеры: а — вал; б — шатун", "Размеры: а\xa0—\xa0вал; б\xa0—\xa0шатун"),
         ('Гоца [<a class="ref" href="#x">1</a>]', 'Гоца\xa0[<a class="ref" href="#x">1</a>]'),
         ('по [<a class="ref">1</a>, формулы (4)', 'по [<a class="ref">1</a>, формулы (4)'),
@@ -98,7 +102,9 @@ def test_lines_are_filled_whatever_follows_a_space(end, tmp_path):
         ("ψ\xa0= 3", "ψ\xa0=\xa03"),
         ("до 107,0 Н·м и 4 %, 3 кг", "до 107,0\xa0Н·м и 4\xa0%, 3\xa0кг"),
         ('<img alt="x = 3 Н">', '<img alt="x = 3 Н">'),
-        ("шейки 2 к колену 3 Мотор", "шейки 2 к колену 3 Мотор"),
+        ("шейки 2 к колену 3 Мотор", "шейки\xa02 к колену\xa03 Мотор"),
+        ("подшипник 4, подшипника 5, цилиндра 6", "подшипник\xa04, подшипника\xa05, цилиндра\xa06"),
+        ("число цилиндров 7", "число цилиндров 7"),
     ],
 )
 def test_no_line_ends_before_a_dash_a_sign_a_unit_or_a_reference(text, said):

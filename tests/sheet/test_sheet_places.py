@@ -7,12 +7,12 @@ import itertools
 import pytest
 
 from reports.document.text.numbers import of_digits
-from reports.drawing.primitives import THIN, Line, Words, box_of, overlap
+from reports.drawing.primitives import THIN, Canvas, Line, Words, box_of, overlap
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.sheet import DIAGRAMS, USUAL, SheetSection
 from reports.sheet.layout import SIZES, cells
-from reports.sheet.stamp import HEIGHT, MARGINS, WIDTH
+from reports.sheet.stamp import HEIGHT, MARGINS, WIDTH, title_block
 from tests.conftest import sample
 from tests.cover import chapters, charts, samples_with
 from tests.layouts import MAKERS, made
@@ -96,3 +96,18 @@ def test_running_on_torques_of_a_small_engine_are_not_rounded_to_nothing() -> No
     digits = t.quantity("P4_4.Mmain2_Nm").digits
     assert digits.decimals > 0
     assert of_digits(float(torques[9]), digits) in written
+
+
+def test_a_long_name_stays_in_its_cell():
+    """It ran over its neighbours; a surname alone is what ГОСТ 2.104 asks for."""
+    raw = to_mapping(sample("d-240"))
+    raw["report"] |= {"student": "Александра Владимировна Константинопольская-Преображенская",
+                      "supervisor": "Ржевский К. К.", "controller": "О" * 40}  # fmt: skip
+    canvas = Canvas()
+    title_block(canvas, load_mapping(raw, source="d").model, 0.0, 0.0)
+    names = [item for item in canvas.items if isinstance(item, Words) and item.place[1] < 30
+             and item.place[0] == 28.5 and item.text]  # fmt: skip
+    assert [n.text for n in names] == ["Константинопольская-", "Преображенская", "Ржевский К. К.",
+                                       "О" * 40]  # fmt: skip
+    assert all(n.box[0] >= 17 and n.box[2] <= 40 for n in names)
+    assert not any(overlap(one.box, other.box) for one, other in itertools.combinations(names, 2))

@@ -62,8 +62,8 @@ def test_workbook_is_live_and_reads_back(tmp_path) -> None:
             archive.read(name) for name in archive.namelist() if name.startswith("xl/charts/")
         ).decode()
     for figure in ("3", "4", "5, 9", "6", "7", "8", "10"):
-        assert f"[рис. {figure}]" in text
-    assert "рис. 20" in text
+        assert f"[рис.\xa0{figure}]" in text
+    assert "рис.\xa020" in text
 
 
 def test_without_the_section_only_figure_20_stands() -> None:

@@ -81,6 +81,22 @@ def test_estimates_are_called_so() -> None:
     assert "Крутильные колебания вала" in text
 
 
+@pytest.mark.parametrize(("name", "cylinders"), [("two-stroke", 1), ("d-240", 4)])
+def test_one_vector_is_not_added_to_others(name: str, cylinders: int) -> None:
+    """A star of one cylinder is a line of length one."""
+    assert ("Сложение векторов" in page(name)) == (cylinders > 1)
+
+
+@pytest.mark.parametrize(("coupling", "alike"), [(500.0, True), (1e8, False)])
+def test_formulas_of_stiffness_say_nothing_of_a_frequency_that_does_not_rest_on_it(
+    coupling: float, alike: bool
+) -> None:
+    """With a soft coupling behind the flywheel the shaft of the first form is all but rigid."""
+    text = page("d-240", ("driven_kg_m2", 2.0), ("driven_nm_rad", coupling))
+    assert ("от жёсткости колен она почти не зависит" in text) == alike
+    assert ("С такой же точностью известны" in text) != alike
+
+
 @pytest.mark.parametrize(("inertia", "said"), [(1e-4, True), (1.2, False)])
 def test_a_flywheel_lighter_than_a_throw_is_called_implausible(inertia: float, said: bool) -> None:
     """However it came to be: frequencies of such a shaft belong to no engine."""

@@ -5,15 +5,20 @@ from __future__ import annotations
 import io
 import re
 import zipfile
+from unittest import mock
 
+import lxml.html
 import pytest
 from click.testing import CliRunner
+from docx import Document
 from lxml import etree
 
 from reports.cli import main
 from reports.shared.resources import samples_dir
+from reports.word import pictures
 from reports.word.markup import bookmark_name
-from tests.word.docx_samples import NAME, W, department, docx_of, part, text_of
+from reports.word.outline import picture
+from tests.word.docx_samples import NAME, W, department, docx_of, page_of, part, text_of
 
 pytestmark = pytest.mark.xdist_group(NAME)  # the process that makes the file
 
@@ -159,3 +164,16 @@ def test_names_of_bookmarks_differ():
     names = [bookmark_name(anchor) for anchor in anchors]
     assert len(set(names)) == len(names) and all(re.fullmatch(r"\w{1,40}", n) for n in names)
     assert bookmark_name("tab-P3_1") == "tab_P3_1"
+
+
+def test_a_drawing_that_stands_twice_is_kept_once():
+    image = lxml.html.fromstring(page_of(NAME)).xpath("//img[starts-with(@src, 'data:image/svg')]")
+    document, file = Document(), io.BytesIO()
+    figures = pictures.Pictures(document)
+    dot = picture('<svg xmlns="http://www.w3.org/2000/svg" width="1" height="1"/>', 1)
+    with mock.patch.object(pictures, "picture", return_value=dot):
+        drawn = [figures.figure(image[0], 160) for _ in range(2)]
+    document.save(file)
+    with zipfile.ZipFile(file) as parts:
+        names = [name for name in parts.namelist() if name.startswith("word/media")]
+    assert len(drawn) == len(names) == len(set(names)) == 2  # a PNG and an SVG

@@ -18,7 +18,7 @@ from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms, with_unit
 from reports.inputs.checks.grid import GridError
 from reports.inputs.firing import order_text, strokes_at
-from reports.inputs.sections.input_file import InputFile
+from reports.inputs.sections.input_file import EngineSection, InputFile
 from reports.shared.russian import NBSP, fixed, joined, runs
 from reports.spec.blocks import Grid, Model
 from reports.spec.shape import Shape
@@ -94,6 +94,12 @@ class Chapter:
         """Cylinders whose power strokes begin at each angle of the cycle [deg]."""
         return strokes_at(self.input.crankshaft.firing_offsets_deg, self.shape.period)
 
+    @property
+    def named(self) -> str:
+        """The engine's name in quotes after a space; nothing for an engine without one."""
+        name = self.input.engine.name
+        return "" if name in ("", EngineSection.model_fields["name"].default) else f" «{name}»"
+
     def page(self, template: str, **context: Any) -> Markup:  # noqa: ANN401
         """Render a template of the folder ``report`` with the tools and a chapter's own data."""
         names = {
@@ -107,7 +113,7 @@ class Chapter:
         }
         own = ("input", "shape", "example", "exact", "order", "strokes_at", "eq", "full", "sub",
                "ref", "book", "tabs", "figs", "chart", "panels", "told", "printed_step",
-               "whole")  # fmt: skip
+               "whole", "named")  # fmt: skip
         names |= {name: getattr(self, name) for name in own}
         text = self.environment.get_template(f"report/{template}.html.j2")
         return Markup(text.render(**names | context))

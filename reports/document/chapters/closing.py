@@ -16,7 +16,7 @@ from reports.document.page.blocks import Column, TableBlock, table_block
 from reports.document.page.spec_tables import angle_table
 from reports.document.page.writer import TablePlan
 from reports.document.text.numbers import of_digits
-from reports.document.text.symbols import titled_html
+from reports.document.text.symbols import remark_html, titled_html
 from reports.document.text.terms import Terms
 from reports.inputs.checks.flywheel import flywheel_remark
 from reports.inputs.checks.grid import remark_on
@@ -88,7 +88,7 @@ def checks(chapter: Chapter) -> Markup:
     )
 
 
-def _remarks(chapter: Chapter) -> list[str]:
+def _remarks(chapter: Chapter) -> list[Markup]:
     """Remarks on the input that no chapter tells itself."""
     told = [remark_on(chapter.terms.grid_errors, chapter.input)]
     if "torsion" in chosen(chapter.input.report):
@@ -96,7 +96,7 @@ def _remarks(chapter: Chapter) -> list[str]:
     if "torque" in chosen(chapter.input.report):
         told.append(reasons_of(chapter.input).get("power", ""))
     return [
-        _without_list(line)
+        remark_html(_without_list(line))
         for line in chapter.terms.model.remarks
         if not any(part and line.endswith(part) for part in told)
     ]

@@ -12,7 +12,7 @@ from reports.document.chapters.profiles import told
 from reports.document.page.fitting import type_pt
 from reports.document.page.style import TitlePage
 from reports.inputs.sections.input_file import InputFile
-from reports.shared.russian import joined
+from reports.shared.russian import joined, surname
 
 Words = dict[str, Any]
 
@@ -75,7 +75,7 @@ def assignment(chapter: Chapter) -> Words:
     words = _words(chapter.input)
     return words | {
         "department": _department(words["department"]),
-        "engine": chapter.input.engine.name,
+        "named": chapter.named,
         "data": [(present[k].title, chapter.terms.val(k)) for k in _TASK if k in present],
         "chapters": [item.title for item in n.contents if item.level == 1 and item.number],
         "figures": n.count("figure"),
@@ -115,11 +115,13 @@ def _further(names: set[str]) -> str:
     return f"проверить {joined(left)}" if left else ""
 
 
+_READABLE = 7.0  # pt; a name that would be smaller leaves the surname alone, as ГОСТ 2.104 asks
+_PERSONS = ("developed", "checked", "controlled", "approved")
 # Words of the title block with width and height of their cells [mm] and their usual type [pt].
 _CELLS = {
     "designation": (("Обозначение документа",), 108.0, 14.0, 14.0),
     "name": (("Тема работы", "название двигателя"), 68.0, 24.0, 10.0),
-    "organisation": (("Учебное заведение", "кафедра", "группа"), 48.0, 14.0, 8.5),
+    "organisation": (("Учебное заведение", "кафедра", "группа"), 46.0, 14.0, 8.5),
     "developed": (("Студент",), 20.0, 4.6, 8.5),
     "checked": (("Руководитель",), 20.0, 4.6, 8.5),
     "controlled": (("Нормоконтроль",), 20.0, 4.6, 8.5),
@@ -163,6 +165,10 @@ def title_block(model: InputFile, frame: str | None = None) -> Words | None:
         "approved": report.approver or report.head,
         "organisation": [place for place in places if place],
     }
+    for cell in _PERSONS:
+        name = str(words[cell])
+        small = type_pt(name, *_CELLS[cell][1:]) < _READABLE
+        words[cell] = surname(name) if small else name
     shown = words | {
         "name": f"{report.title} {model.engine.name}",
         "organisation": ", ".join(place for place in places if place),

@@ -30,6 +30,7 @@ _MOTION = (
     r"\omega = \nu\,\Omega"
 )
 _NEAR = 0.02  # of a stress: a difference that changes no conclusion
+_ALIKE = 0.5  # per cent between first frequencies: the formula of stiffness does not tell in them
 _SURE = 4  # digits of a frequency that formulas find some per cent apart
 _MOST_ROWS = 12
 _FLANK = 0.6  # of a critical speed: from there on a resonance multiplies the twist by 1.5
@@ -82,6 +83,7 @@ def torsion(chapter: Chapter) -> Markup:
         train=TablePlan(partial(grid_table, terms, chapter.grid("torsion_train")),
                         "Крутильная схема вала"),
         modes=modes,
+        apart=terms.has("tor_f1_spread") and terms.value("tor_f1_spread") > _ALIKE,
         forms=TablePlan(partial(_forms, terms, modes), "Собственные частоты и формы", keep=True),
         holzer=_HOLZER,
         check=_holzer_row(terms),
@@ -231,7 +233,9 @@ def _resonance_table(terms: Terms, found: list[tuple[int, int]]) -> TableBlock:
         Column(symbol_head(r"M_{\nu}", "Н·м")), Column(symbol_head("A", "°")),
         Column(symbol_head(r"\tau", "МПа")),
     ]  # fmt: skip
-    keys = (("n{}_rpm", 0), ("sum{}", 3), ("M{}_Nm", 1), ("A{}_deg", 3), ("tau{}_MPa", 1))
+    moment = terms.quantity("torsion_critical.tor_M1_Nm").digits.decimals  # of the sheet
+    keys = (("n{}_rpm", 0), ("sum{}", 3), ("M{}_Nm", max(0, moment - 1)), ("A{}_deg", 3),
+            ("tau{}_MPa", 1))  # fmt: skip
     rows = [
         [
             str(m),

@@ -18,7 +18,7 @@ from reports.document.figures.style import FONT_SIZE, GRID, MM, PAGE_WIDTH, PATT
 from reports.document.figures.ticks import Ticks, at_steps, bounds, value_ticks
 from reports.shared.russian import fixed
 
-_PRIORITIES = (90.0, 60.0, 30.0, 20.0, 10.0, 5.0)
+_PRIORITIES = (90.0, 60.0, 30.0, 20.0, 10.0, 5.0, 1.0)
 _LABEL = 8.5
 _IN_ROW = 2  # names of a legend
 Sides = tuple[bool, bool]  # positive x to the left, positive y downwards
@@ -66,7 +66,7 @@ def polar_path(
         named: The path itself with its name and other lines in the same axes, for a legend.
         poles: Points from which the vector is measured.
         most: Greatest width and height of the field [mm].
-        least_step: Finest division of angles to label [deg].
+        least_step: Finest division of angles to label [deg]; one of what is counted, as cylinders.
         marked: Angles of the points that get a dot and may get a label, else all [deg].
 
     Raises:

@@ -19,7 +19,7 @@ WIDTH = re.compile(r'<(?:svg|img) class="fig"[^>]*?style="width:([\d.]+)mm')
 _LEAST = 0.7  # to which a figure may be reduced to fit the foot of a page
 _TOGETHER = 3  # rows of a table that stand together at its beginning and at its end
 _DIVIDED = 4  # lines of the least paragraph that is divided
-_LAYOUTS = 16  # that are followed
+_LAYOUTS = 24  # that are followed
 # What a layout costs: the square of the share of a page that stays blank, and beside it
 _TOO_BLANK = 0.25  # the share from which a page looks like the end of a chapter
 _HOLE = 4.0  # for each page's height of the blank beyond it
@@ -27,6 +27,9 @@ _FAR = 0.0006  # for each block that a figure lets pass
 _NEXT = 0.015  # for each figure that lets a heading pass
 _SMALLER = 0.2  # for the square of the share that a figure loses
 _WRONG = 0.1  # the chance that what is left is less by a line than estimated
+_PAGE = 0.1  # for each page, where a chapter could end one earlier
+_FEW = 0.5  # of a page: the last one of a chapter that has less is worth another search
+_SHARED = 2  # blocks after a figure for whose sake it is reduced
 _SPARE = 2.0  # px left below a figure that was reduced
 
 
@@ -81,18 +84,29 @@ def filled(blocks: Sequence[Block], spot: Spot, room: float, line: float) -> tup
         room: Height of a page [px].
         line: Height of a line of the text [px].
     """
+    best = _search(blocks, spot, room, line, 0)
+    if best.spot.page > spot.page and best.spot.used < _FEW * room:
+        # Figures before may be smaller rather than one more page of a figure or a few lines.
+        other = _search(blocks, spot, room, line, _SHARED)
+        best = min(best, other, key=_cost)
+    return _in_order(best), best.spot
+
+
+def _search(
+    blocks: Sequence[Block], spot: Spot, room: float, line: float, together: int
+) -> _Layout:
+    """The cheapest layout; figures may be reduced for so many blocks that follow them."""
     layouts = [_Layout(spot._replace(cost=0.0))]
     headed = True  # between a heading and its text stands no figure
     for block in _with_tails(blocks):
         if block.kind not in ("tied", "other") and not headed:
-            layouts = [way for layout in layouts for way in _ways(layout, room, line)]
+            layouts = [way for layout in layouts for way in _ways(layout, room, line, together)]
         layouts = _best([_followed(layout, block, room) for layout in layouts])
         headed = block.kind in ("chapter", "heading") or (
             headed and block.kind in ("float", "table")
         )
-    best = min((_all_placed(layout, room, line) for layout in layouts),
-               key=lambda layout: layout.spot.cost)  # fmt: skip
-    return _in_order(best), best.spot
+    placed = (_all_placed(layout, room, line, together) for layout in layouts)
+    return min(placed, key=_cost)
 
 
 def _with_tails(blocks: Sequence[Block]) -> list[Block]:
@@ -135,30 +149,37 @@ def _beginning(block: Block) -> float:
     return block.height + block.tail if whole else 2 * block.line
 
 
-def _ways(layout: _Layout, room: float, line: float) -> Iterator[_Layout]:
+def _ways(layout: _Layout, room: float, line: float, together: int) -> Iterator[_Layout]:
     """Some, none or all of the waiting blocks placed here, each series in its order."""
     yield layout
     for place, block in enumerate(layout.waiting):
         if any(bool(block.figure) == bool(other.figure) for other in layout.waiting[:place]):
             continue
         waiting = layout.waiting[:place] + layout.waiting[place + 1 :]
-        for html, spot in _put(block, layout.spot, room, line):
-            yield from _ways(layout.then(html, spot, waiting), room, line)
+        for html, spot in _put(block, waiting[:together], layout.spot, room, line):
+            yield from _ways(layout.then(html, spot, waiting), room, line, together)
 
 
-def _put(block: Block, spot: Spot, room: float, line: float) -> Iterator[tuple[str, Spot]]:
-    """A floating block here: as it is, or smaller so that it fits."""
+def _put(
+    block: Block, others: Sequence[Block], spot: Spot, room: float, line: float
+) -> Iterator[tuple[str, Spot]]:
+    """A floating block here: as it is, or smaller so that it fits, alone or with the next ones."""
     begin = spot.used + max(spot.margin, block.above)
     spare = room - begin - block.height
     placed = after(block, spot, room)
     near = spot.used and block.kind == "float" and 0 <= spare < line
     risk = _WRONG * _blank(spot.used, room) if near else 0.0
     yield block.html, placed._replace(cost=placed.cost + risk)
-    lost = (_SPARE - spare) / block.figure if spot.used and block.figure else 1.0
-    if 0 < lost <= 1 - _LEAST:
-        end = begin + block.height - lost * block.figure
-        cost = spot.cost + _SMALLER * lost**2
-        yield _reduced(block, 1 - lost), Spot(end, block.below, spot.page, cost)
+    margin, figures = block.below, block.figure
+    for other in (None, *others) if figures else ():
+        if other is not None:
+            spare -= max(margin, other.above) + other.height
+            margin, figures = other.below, figures + other.figure
+        lost = (_SPARE - spare) / figures if spot.used or other else 1.0
+        if 0 < lost <= 1 - _LEAST:
+            end = begin + block.height - lost * block.figure
+            cost = spot.cost + _SMALLER * lost**2
+            yield _reduced(block, 1 - lost), Spot(end, block.below, spot.page, cost)
 
 
 def _followed(layout: _Layout, block: Block, room: float) -> _Layout:
@@ -182,10 +203,14 @@ def _best(layouts: Sequence[_Layout]) -> list[_Layout]:
     return list(cheapest.values())[:_LAYOUTS]
 
 
-def _all_placed(layout: _Layout, room: float, line: float) -> _Layout:
+def _cost(layout: _Layout) -> float:
+    return layout.spot.cost + _PAGE * layout.spot.page
+
+
+def _all_placed(layout: _Layout, room: float, line: float, together: int) -> _Layout:
     """The cheapest way to place all that waits."""
-    ways = (way for way in _ways(layout, room, line) if not way.waiting)
-    return min(ways, key=lambda way: way.spot.cost)
+    ways = (way for way in _ways(layout, room, line, together) if not way.waiting)
+    return min(ways, key=_cost)
 
 
 def _in_order(layout: _Layout) -> list[str]:

@@ -13,7 +13,8 @@ from collections.abc import Sequence
 from markupsafe import Markup, escape
 
 from reports.document.text.tex import GREEK, Node, TexError, tree
-from reports.document.text.texts import powers
+from reports.document.text.texts import powers, rich
+from reports.formula.tex import input_symbol_tex
 from reports.shared.russian import MINUS, NBSP
 
 SIGNS = {
@@ -126,3 +127,21 @@ def _piece(node: Node, *, upright: bool) -> str:
     if token.isascii() and token.isalpha() and not upright:
         return f"<i>{token}</i>"
     return {"'": "′", "-": MINUS}.get(token) or str(escape(token))
+
+
+# A symbol as the checks of an input write it, «m_j/F_п = 7702», and a unit with a slash.
+_INDEX = r"_[^\W_]+(?:\.[^\W_]+)*"
+_GIVEN = rf"(?P<symbol>(?<![\w.])[^\W\d_]{_INDEX}(?:/[^\W\d_](?:{_INDEX})?)?(?= = ))"
+_OF_REMARK = re.compile(rf"{_GIVEN}|(?P<unit>[а-яА-Я·]+/[а-яА-Я·]+[²³]?)")
+
+
+def remark_html(text: str) -> Markup:
+    """A remark on the input with its symbols as symbols; no line ends within a unit."""
+    pieces, end = [], 0
+    for match in _OF_REMARK.finditer(text):
+        symbol = match["symbol"]
+        shown = inline_html(input_symbol_tex(symbol)) if symbol else rich(match["unit"])
+        whole = Markup('<span class="nb">{}</span>').format(shown)
+        pieces += [rich(text[end : match.start()]), whole]
+        end = match.end()
+    return Markup("").join([*pieces, rich(text[end:])])

@@ -40,6 +40,7 @@ def test_the_report_has_a_chapter_with_the_numbers_of_compare(tmp_path):
     assert "Сравнение с другими двигателями" in page
     plain = re.sub(r"\s+", " ", re.sub(r"<[^>]+>|\u00ad", "", page).replace("\u00a0", " "))
     assert re.search(r"результаты — таблицы \d+–\d+ и рисунки \d+–\d+\.", plain)
+    assert 'шейки,<span> </span><span class="nb">мм</span>' in page  # no line divides a unit
     files = [path, tmp_path / "d-260.toml", tmp_path / "yamz-236.toml"]
     engines = read_engines(files, [load_toml(file).model for file in files])
     sentences = conclusions([engine.label for engine in engines], results(engines))

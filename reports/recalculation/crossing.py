@@ -7,16 +7,9 @@ it spreads over cells as an array formula.
 from __future__ import annotations
 
 from reports.recalculation.formulas import formula_of
-from reports.recalculation.grid import Area, Grid, Run
-from reports.recalculation.language import (
-    MAX_COLUMN,
-    MAX_ROW,
-    Ref,
-    Token,
-    column_number,
-    quoted,
-    ref_of,
-)
+from reports.recalculation.grid import Grid, Run
+from reports.recalculation.language import Ref, Token
+from reports.recalculation.ranges import area_of
 
 # Functions that take single values alone; in others a range may mean all of its cells.
 _OF_SINGLE_VALUES = """
@@ -94,26 +87,9 @@ def _stands_alone(tokens: tuple[Token, ...], at: int, width: int) -> bool:
 
 def _cell(tokens: tuple[Token, ...], run: Run, grid: Grid) -> list[Token] | None:
     """The cell of a range that a formula means, None where there is none or it is no range."""
-    kind, value = tokens[0]
-    if kind == "name":
-        area = grid.areas.get(value.casefold())
-        found = _meant(*_ends(area), run) if area is not None else None
-        return [("sheet", quoted(area.sheet)), ("ref", found)] if area and found else None
-    if kind == "columns":
-        left, right = sorted(map(column_number, value.replace("$", "").split(":")))
-        found = _meant(Ref(1, left), Ref(MAX_ROW, right), run)
-    elif kind == "rows":
-        top, bottom = sorted(map(int, value.replace("$", "").split(":")))
-        found = _meant(Ref(top, 1), Ref(bottom, MAX_COLUMN), run)
-    elif kind == "ref" and len(tokens) == 3 and tokens[2][0] == "ref":
-        found = _meant(ref_of(value), ref_of(tokens[2][1]), run)
-    else:
-        return None
-    return [("ref", found)] if found else None
-
-
-def _ends(area: Area) -> tuple[Ref, Ref]:
-    return Ref(area.first_row, area.first_column), Ref(area.last_row, area.last_column)
+    area = area_of(tokens, grid)
+    found = _meant(area.first, area.last, run) if area is not None else ""
+    return [*area.sheet, ("ref", found)] if area and found else None
 
 
 def _meant(first: Ref, last: Ref, run: Run) -> str:

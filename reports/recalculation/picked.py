@@ -10,7 +10,8 @@ import re
 
 from reports.recalculation.formulas import formula_of
 from reports.recalculation.grid import Grid
-from reports.recalculation.language import MAX_ROW, Ref, Token, column_number, quoted, ref_of
+from reports.recalculation.language import Ref, Token
+from reports.recalculation.ranges import area_of
 
 _OPEN, _COMMA, _CLOSE, _TO = (("op", sign) for sign in "(,):")
 _WHOLE = re.compile(r"[1-9][0-9]{0,6}")
@@ -55,20 +56,11 @@ def _cell(tokens: tuple[Token, ...], grid: Grid) -> list[Token]:
     numbers = [value for _, value in places[1::2]]
     if set(places[::2]) != {_COMMA} or not all(map(_WHOLE.fullmatch, numbers)):
         return []
-    first, last = (Ref(1, 1), Ref(0, 0))
-    if len(area) == 3 and area[1] == _TO and area[0][0] == area[2][0] == "ref":
-        first, last = ref_of(area[0][1]), ref_of(area[2][1])
-    elif len(area) == 1 and area[0][0] == "columns":
-        left, right = sorted(map(column_number, area[0][1].replace("$", "").split(":")))
-        first, last = Ref(1, left), Ref(MAX_ROW, right)
-    elif len(area) == 1 and area[0][0] == "name" and not sheet:
-        named = grid.areas.get(area[0][1].casefold())
-        if named is not None:
-            sheet = [("sheet", quoted(named.sheet))]
-            first = Ref(named.first_row, named.first_column)
-            last = Ref(named.last_row, named.last_column)
-    found = _at(first, last, [int(number) for number in numbers])
-    return [*sheet, ("ref", found)] if found else []
+    named = area_of(area, grid)
+    if named is None or (sheet and named.sheet):
+        return []
+    found = _at(named.first, named.last, [int(number) for number in numbers])
+    return [*sheet, *named.sheet, ("ref", found)] if found else []
 
 
 def _at(first: Ref, last: Ref, numbers: list[int]) -> str:

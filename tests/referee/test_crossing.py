@@ -18,7 +18,7 @@ CROSSING = (
     "-$A$2:$A$5", "A:A*2", "SIN(RADIANS(фи))", "'Другой лист'!$B$1:$B$9^2", "ROUND($A:$A/7,2)+B2",
     "$A$9:$K$9+1", "9:9*2", "SUM(A2:A5)-$A$2:$A$5", "POWER(ABS($A$1:$A$9),2)+MAX(A2:A5)", "A1:A9/2",
     "INDEX($A$2:$A$5,3)", "INDEX(A:A,4)*2", "INDEX('Другой лист'!B1:C9,3,1)+INDEX(фи,2)",
-    "INDEX($A$9:$K$9,7)", "SUM($A$1:INDEX($A$1:$A$9,3))",
+    "INDEX($A$9:$K$9,7)", "INDEX($9:$9,7)", "SUM($A$1:INDEX($A$1:$A$9,3))",
     "INDEX(A1:B9,2,2)/INDEX($A$2:$A$5,ROW()-1)",
 )  # fmt: skip
 # For these a person is asked: another row, two columns, a function that may take all of it.
@@ -71,7 +71,7 @@ def test_a_newer_excel_writes_the_same_as_single(text: str) -> None:
 @pytest.mark.parametrize(
     ("text", "rows"),
     [("INDEX($A$2:$A$5,4)", (5, 5)), ("INDEX($A$2:$A$5,5)", (2, 5)), ("INDEX(A:A,3)", (3, 3)),
-     ("INDEX($A$2:$A$5,1+2)", (2, 5))],
+     ("INDEX($3:$3,1)", (3, 3)), ("INDEX($A$2:$A$5,1+2)", (2, 5))],
 )  # fmt: skip
 def test_a_place_that_is_written_out_is_one_cell(text: str, rows: tuple[int, int]) -> None:
     grid = read_grid(book((text,)))

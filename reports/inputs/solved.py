@@ -7,6 +7,7 @@ from functools import lru_cache
 from kshm.mechanics.oil_orbit import FilmError
 from kshm.results.solution import Solution, solve
 from reports.inputs.sections.input_file import InputFile
+from reports.inputs.sections.report import Report
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.errors import InputError, Problem
 
@@ -18,13 +19,16 @@ def solved(model: InputFile, source: str = "") -> Solution:
         InputError: the oil film of a bearing does not carry its load.
     """
     try:
-        return _solution(model)
+        return _solution(model.model_copy(update=_PRINTED))
     except FilmError as error:
         where = ": ".join(part for part in (source, "bearings") if part)
         raise InputError(Problem(where, film_lost(error), MEND)) from None
 
 
-@lru_cache(maxsize=2)  # the doors, the sheets and the report ask for the same, and for a finer step
+_PRINTED = {"report": Report(), "sheet": None}  # sections that change no number
+
+
+@lru_cache(maxsize=3)  # the doors, the sheets and the report ask for the same and for finer steps
 def _solution(model: InputFile) -> Solution:
     solution = solve(*engine_and_cycle(model))
     if model.bearings is not None:

@@ -101,16 +101,18 @@ def grid_errors(model: InputFile) -> tuple[GridError, ...]:
 
 
 def refined(model: InputFile) -> InputFile:
-    """The same engine with tables at the fine step; of orders, not of angles, it tells nothing."""
+    """The same engine with tables at the fine step, less what has no angles or steps of its own."""
     calculation = model.calculation.model_copy(update={"step_deg": FINE})
-    return model.model_copy(update={"calculation": calculation, "torsion": None})
+    other = {"calculation": calculation, "torsion": None, "bearings": None}
+    return model.model_copy(update=other)
 
 
 def fine_columns(model: InputFile) -> Tables:
     """Tables of the solver at the fine step, in their units; none where the grid is as fine."""
     if model.calculation.step_deg <= FINE:
         return {}
-    return solved(refined(model)).columns
+    # Orbits are the same on any grid; their curves are drawn through more points.
+    return solved(refined(model).model_copy(update={"bearings": model.bearings})).columns
 
 
 def _moved(key: str, coarse: Mapping[str, float], fine: Mapping[str, float]) -> float | None:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import accumulate
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,6 +59,31 @@ class Run:
         return Run(self.sheet, self.column, first, count, self.formula, self.text, problem)
 
 
+_FEW = 8  # runs of a column that are looked through faster than they are put in order
+
+
+@dataclass(frozen=True, slots=True)
+class _Order:
+    """Runs of a column by their first rows, with the last row reached up to each of them."""
+
+    of: list[Run]
+    size: int
+    runs: list[Run]
+    firsts: list[int]
+    reached: list[int]
+
+    @classmethod
+    def put(cls, of: list[Run]) -> _Order:
+        """Put runs in order; formulas of arrays may lie over others."""
+        runs = sorted(of, key=lambda run: run.first)
+        reached = list(accumulate((run.last for run in runs), max))
+        return cls(of, len(of), runs, [run.first for run in runs], reached)
+
+    def between(self, first: int, last: int) -> list[Run]:
+        """The only ones that can have cells in some rows."""
+        return self.runs[bisect_left(self.reached, first) : bisect_right(self.firsts, last)]
+
+
 @dataclass(slots=True)
 class Column:
     """One column of a sheet: typed-in values, runs of formulas, claims of their values."""
@@ -66,6 +93,7 @@ class Column:
     runs: list[Run] = field(default_factory=list)
     saved_rows: list[int] = field(default_factory=list)  # of cells with formulas
     saved: list[float] = field(default_factory=list)  # NaN where no number is saved
+    _order: _Order | None = field(default=None, repr=False, compare=False)
 
     def saved_of(self, run: Run) -> NDArray[np.float64]:
         """Numbers saved for the cells of a run; NaN where nothing or something else was saved."""
@@ -77,7 +105,13 @@ class Column:
 
     def runs_in(self, first: int, last: int) -> list[Run]:
         """The runs with cells in some rows."""
-        return [run for run in self.runs if run.first <= last and first <= run.last]
+        runs = self.runs
+        if len(runs) > _FEW:
+            order = self._order
+            if order is None or order.of is not runs or order.size != len(runs):
+                order = self._order = _Order.put(runs)
+            runs = order.between(first, last)
+        return [run for run in runs if run.first <= last and first <= run.last]
 
     def cut(self, rows: set[int]) -> None:
         """Take the formulas out of some rows."""

@@ -10,13 +10,16 @@ import time
 from collections.abc import Iterator
 from unittest import mock
 
-from tests.bench._figure import Figure, interleaved, median, memory
+from reports.recalculation import grid
+from reports.recalculation.grid import Column, Run
+from tests.bench._figure import Figure, interleaved, median, memory, ratio
 from tests.bench.workbook import ours
 from tools.referees import by_libreoffice
 from tools.referees.by_formualizer import Formualizer
 from tools.referees.by_libreoffice import LibreOffice, find_soffice
 
 MORE = 2
+CELLS = 6000  # of a book that keeps everything in one column
 
 
 def by_formualizer() -> None:
@@ -30,8 +33,22 @@ def with_charts(office: LibreOffice, book: bytes) -> None:
         office.recalculate([book])
 
 
+def found_in_column(few: int) -> None:
+    """Every cell of a column of unlike formulas, columns of so few looked through one by one."""
+    column = Column(runs=[Run("Лист", 2, row, 1, None, "") for row in range(1, CELLS + 1)])
+    with mock.patch.object(grid, "_FEW", few):
+        for row in range(1, CELLS + 1):
+            column.runs_in(row, row)
+
+
 def figures() -> Iterator[Figure]:
     """Figures."""
+    times = interleaved(
+        {"order": lambda: found_in_column(grid._FEW), "each": lambda: found_in_column(CELLS)},
+        rounds=3,
+    )
+    yield Figure("столбец из 6000 разных формул, поиск каждой ячейки", median(times["order"]), "с")
+    yield Figure("перебором / по порядку", ratio(times, "each", "order"), "раз")
     book, fast = ours(), Formualizer()
     if find_soffice() is None:
         actions = {"formualizer": lambda: fast.recalculate([book])}

@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from lxml.html import HtmlElement
 
 
-
 def report_docx(
     model: Model,
     values: Values,

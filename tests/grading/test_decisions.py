@@ -12,7 +12,8 @@ from openpyxl import load_workbook
 
 from reports.grading.batch.grade import Options, decide, grade
 from reports.grading.issuing.rubric import rubric_of
-from reports.grading.judging.marking import late_factor
+from reports.grading.judging.judgement import EMPTY, RIGHT, WRONG
+from reports.grading.judging.marking import late_factor, score
 from reports.grading.judging.works import Work, work_of
 from reports.grading.pages.summary import choose
 from reports.shared.errors import InputError
@@ -264,6 +265,28 @@ def test_days_of_delay():
     assert late_factor(rubric, datetime(2026, 12, 2, 13)) == pytest.approx(0.9)
     assert late_factor(rubric, datetime(2026, 12, 4, 13)) == pytest.approx(0.7)
     assert late_factor(rubric, datetime(2026, 12, 30)) == 0.3
+
+
+@pytest.mark.parametrize(("least", "points"), [(0.0, 3.2), (0.3333, 3.2), (0.34, 0.0)])
+def test_too_little_filled_in_is_worth_nothing(least, points):
+    late = {"deadline": datetime(2026, 12, 1), "per_day": 0.2}
+    rubric = rubric_of({"maximum": 24.0, "minimum": {"filled": least}, "late": late}, "r")
+    # A right line and a wrong one of six; what is worth nothing counts on neither side.
+    verdicts = [(RIGHT, 4.0, 4.0), (WRONG, 0.0, 4.0), *[(EMPTY, 0.0, 4.0)] * 4, (WRONG, 0.0, 0.0)]
+    lines = [{"verdict": v, "points": got, "of": most} for v, got, most in verdicts]
+    result = {"items": lines, "notes": []}
+    score(result, rubric, datetime(2026, 12, 1, 1))
+    assert (result["raw"], result["points"], result["maximum"]) == (4.0, points, 24.0)
+    assert (result["filled"], result["late"], result["enough"]) == (0.3333, 0.8, points > 0)
+    short = "заполнено 33% при наименьшем 34%: 0 баллов"
+    notes = ["сдано после срока: баллы умножены на 0,8"]
+    assert result["notes"] == ([short] if not points else []) + notes
+
+
+def test_a_work_of_nothing_paid_is_not_filled_in():
+    result = {"items": [], "notes": []}
+    score(result, rubric_of({}, "r"), None)
+    assert (result["filled"], result["points"], result["notes"]) == (0.0, 0.0, [])
 
 
 assert os

@@ -239,3 +239,9 @@ def test_of_any_engine_dashes_go_with_the_letters(size: float) -> None:
 
 def test_on_paper_dashes_are_as_long_as_they_say() -> None:
     assert read(files()["-sheet.dxf"]).header["$LTSCALE"] == 1.0
+
+
+def test_a_pattern_begins_with_its_dash_and_gaps_are_negative() -> None:
+    types = read(dxf_bytes([Line(((0, 0), (99, 0)), dash=(12, 3, 1, 2))])).linetypes
+    lengths = [tag.value for tag in types.get("12-3-1-2").pattern_tags.tags if tag.code in (40, 49)]
+    assert lengths == [18, 12, -3, 1, -2]

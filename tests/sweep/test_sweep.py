@@ -142,6 +142,12 @@ def test_what_fails_the_check_stays_as_a_row_with_its_reason(tmp_path: Path) -> 
     assert "bore_mm" in done.first_error
 
 
+def test_a_record_of_a_list_is_called_by_its_number_from_one() -> None:
+    vary = ("crankshaft.webs.2.mass_kg=1:2:2",)
+    (axis,) = make_plan(sample(BASE.stem), BASE.name, vary, pairwise=False).axes
+    assert axis.path == ("crankshaft", "webs", 1, "mass_kg")
+
+
 def test_pairwise_takes_values_in_order(tmp_path: Path) -> None:
     vary = ("regime.speed_rpm=2000:3000:3", "geometry.bore_mm=80:90:3")
     rows = studied(tmp_path, *vary, pairwise=True, quantities=("c_m",))

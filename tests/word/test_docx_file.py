@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import io
 import re
 import zipfile
@@ -11,6 +12,7 @@ import lxml.html
 import pytest
 from click.testing import CliRunner
 from docx import Document
+from docx.shared import Emu
 from lxml import etree
 
 from reports.cli import main
@@ -177,3 +179,17 @@ def test_a_drawing_that_stands_twice_is_kept_once():
     with zipfile.ZipFile(file) as parts:
         names = [name for name in parts.namelist() if name.startswith("word/media")]
     assert len(drawn) == len(names) == len(set(names)) == 2  # a PNG and an SVG
+
+
+@pytest.mark.parametrize(("widest_mm", "size_mm"), [(160, (90, 30)), (60, (60, 20))])
+def test_a_figure_is_as_wide_as_on_the_page_and_no_wider_than_the_text(widest_mm, size_mm):
+    svg = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 300 100" width="300" height="100"/>'
+    source = base64.b64encode(svg.encode()).decode()
+    image = lxml.html.fromstring(
+        f'<img style="width:90mm" src="data:image/svg+xml;base64,{source}"/>'
+    )
+    drawn = pictures.Pictures(Document()).figure(image, widest_mm)
+    sizes = drawn.xpath("//*[local-name()='extent' or local-name()='ext'][@cx]")
+    assert len(sizes) == 2
+    for size in sizes:
+        assert tuple(Emu(int(size.get(key))).mm for key in ("cx", "cy")) == size_mm

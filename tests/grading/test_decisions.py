@@ -8,13 +8,15 @@ from datetime import datetime
 from pathlib import Path
 
 import pytest
-from openpyxl import load_workbook
+from openpyxl import Workbook, load_workbook
 
+from reports.grading.batch.decisions import WHOLE, Decision, from_gradebook
 from reports.grading.batch.grade import Options, decide, grade
 from reports.grading.issuing.rubric import rubric_of
 from reports.grading.judging.judgement import EMPTY, RIGHT, WRONG
 from reports.grading.judging.marking import late_factor, score
 from reports.grading.judging.works import Work, work_of
+from reports.grading.pages.gradebook import DECISION, OF_FILE
 from reports.grading.pages.summary import choose
 from reports.shared.errors import InputError
 from tests.grading import classroom
@@ -86,6 +88,18 @@ def test_the_gradebook_is_read_back(tmp_path):
     book.active.cell(3, points).value = book.active.cell(3, remark).value = None
     book.save(path)
     assert run(where, out)[2]["points"] == 100
+
+
+@pytest.mark.parametrize("remark", ["болел", "есть справка"])
+def test_another_remark_with_the_same_points_is_taken_over(tmp_path, remark):
+    book, path = Workbook(), tmp_path / "gradebook.xlsx"
+    book.active.append(["Вариант", *DECISION, OF_FILE])
+    book.active.append([2, "55.5", remark, "sha"])
+    book.save(path)
+    kept = [Decision(2, WHOLE, 55.5, "болел", "Петрова", "2026-01-01T00:00", "sha")]
+    (found,) = from_gradebook(path, kept, {}, 100.0)
+    assert (found.points, found.remark, found.file) == (55.5, remark, "sha")
+    assert (found == kept[0]) == (remark == "болел")
 
 
 def test_a_doubtful_work_is_accepted_by_a_person(tmp_path):

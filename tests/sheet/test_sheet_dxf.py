@@ -253,3 +253,9 @@ def test_letters_of_the_mechanism_are_read_where_all_of_it_is_seen() -> None:
     heights = {text.dxf.height for text in document.modelspace().query("TEXT")}
     assert all(0.015 < height / (high[1] - low[1]) < 0.025 for height in heights)
     assert document.header["$LTSCALE"] == pytest.approx(min(heights) / 3.5)
+
+
+def test_a_drawing_is_opened_with_all_of_it_in_the_middle() -> None:
+    document = read(dxf_bytes([Line(((10, 20), (110, 80)))]))
+    (view,) = document.viewports.get("*Active")
+    assert tuple(view.dxf.center)[:2] == (60, 50) and 60 < view.dxf.height < 70

@@ -17,8 +17,9 @@ from lxml import etree
 
 from reports.cli import main
 from reports.shared.resources import samples_dir
-from reports.word import pictures
-from reports.word.markup import bookmark_name
+from reports.word import pictures, tables
+from reports.word.inline import Lines
+from reports.word.markup import Bookmarks, bookmark_name
 from reports.word.outline import picture
 from tests.word.docx_samples import NAME, W, department, docx_of, page_of, part, text_of
 
@@ -193,3 +194,13 @@ def test_a_figure_is_as_wide_as_on_the_page_and_no_wider_than_the_text(widest_mm
     assert len(sizes) == 2
     for size in sizes:
         assert tuple(Emu(int(size.get(key))).mm for key in ("cx", "cy")) == size_mm
+
+
+def test_columns_are_as_wide_as_on_the_page():
+    source = lxml.html.fromstring(
+        '<table><colgroup><col style="width:25%"/><col style="width:75%"/></colgroup>'
+        "<tbody><tr><td>a</td><td>b</td></tr></tbody></table>"
+    )
+    made = tables.table(Lines(Bookmarks()), source, 4000)
+    widths = [e.get(f"{W}w") for name in ("gridCol", "tcW") for e in made.iter(f"{W}{name}")]
+    assert widths == ["1000", "3000"] * 2

@@ -5,11 +5,16 @@ from __future__ import annotations
 import json
 import os
 from datetime import datetime
+from getpass import getuser
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
+from click.testing import CliRunner
 from openpyxl import Workbook, load_workbook
 
+from reports.cli import main
+from reports.grading.batch import grade as room
 from reports.grading.batch.decisions import WHOLE, Decision, from_gradebook
 from reports.grading.batch.grade import Options, decide, grade
 from reports.grading.issuing.rubric import rubric_of
@@ -88,6 +93,15 @@ def test_the_gradebook_is_read_back(tmp_path):
     book.active.cell(3, points).value = book.active.cell(3, remark).value = None
     book.save(path)
     assert run(where, out)[2]["points"] == 100
+
+
+@pytest.mark.parametrize(("given", "told"), [((), getuser()), (("--author", "Петрова"), "Петрова")])
+def test_who_decides_is_who_calls_or_who_is_named(tmp_path, monkeypatch, given, told):
+    done, seen = SimpleNamespace(needs_a_person=False), []
+    monkeypatch.setattr(room, "decide", lambda _, options: seen.append(options.author) or done)
+    words = ["grade", "-o", str(tmp_path), "--decide", "1", "всё", "+", "верно", *given]
+    assert CliRunner().invoke(main, words).exit_code == 0
+    assert seen == [told]
 
 
 @pytest.mark.parametrize("remark", ["болел", "есть справка"])

@@ -26,3 +26,9 @@ def test_scales_are_those_of_the_standard_from_the_largest():
 @pytest.mark.parametrize(("room", "unit"), [(720, 0.5), (719, 1.0), (100, 4.0), (18, 20.0)])
 def test_an_axis_of_angles_has_the_largest_scale_that_fits(room, unit):
     assert round_scale(0.0, 360.0, room, angle=True).unit == unit
+
+
+@pytest.mark.parametrize(("high", "unit"), [(200.0, 2.0), (200.1, 2.5), (1.5, 0.015), (-40.0, 1.0)])
+def test_values_that_fit_exactly_have_the_scale_at_which_they_do(high, unit):
+    low = min(high, 0.0) - 60.0 if high < 0 else 0.0
+    assert round_scale(low, max(high, 0.0), 100.0).unit == pytest.approx(unit)

@@ -155,13 +155,9 @@ def _call(name: str, args: list[ast.expr], refs: References) -> tuple[str, int]:
         # Excel takes (x, y) where everybody else takes (y, x).
         y, x = (_emit(arg, refs)[0] for arg in args)
         return f"ATAN2({x},{y})", _ATOM
-    if name == "interpolate":
-        return _interpolate(args, refs), 2
     if name == "element":
         run = refs.column(_key(args[0]), repeat_last=True)
         return _index(run, _emit(args[1], refs)[0]), _ATOM
-    if name == "spline":
-        return _spline(args, refs), 2
     return f"{_FUNCTIONS[name]}({','.join(_emit(arg, refs)[0] for arg in args)})", _ATOM
 
 
@@ -205,25 +201,3 @@ def _wave(name: str, args: list[ast.expr], refs: References) -> str:
     *weights, angles = (refs.column(_key(arg), repeat_last=True) for arg in args[:-1])
     turn = f"{name.removeprefix('wave_').upper()}({angles}*({_emit(args[-1], refs)[0]}*PI()/180))"
     return f"SUMPRODUCT({','.join([*weights, turn])})"
-
-
-def _interpolate(args: list[ast.expr], refs: References) -> str:
-    """Straight lines between points: the row by MATCH, capped so that the last point works."""
-    x = _emit(args[0], refs)[0]
-    xs = refs.column(_key(args[1]), repeat_last=True)
-    body = refs.column(_key(args[1]), repeat_last=False)
-    ys = refs.column(_key(args[2]), repeat_last=True)
-    row = f"MATCH({x},{body},1)"
-    x0, x1 = _index(xs, row), _index(xs, f"{row}+1")
-    y0, y1 = _index(ys, row), _index(ys, f"{row}+1")
-    return f"{y0}+({y1}-{y0})*({x}-{x0})/({x1}-{x0})"
-
-
-def _spline(args: list[ast.expr], refs: References) -> str:
-    """Cubic from the knot before, its row by MATCH, capped so that the last knot works."""
-    x = _wrapped(args[0], 3, refs)
-    body = refs.column(_key(args[1]), repeat_last=False)
-    row = f"MATCH({_emit(args[0], refs)[0]},{body},1)"
-    knot, *powers = (f"INDEX({refs.column(_key(arg), repeat_last=True)},{row})" for arg in args[1:])
-    u = f"({x}-{knot})"
-    return f"{powers[0]}+{u}*({powers[1]}+{u}*({powers[2]}+{u}*{powers[3]}))"

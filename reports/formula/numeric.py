@@ -21,7 +21,6 @@ _FUNCTIONS: dict[str, Callable[..., Value]] = {
     "sin": np.sin, "cos": np.cos, "tan": np.tan, "asin": np.arcsin, "acos": np.arccos,
     "atan2": np.arctan2, "sqrt": np.sqrt, "exp": np.exp, "ln": np.log, "abs": np.abs,
     "floor": np.floor, "mod": np.mod, "rad": np.radians, "deg": np.degrees,
-    "interpolate": np.interp,
 }  # fmt: skip
 
 
@@ -57,15 +56,6 @@ def _element(run: Value, number: Value) -> Value:
     return values[np.clip(rows, 0, len(values) - 1)]
 
 
-def _spline(x: Value, knots: Value, c0: Value, c1: Value, c2: Value, c3: Value) -> Value:
-    """Cubic from the last knot at or before ``x``."""
-    places = np.asarray(knots, dtype=float)
-    row = np.clip(np.searchsorted(places, x, side="right") - 1, 0, len(places) - 2)
-    u = np.asarray(x) - places[row]
-    first, second, third, fourth = (np.asarray(c, dtype=float)[row] for c in (c0, c1, c2, c3))
-    return first + u * (second + u * (third + u * fourth))
-
-
 def _rounded(value: Value, decimals: Value = 0.0) -> Value:
     # As a spreadsheet rounds: halves away from zero, and zero has no sign.
     scale = 10.0**decimals
@@ -80,7 +70,7 @@ def _previous(column: Value) -> Value:
     return np.insert(np.asarray(column, dtype=float)[:-1], 0, 0.0)
 
 
-_FUNCTIONS |= {"element": _element, "spline": _spline, "round": _rounded, "place": _place}
+_FUNCTIONS |= {"element": _element, "round": _rounded, "place": _place}
 _FUNCTIONS |= {"rank": lambda value, run: 1.0 + float(np.sum(np.asarray(run) < value))}
 _FUNCTIONS |= {"first_largest": lambda run: float(np.argmax(run) + 1)}
 _FUNCTIONS |= {"following": _following, "previous": _previous, "running_sum": np.cumsum}

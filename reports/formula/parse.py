@@ -12,12 +12,10 @@ FUNCTIONS: dict[str, tuple[int, int]] = {
     "round": (1, 2),  # and to how many decimals
     "mod": (2, 2), "min": (1, 40), "max": (1, 40), "total": (1, 40),
     "rad": (1, 1), "deg": (1, 1),
-    "interpolate": (3, 3),
     "place": (2, 2),  # number of the last of some rising points that is not beyond a value
     "rank": (2, 2),  # place of a value among a run's, the least has 1
     "first_largest": (1, 1),  # its number in a run, from 1
     "element": (2, 2),  # of a run by its number from 1
-    "spline": (6, 6),  # x, knots and four coefficients of the cubic from each knot on
     "fourier_cos": (3, 3), "fourier_sin": (3, 3),
     # Sum of cos of (weights,) angles [deg] times an order.
     "wave_cos": (2, 3), "wave_sin": (2, 3),
@@ -28,9 +26,7 @@ FUNCTIONS: dict[str, tuple[int, int]] = {
 AGGREGATES = frozenset({"col_max", "col_min", "col_mean", "col_sum", "col_last"})
 
 # Scale factors between SI and the units of the tables; invisible in printed formulas.
-SCALES: dict[str, float] = {
-    "MPa": 1e6, "kN": 1e3, "mm": 1e-3, "kW": 1e3, "dm3": 1e-3, "cm2": 1e-4,
-}  # fmt: skip
+SCALES: dict[str, float] = {"MPa": 1e6, "kN": 1e3, "mm": 1e-3, "kW": 1e3, "dm3": 1e-3}
 SCALE_FUNCTIONS = frozenset(f"{way}_{unit}" for unit in SCALES for way in ("to", "of"))
 
 # Values of the following row of a column (in the last row the row itself), of the row before

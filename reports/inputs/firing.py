@@ -154,4 +154,4 @@ def _angles(places: Arrangement | None, offsets: object) -> list[float] | None:
 
 def fitting_angle(angle_deg: float) -> str:
     """Return an angle in 0…360 as messages show it."""
-    return number_text(round(angle_deg % 360, 6) % 360)
+    return number_text(round(angle_deg, 6) % 360)

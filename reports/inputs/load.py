@@ -77,7 +77,7 @@ def load_toml(path: FilePath | str) -> Loaded:
     return load_text(read_text(file), source=file.name, folder=file.parent)
 
 
-def load_text(text: str, *, source: str, folder: FilePath | None = None) -> Loaded:
+def load_text(text: str, *, source: str, folder: FilePath = FilePath()) -> Loaded:
     """Check the text of an input file; `source` names it in messages.
 
     `folder` is where a file with the points of the indicator diagram is looked for.
@@ -89,9 +89,8 @@ def load_text(text: str, *, source: str, folder: FilePath | None = None) -> Load
         if problems:
             raise InputError(problems)
     raw = understood(raw, source)
-    home = folder or FilePath()
-    loaded = load_mapping(with_points(raw, home, source), source=source)
-    return replace(loaded, beside=tuple(home / name for name in files_of(raw)))
+    loaded = load_mapping(with_points(raw, folder, source), source=source)
+    return replace(loaded, beside=tuple(folder / name for name in files_of(raw)))
 
 
 def parsed(text: str, *, source: str) -> dict[str, Any]:

@@ -40,7 +40,9 @@ def read_text(file: Path) -> str:
         why = files.reason(error) if isinstance(error, OSError) else "недопустимое имя"
         raise refused(str(file), f"файл не читается: {why}", "проверьте имя и права") from None
     if len(data) > MAX_BYTES:
-        raise refused(file.name, "файл больше 2 МБ", "это не файл исходных данных")
+        raise refused(
+            file.name, f"файл больше {MAX_BYTES // 10**6} МБ", "это не файл исходных данных"
+        )
     return _decode(file.name, data)
 
 

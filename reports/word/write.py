@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from docx.document import Document
     from lxml.html import HtmlElement
 
-_EPOCH = (1980, 1, 1, 0, 0, 0)  # the first that a zip can hold
-
 
 def report_docx(
     model: Model,
@@ -153,5 +151,5 @@ def _timeless(data: bytes) -> bytes:
         zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as made,
     ):
         for name in given.namelist():
-            made.writestr(zipfile.ZipInfo(name, _EPOCH), given.read(name), zipfile.ZIP_DEFLATED)
+            made.writestr(zipfile.ZipInfo(name), given.read(name), zipfile.ZIP_DEFLATED)
     return stream.getvalue()

@@ -32,7 +32,6 @@ _VALUE = f"{{{_MAIN}}}v"
 _DCTERMS = "http://purl.org/dc/terms/"
 _LEVEL = 7  # of compression: 1.5 % smaller than the usual one in the same time
 _DIGITS = ".15g"  # as many as a spreadsheet shows; what follows is noise that takes room
-_EPOCH = (1980, 1, 1, 0, 0, 0)
 
 
 class CacheError(ValueError):
@@ -109,7 +108,7 @@ def finish(book: Workbook, caches: CacheValues | None = None) -> bytes:
                 data = _fonts(data)
             elif name == "docProps/core.xml":
                 data = _fix_times(data)
-            target.writestr(zipfile.ZipInfo(name, _EPOCH), data, zipfile.ZIP_DEFLATED, _LEVEL)
+            target.writestr(zipfile.ZipInfo(name), data, zipfile.ZIP_DEFLATED, _LEVEL)
     return result.getvalue()
 
 

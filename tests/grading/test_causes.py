@@ -61,6 +61,16 @@ def test_a_change_of_the_numbers_is_named(name, change, words):
     assert words in cause(name, change(right(name).copy()))
 
 
+def test_a_cause_is_told_from_half_of_the_rows_on():
+    wrong = -right(V1)
+    half = len(wrong) // 2
+    few, enough = (
+        np.where(np.arange(len(wrong)) < rows, wrong, np.nan) for rows in (half - 1, half)
+    )
+    assert cause(V1, few) == ""
+    assert "обратный знак" in cause(V1, enough)
+
+
 def test_degrees_in_a_sine_are_named():
     angles = np.array([float(label) for label in item_of(V1).labels])
     scale = right(V1)[3] / np.sin(np.radians(angles[3]))

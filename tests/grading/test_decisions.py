@@ -5,15 +5,23 @@ from __future__ import annotations
 import json
 import os
 from datetime import datetime
+from getpass import getuser
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
-from openpyxl import load_workbook
+from click.testing import CliRunner
+from openpyxl import Workbook, load_workbook
 
+from reports.cli import main
+from reports.grading.batch import grade as room
+from reports.grading.batch.decisions import WHOLE, Decision, from_gradebook
 from reports.grading.batch.grade import Options, decide, grade
 from reports.grading.issuing.rubric import rubric_of
-from reports.grading.judging.marking import late_factor
+from reports.grading.judging.judgement import EMPTY, RIGHT, WRONG
+from reports.grading.judging.marking import late_factor, score
 from reports.grading.judging.works import Work, work_of
+from reports.grading.pages.gradebook import DECISION, OF_FILE
 from reports.grading.pages.summary import choose
 from reports.shared.errors import InputError
 from tests.grading import classroom
@@ -85,6 +93,27 @@ def test_the_gradebook_is_read_back(tmp_path):
     book.active.cell(3, points).value = book.active.cell(3, remark).value = None
     book.save(path)
     assert run(where, out)[2]["points"] == 100
+
+
+@pytest.mark.parametrize(("given", "told"), [((), getuser()), (("--author", "Петрова"), "Петрова")])
+def test_who_decides_is_who_calls_or_who_is_named(tmp_path, monkeypatch, given, told):
+    done, seen = SimpleNamespace(needs_a_person=False), []
+    monkeypatch.setattr(room, "decide", lambda _, options: seen.append(options.author) or done)
+    words = ["grade", "-o", str(tmp_path), "--decide", "1", "всё", "+", "верно", *given]
+    assert CliRunner().invoke(main, words).exit_code == 0
+    assert seen == [told]
+
+
+@pytest.mark.parametrize("remark", ["болел", "есть справка"])
+def test_another_remark_with_the_same_points_is_taken_over(tmp_path, remark):
+    book, path = Workbook(), tmp_path / "gradebook.xlsx"
+    book.active.append(["Вариант", *DECISION, OF_FILE])
+    book.active.append([2, "55.5", remark, "sha"])
+    book.save(path)
+    kept = [Decision(2, WHOLE, 55.5, "болел", "Петрова", "2026-01-01T00:00", "sha")]
+    (found,) = from_gradebook(path, kept, {}, 100.0)
+    assert (found.points, found.remark, found.file) == (55.5, remark, "sha")
+    assert (found == kept[0]) == (remark == "болел")
 
 
 def test_a_doubtful_work_is_accepted_by_a_person(tmp_path):
@@ -264,6 +293,28 @@ def test_days_of_delay():
     assert late_factor(rubric, datetime(2026, 12, 2, 13)) == pytest.approx(0.9)
     assert late_factor(rubric, datetime(2026, 12, 4, 13)) == pytest.approx(0.7)
     assert late_factor(rubric, datetime(2026, 12, 30)) == 0.3
+
+
+@pytest.mark.parametrize(("least", "points"), [(0.0, 3.2), (0.3333, 3.2), (0.34, 0.0)])
+def test_too_little_filled_in_is_worth_nothing(least, points):
+    late = {"deadline": datetime(2026, 12, 1), "per_day": 0.2}
+    rubric = rubric_of({"maximum": 24.0, "minimum": {"filled": least}, "late": late}, "r")
+    # A right line and a wrong one of six; what is worth nothing counts on neither side.
+    verdicts = [(RIGHT, 4.0, 4.0), (WRONG, 0.0, 4.0), *[(EMPTY, 0.0, 4.0)] * 4, (WRONG, 0.0, 0.0)]
+    lines = [{"verdict": v, "points": got, "of": most} for v, got, most in verdicts]
+    result = {"items": lines, "notes": []}
+    score(result, rubric, datetime(2026, 12, 1, 1))
+    assert (result["raw"], result["points"], result["maximum"]) == (4.0, points, 24.0)
+    assert (result["filled"], result["late"], result["enough"]) == (0.3333, 0.8, points > 0)
+    short = "заполнено 33% при наименьшем 34%: 0 баллов"
+    notes = ["сдано после срока: баллы умножены на 0,8"]
+    assert result["notes"] == ([short] if not points else []) + notes
+
+
+def test_a_work_of_nothing_paid_is_not_filled_in():
+    result = {"items": [], "notes": []}
+    score(result, rubric_of({}, "r"), None)
+    assert (result["filled"], result["points"], result["notes"]) == (0.0, 0.0, [])
 
 
 assert os

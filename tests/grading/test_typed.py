@@ -137,7 +137,9 @@ def test_a_student_is_told_before_handing_in(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "number"), [("123", None), ("1234", 1234.0), ("x12 y34", 1234.0), ("x" * 99, None)]
-)
+    ("text", "number"),
+    [("123", None), ("1234", 1234.0), ("x12 y34", 1234.0),
+     ("x" * 99, None), ("x" * 120, 120.5)],  # of a long one its length, which is no angle
+)  # fmt: skip
 def test_a_text_of_four_digits_carries_a_number(text, number):
     assert carried(text) == number

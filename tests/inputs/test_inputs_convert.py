@@ -8,6 +8,7 @@ from kshm.engine.crankshaft import Web
 from kshm.engine.gas import PolytropicGas, TabulatedGas
 from kshm.engine.masses import DirectMasses, RodMasses
 from reports.inputs import units
+from reports.inputs.firing import fitting_angle
 from reports.inputs.load import load_mapping, load_toml
 from reports.inputs.to_si.engine import to_engine
 from reports.shared.resources import samples_dir
@@ -158,3 +159,20 @@ def test_unit_text():
     assert units.DEG.text(15) == "15°"
     assert units.MM.text(-0.5) == "−0,5 мм"
     assert units.NONE.text(0.317) == "0,317"
+
+
+@pytest.mark.parametrize(
+    ("value", "inside"),
+    [(0.15, True), (0.45, True), (0.15 - 1e-10, True), (0.45 + 1e-10, True),
+     (0.15 - 1e-8, False), (0.45 + 1e-8, False)],
+)  # fmt: skip
+def test_a_span_holds_its_ends_whatever_a_quotient_adds_to_them(value, inside):
+    assert units.is_within(value, (0.15, 0.45)) == inside
+
+
+@pytest.mark.parametrize(
+    ("angle_deg", "shown"),
+    [(-30, "330"), (-1e-9, "0"), (719.9999999, "0"), (450.1, "90,1"), (359.1234567, "359,123457")],
+)
+def test_an_angle_of_a_message_lies_in_one_turn(angle_deg, shown):
+    assert fitting_angle(angle_deg) == shown

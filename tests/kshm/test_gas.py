@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from kshm import solve
 from kshm.chain.solve import solve_batch
 from tests.textbook.book import solution
 
@@ -51,6 +52,14 @@ def test_release_is_a_straight_line_in_the_angle() -> None:
     release = (phi >= 498) & (phi <= 565)
     np.testing.assert_allclose(np.diff(p[release], 2), 0, atol=1e-12)
     assert at(565) == at(566) == at(719) == 0.182
+
+
+def test_an_exhaust_that_opens_on_the_isobar_begins_at_the_greatest_pressure() -> None:
+    engine = solution("gots-diesel").engine
+    gas = replace(engine.gas, rho=5.0, exhaust_open=math.radians(390))
+    early = solve(replace(engine, gas=gas))
+    assert early.scalars["x_open"] < gas.rho
+    assert early.scalars["p_open"] == early.columns["gas"]["p_MPa"][39] == 10.5
 
 
 def test_pressure_is_periodic() -> None:

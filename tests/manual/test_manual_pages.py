@@ -14,6 +14,7 @@ from reports.shared.resources import samples_dir
 from reports.tables.registry import build_model
 from tests.browser import measure
 from tests.manual.pages import DOCS, PAGES
+from tools.manual import build
 from tools.manual.build import pages
 from tools.manual.links import broken_links, slug
 from tools.manual.site import write_site
@@ -24,6 +25,16 @@ def test_generated_pages_are_current():
         name for name, text in pages().items() if (DOCS / name).read_text(encoding="utf-8") != text
     ]
     assert stale == [], "./run docs обновит"
+
+
+def test_what_is_out_of_date_is_written_anew(tmp_path, monkeypatch):
+    monkeypatch.setattr(build, "GENERATED", {"a.md": lambda: "first", "b.md": lambda: "second"})
+    page, _ = tmp_path / "a.md", build.write_pages(tmp_path)
+    assert page.read_text() == "first"
+    assert build.write_pages(tmp_path) == []
+    page.write_text("old")
+    assert build.write_pages(tmp_path) == [page]
+    assert page.read_text() == "first"
 
 
 def test_no_link_leads_nowhere():

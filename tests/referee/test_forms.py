@@ -23,16 +23,17 @@ def plainly(grid: Grid) -> object:
     """All that a grid holds, to be compared."""
     return [
         (title, number, list(c.constants.items()), c.errors, c.saved_rows, [*map(repr, c.saved)],
-         [(r.first, r.count, r.text, r.formula and r.formula.pattern, r.problem) for r in c.runs])
+         [(r.sheet, r.first, r.count, r.text, r.formula and r.formula.pattern, r.problem)
+          for r in c.runs])
         for title, columns in grid.sheets.items()
         for number, c in columns.items()
     ] + [grid.cells]  # fmt: skip
 
 
-def outcome(data: bytes, forms: Forms | None) -> object:
-    grid = Grid(sheets={"A": {}})
+def outcome(data: bytes, forms: Forms | None, title: str = "A") -> object:
+    grid = Grid(sheets={title: {}})
     try:
-        read_sheet(grid, "A", data, STRINGS, forms)
+        read_sheet(grid, title, data, STRINGS, forms)
     except BadBook as error:
         return str(error)
     return plainly(grid)
@@ -84,6 +85,12 @@ def test_what_a_reader_does_to_a_grid_does_not_change_the_form():
         grid.sheets["A"][1].saved_rows.append(9)
         grid.sheets["A"][2].constants.clear()
         del grid.sheets["A"][1].runs[:]
+
+
+def test_sheets_of_one_text_under_two_titles_are_kept_apart():
+    forms, data = Forms(), sheet('<c r="A1"><f>B1</f><v>1</v></c><c r="B1"><v>1</v></c>')
+    for title in ("A", "B") * 3:
+        assert outcome(data, forms, title) == outcome(data, None, title)
 
 
 ODD = [

@@ -7,11 +7,14 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from click.testing import CliRunner
 
 from reports.cli import main
+from reports.shared.errors import OutputError
+from reports.shared.files import make_dir
 from tests.robustness.command import leftovers, refusal, small_input, started
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="limits of Linux")
@@ -110,3 +113,11 @@ def test_a_small_disk_and_a_disk_for_reading_only(tmp_path, full):
         assert leftovers(disk) == []
     finally:
         subprocess.run(["umount", str(disk)], check=True)
+
+
+@pytest.mark.parametrize(("flag", "told"), [(0, "нет прав"), (os.ST_RDONLY, "только для чтения")])
+def test_why_a_folder_takes_no_files(tmp_path, monkeypatch, flag, told):
+    monkeypatch.setattr(os, "access", lambda *_: False)  # root may always
+    monkeypatch.setattr(os, "statvfs", lambda _: SimpleNamespace(f_flag=flag))
+    with pytest.raises(OutputError, match=told):
+        make_dir(tmp_path)

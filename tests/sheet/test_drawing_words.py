@@ -1,6 +1,7 @@
 """Sizes on drawings: no line through a value, no value over another, axes broken for them."""
 
 import itertools
+import re
 
 import pytest
 from hypothesis import given, settings
@@ -9,7 +10,16 @@ from hypothesis import strategies as st
 from reports.document.figures.parts import mechanism_of, throw_of
 from reports.drawing.lettering import parts_of, plain, width_of
 from reports.drawing.parts import Mechanism, Throw, mechanism_drawing, throw_drawing
-from reports.drawing.primitives import AXES, Canvas, Line, Words, box_of, interrupted, overlap
+from reports.drawing.primitives import (
+    AXES,
+    Canvas,
+    Circle,
+    Line,
+    Words,
+    box_of,
+    interrupted,
+    overlap,
+)
 from reports.drawing.svg import svg_of
 from reports.sheet.cell import Room
 from reports.sheet.schemes import shaft
@@ -83,3 +93,10 @@ def test_no_axis_runs_through_the_number_of_a_throw(name):
     axes = [item for item in canvas.items if isinstance(item, Line) and item.layer is AXES]
     assert len(axes) == 3
     assert [text.text for text in texts for axis in axes if overlap(text.box, box_of(axis))] == []
+
+
+def test_a_circle_goes_there_and_back():
+    (path,) = re.findall(r'<path d="([^"]+)"', svg_of([Circle((10, 12), 5)], (0, 0, 40, 30)))
+    start, over, back = re.findall(r"([\d.]+ [\d.]+)(?=A|Z)", path)
+    assert start == back == "5.000 18.000" and over == "15.000 18.000"  # y of SVG goes down
+    assert path.count("A5.000 5.000 ") == 2

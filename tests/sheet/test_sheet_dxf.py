@@ -239,3 +239,23 @@ def test_of_any_engine_dashes_go_with_the_letters(size: float) -> None:
 
 def test_on_paper_dashes_are_as_long_as_they_say() -> None:
     assert read(files()["-sheet.dxf"]).header["$LTSCALE"] == 1.0
+
+
+def test_a_pattern_begins_with_its_dash_and_gaps_are_negative() -> None:
+    types = read(dxf_bytes([Line(((0, 0), (99, 0)), dash=(12, 3, 1, 2))])).linetypes
+    lengths = [tag.value for tag in types.get("12-3-1-2").pattern_tags.tags if tag.code in (40, 49)]
+    assert lengths == [18, 12, -3, 1, -2]
+
+
+def test_letters_of_the_mechanism_are_read_where_all_of_it_is_seen() -> None:
+    document = read(files()["-mechanism.dxf"])
+    low, high = document.header["$EXTMIN"], document.header["$EXTMAX"]
+    heights = {text.dxf.height for text in document.modelspace().query("TEXT")}
+    assert all(0.015 < height / (high[1] - low[1]) < 0.025 for height in heights)
+    assert document.header["$LTSCALE"] == pytest.approx(min(heights) / 3.5)
+
+
+def test_a_drawing_is_opened_with_all_of_it_in_the_middle() -> None:
+    document = read(dxf_bytes([Line(((10, 20), (110, 80)))]))
+    (view,) = document.viewports.get("*Active")
+    assert tuple(view.dxf.center)[:2] == (60, 50) and 60 < view.dxf.height < 70

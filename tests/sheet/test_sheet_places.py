@@ -7,11 +7,14 @@ import itertools
 import pytest
 
 from reports.document.text.numbers import of_digits
+from reports.drawing.primitives import SIZES as DIMENSIONS
 from reports.drawing.primitives import THIN, Canvas, Line, Words, box_of, overlap
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.sheet import DIAGRAMS, USUAL, SheetSection
+from reports.sheet.cell import Room
 from reports.sheet.layout import SIZES, cells
+from reports.sheet.schemes import balance
 from reports.sheet.stamp import HEIGHT, MARGINS, WIDTH, title_block
 from tests.conftest import sample
 from tests.cover import chapters, charts, samples_with
@@ -111,3 +114,16 @@ def test_a_long_name_stays_in_its_cell():
                                        "О" * 40]  # fmt: skip
     assert all(n.box[0] >= 17 and n.box[2] <= 40 for n in names)
     assert not any(overlap(one.box, other.box) for one, other in itertools.combinations(names, 2))
+
+
+def test_forces_of_the_throws_point_away_from_the_axis():
+    t, canvas = terms("d-240"), Canvas()
+    balance(canvas, Room(0.0, 0.0, 180.0, 120.0), t)
+    lines = [item for item in canvas.items if isinstance(item, Line) and not item.filled]
+    forces = [line.points for line in lines if line.layer is DIMENSIONS]
+    upwards = [angle in (0, 360) for angle in t.model.input.crankshaft.throw_angles_deg]
+    assert [start[1] < end[1] for start, end in forces] == upwards == [True, False, False, True]
+    second = t.num("balance_orders.F_order_kN", 2.0)
+    assert second != t.num("balance_orders.F_order_kN", 1.0)
+    words = [item.text for item in canvas.items if isinstance(item, Words)]
+    assert any(f"до балансирных валов: сила {second} кН" in text for text in words)

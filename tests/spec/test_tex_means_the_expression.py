@@ -184,7 +184,7 @@ def printed(terms, name, row):
 def plain(expr):
     """Without angles in degrees and other units, aggregates and texts, which print otherwise."""
     hidden = re.compile(r"\b(rad|deg|to_\w+|of_\w+|col_\w+|total|mod|floor|round|atan2|step|"
-                        r"interpolate|fourier\w*|spline|element|following|previous)"
+                        r"fourier\w*|element|following|previous)"
                         r"\(|\"")  # fmt: skip
     tolerances = [
         n.value for n in ast.walk(ast.parse(expr, mode="eval"))

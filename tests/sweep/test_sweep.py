@@ -9,6 +9,7 @@ import random
 import tracemalloc
 from pathlib import Path
 
+import numpy as np
 import openpyxl
 import pytest
 
@@ -21,8 +22,10 @@ from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared import ordered
 from reports.shared.errors import InputError, KshmError
 from reports.shared.resources import samples_dir
+from reports.studies import points
 from reports.studies import run as run_module
 from reports.studies.plan import make_plan
+from reports.studies.quantities import Wanted
 from reports.studies.run import Options, Studied, sweep
 from tests.conftest import sample
 
@@ -140,6 +143,12 @@ def test_what_fails_the_check_stays_as_a_row_with_its_reason(tmp_path: Path) -> 
     done = sweep(BASE, ("geometry.bore_mm=5:88:2",), tmp_path / "b.csv")
     assert (done.points, done.failed) == (2, 1)
     assert "bore_mm" in done.first_error
+
+
+def test_a_record_of_a_list_is_called_by_its_number_from_one() -> None:
+    vary = ("crankshaft.webs.2.mass_kg=1:2:2",)
+    (axis,) = make_plan(sample(BASE.stem), BASE.name, vary, pairwise=False).axes
+    assert axis.path == ("crankshaft", "webs", 1, "mass_kg")
 
 
 def test_pairwise_takes_values_in_order(tmp_path: Path) -> None:
@@ -278,3 +287,13 @@ def test_a_study_without_a_result_has_no_empty_chart(tmp_path: Path) -> None:
     book = openpyxl.load_workbook(target)
     assert not book["Диаграммы"]._charts
     assert all(row[-1] for row in book["Результаты"].iter_rows(min_row=3, values_only=True))
+
+
+def test_a_result_that_is_no_number_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Beside a reason of its own, which stays."""
+    plan = make_plan(sample(BASE.stem), BASE.name, ("geometry.bore_mm=85:88:2",), pairwise=False)
+    numbers = {"c_m": np.array([np.nan, np.nan])}
+    monkeypatch.setattr(points, "of_batch", lambda *_: (numbers, ["", "своя причина"]))
+    wanted = Wanted(("c_m",), (), slow=False)
+    (task,) = points.tasks(plan, wanted, 2)
+    assert points.solved(task).errors == [points.NOT_FINITE, "своя причина"]

@@ -14,7 +14,7 @@ from reports.inputs.sections.input_file import InputFile
 from reports.inputs.solved import solved
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.spec.blocks import Model, TableSpec
-from reports.spec.evaluation import evaluate_model
+from reports.spec.evaluation import Evaluation, evaluate_model
 from reports.tables.registry import build_model
 from tests.conftest import sample, sample_names
 from tests.layouts import MAKERS, made
@@ -93,6 +93,14 @@ def test_table_of_points_instead_of_polytropes() -> None:
         polytropic.columns["P4_1"]["Ps_MPa"],
         atol=1e-12,
     )
+
+
+def test_an_exhaust_that_opens_on_the_isobar() -> None:
+    raw = to_mapping(sample("gots-diesel"))
+    raw["gas"] |= {"preexpansion_ratio": 5.0, "exhaust_start_before_bdc_deg": 150.0}
+    formulas = Evaluation(build_model(load_mapping(raw, source="early").model))
+    assert formulas.value("x_open") < 5
+    assert formulas.value("p_open") == raw["gas"]["max_pressure_mpa"]
 
 
 @pytest.mark.parametrize("cylinders", [1, 2, 4, 5, 6, 8, 12])

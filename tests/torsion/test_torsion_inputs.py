@@ -62,6 +62,25 @@ def test_what_cannot_be_is_refused_in_a_line(section: dict[str, Any], said: str)
     assert any(said in f"{p.what}; {p.hint}" for p in error.value.problems), lines
 
 
+def test_a_bore_is_smaller_than_the_thinnest_journal() -> None:
+    raw = to_mapping(sample("d-240"))
+    raw["crankshaft"] |= {"main_diameter_mm": None, "main_diameters_mm": [75.0, 75, 70, 75, 75]}
+    raw["torsion"] = {"main_bore_mm": 69.9}
+    load_mapping(raw, source="файл")
+    raw["torsion"] = {"main_bore_mm": 70.0}
+    with pytest.raises(InputError, match="отверстие 70 мм не меньше шейки 70 мм"):
+        load_mapping(raw, source="файл")
+
+
+def test_a_bore_is_smaller_than_each_shaft_of_a_train() -> None:
+    section = masses(1.0, 1.0, main_bore_mm=40.0)
+    section["masses"][1]["diameter_mm"] = 40.1
+    load(section)
+    section["masses"][1]["diameter_mm"] = 40.0
+    with pytest.raises(InputError, match="вал 40 мм не толще отверстия main_bore_mm"):
+        load(section)
+
+
 @pytest.mark.parametrize(
     ("section", "key"),
     [

@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+from unittest.mock import AsyncMock
 
 import httpx2
 import psutil
@@ -163,3 +164,21 @@ def test_the_oldest_files_are_forgotten(tmp_path: Path, monkeypatch: pytest.Monk
         os.utime(folder / "done.json", (time.time() - index, time.time() - index))
     jobs.clean()
     assert sorted(path.name for path in tmp_path.iterdir()) == ["0", "1"]
+
+
+@pytest.mark.parametrize(
+    ("code", "state", "line"),
+    [(0, "done", "сказано"), (1, "done", "сказано"), (2, "failed", "сказано"),
+     (-9, "failed", "процесс прерван: повторите")],
+)  # fmt: skip
+def test_how_a_command_ended_is_seen_from_its_code(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: int, state: str, line: str
+) -> None:
+    async def started(*_: object, **__: object) -> Any:
+        process = AsyncMock(pid=0, returncode=code)
+        process.communicate.return_value = b"", "сказано\n".encode()
+        return process
+
+    monkeypatch.setattr(os, "killpg", lambda *_: None)
+    monkeypatch.setattr(asyncio, "create_subprocess_exec", started)
+    assert finished(run((), tmp_path, 9.0)) == {"state": state, "lines": [line]}

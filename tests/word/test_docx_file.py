@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import io
 import re
 import zipfile
@@ -11,13 +12,15 @@ import lxml.html
 import pytest
 from click.testing import CliRunner
 from docx import Document
+from docx.shared import Emu
 from lxml import etree
 
 from reports.cli import main
 from reports.shared.resources import samples_dir
-from reports.word import pictures
-from reports.word.markup import bookmark_name
-from reports.word.outline import picture
+from reports.word import pictures, tables
+from reports.word.inline import Lines
+from reports.word.markup import Bookmarks, bookmark_name
+from reports.word.outline import _glyph, outlined, picture
 from tests.word.docx_samples import NAME, W, department, docx_of, page_of, part, text_of
 
 pytestmark = pytest.mark.xdist_group(NAME)  # the process that makes the file
@@ -177,3 +180,54 @@ def test_a_drawing_that_stands_twice_is_kept_once():
     with zipfile.ZipFile(file) as parts:
         names = [name for name in parts.namelist() if name.startswith("word/media")]
     assert len(drawn) == len(names) == len(set(names)) == 2  # a PNG and an SVG
+
+
+@pytest.mark.parametrize(("widest_mm", "size_mm"), [(160, (90, 30)), (60, (60, 20))])
+def test_a_figure_is_as_wide_as_on_the_page_and_no_wider_than_the_text(widest_mm, size_mm):
+    svg = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 300 100" width="300" height="100"/>'
+    source = base64.b64encode(svg.encode()).decode()
+    image = lxml.html.fromstring(
+        f'<img style="width:90mm" src="data:image/svg+xml;base64,{source}"/>'
+    )
+    drawn = pictures.Pictures(Document()).figure(image, widest_mm)
+    sizes = drawn.xpath("//*[local-name()='extent' or local-name()='ext'][@cx]")
+    assert len(sizes) == 2
+    for size in sizes:
+        assert tuple(Emu(int(size.get(key))).mm for key in ("cx", "cy")) == size_mm
+
+
+def test_columns_are_as_wide_as_on_the_page():
+    source = lxml.html.fromstring(
+        '<table><colgroup><col style="width:25%"/><col style="width:75%"/></colgroup>'
+        "<tbody><tr><td>a</td><td>b</td></tr></tbody></table>"
+    )
+    made = tables.table(Lines(Bookmarks()), source, 4000)
+    widths = [e.get(f"{W}w") for name in ("gridCol", "tcW") for e in made.iter(f"{W}{name}")]
+    assert widths == ["1000", "3000"] * 2
+
+
+def test_headings_stand_in_the_outline_at_their_levels():
+    with zipfile.ZipFile(io.BytesIO(docx_of(NAME))) as parts:
+        styles = etree.fromstring(parts.read("word/styles.xml"))
+    levels = {
+        style.find(f"{W}name").get(f"{W}val"): level.get(f"{W}val")
+        for style in styles.iter(f"{W}style") for level in style.iter(f"{W}outlineLvl")
+    }  # fmt: skip
+    headings = {name: level for name, level in levels.items() if name.startswith("heading ")}
+    assert len(headings) > 1
+    assert all(int(name[-1]) == int(level) + 1 for name, level in headings.items())
+
+
+@pytest.mark.parametrize(("pages", "shown"), [(77, "77"), (0, "")])
+def test_the_last_page_is_told_as_it_was_set(pages, shown):
+    source = lxml.html.fromstring('<p><a href="#report-end">5</a></p>')
+    made = Lines(Bookmarks(), pages=pages).runs(source)
+    assert "".join(e.text or "" for run in made for e in run.iter(f"{W}t")) == shown
+
+
+def test_letters_of_a_figure_stand_one_after_another():
+    """As far apart as the face has them: each letter begins where the last one ends."""
+    made = outlined('<svg xmlns="http://www.w3.org/2000/svg"><text font-size="8">ll</text></svg>')
+    places = [float(x) for x in re.findall(r"M([\d.]+) ", made)]
+    advance = _glyph("normal", "normal", "normal", "l")[1]
+    assert places[1] - places[0] == pytest.approx(8 * advance, abs=0.02)

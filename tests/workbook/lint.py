@@ -36,7 +36,7 @@ _GUARD = re.compile(r"\b0\.0{6,}1\b|\b9999\b|\bMAX\(1,ABS\(")
 _LINES = ("19050", "57150")  # EMU: 1.5 pt, and 4.5 pt for worn depths
 
 # Literals that the compiler writes: scales of units, degrees and the two of a Fourier sum,
-# the next row of an interpolation, digits of ROUND.
+# the one of a rank, digits of ROUND.
 COMPILED = {0.0, 1.0, 2.0, 180.0, *SCALES.values(), *(round(1 / x) for x in SCALES.values())}
 LITERAL = re.compile(r"(?<![A-Za-z0-9_.$])(\d+(?:\.\d*)?(?:E[+-]?\d+)?)(?![A-Za-z0-9_(.])")
 _NAME = re.compile(r"([A-Z][A-Z0-9.]*)\(")

@@ -63,7 +63,7 @@ def listings(path: Path) -> list[Listing]:
         hint = "проверьте имя и путь"
         raise refused(path, f"файл не читается: {reason(error)}", hint) from None
     if len(data) > MAX_BYTES:
-        raise refused(path, "файл больше 2 МБ", "это не список группы")
+        raise refused(path, f"файл больше {MAX_BYTES // 10**6} МБ", "это не список группы")
     kind = kind_of(data)
     if kind in (ARCHIVE, OFFICE):
         return _sheets(path, data)

@@ -106,7 +106,8 @@ def load_register(folder: Path) -> Register:
     path = folder / FILE if folder.is_dir() else folder
     try:
         if path.stat().st_size > MAX_BYTES:
-            raise InputError(Problem(str(path), "файл больше 50 МБ", "это не реестр kshm"))
+            what = f"файл больше {MAX_BYTES // 10**6} МБ"
+            raise InputError(Problem(str(path), what, "это не реестр kshm"))
         data = json.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         hint = "укажите папку, которую сделала команда kshm issue"

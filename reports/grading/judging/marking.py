@@ -100,7 +100,7 @@ class Marker:
             return result
         result["properties"] = file_properties(package)
         self._grade(result, grid, match.book, package)
-        _score(result, self.register.rubric, submission.time)
+        score(result, self.register.rubric, submission.time)
         return result
 
     def assignment(self, book: Issued) -> tuple[Assignment, Layout]:
@@ -290,7 +290,8 @@ def altered(student: Student, original: Grid | None) -> list[str]:
     return found
 
 
-def _score(result: Result, rubric: Rubric, time: datetime | None) -> None:
+def score(result: Result, rubric: Rubric, time: datetime | None) -> None:
+    """The points of a result from those of its lines, and what takes them away."""
     lines = result["items"]
     paid = [line for line in lines if line["of"] > 0]
     filled = [line for line in paid if line["verdict"] != EMPTY]

@@ -26,7 +26,6 @@ from reports.shared.files import reason
 
 MAX_BYTES = 20_000_000
 FEEDBACK = "feedback.html"
-_EPOCH = (1980, 1, 1, 0, 0, 0)
 _HEADS = {
     "id": ("identifier", "идентификатор"),
     "grade": ("grade", "оценка"),
@@ -198,6 +197,6 @@ def feedback_zip(rows: Sequence[dict[str, Any]], pages: Path) -> bytes:
             name = row["student"].replace("_", " ").replace("/", " ")
             folder = f"{name}_{result.moodle_id}_assignsubmission_file_"
             data = (pages / row["page"]).read_bytes()
-            info = zipfile.ZipInfo(f"{folder}/{FEEDBACK}", _EPOCH)
+            info = zipfile.ZipInfo(f"{folder}/{FEEDBACK}")  # without a date: the same every time
             archive.writestr(info, data, zipfile.ZIP_DEFLATED)
     return stream.getvalue()

@@ -22,6 +22,9 @@ PEAK_DEG = {"petrol": 12.0, "diesel": 10.0}
 JOIN_DEG = {"petrol": 40.0, "diesel": 45.0}
 _SOURCE = Meta("Индикаторная диаграмма", choices=SOURCES, structural=True)
 _ROUNDED = Meta("Индикаторная диаграмма", choices={"rounded": SOURCES["rounded"]}, structural=True)
+# The same in every diagram that has them, whatever the point z is called there.
+_P_Z = ("p_z", MPA, 0.2, 60)
+_RHO = ("Степень предварительного расширения", "ρ", NONE, 1, 6)
 
 
 class _Ambient(Strictly):
@@ -36,10 +39,10 @@ class _Pressures(_Ambient):
 
     intake_pressure_mpa: float = number("Давление впуска", "p_a", MPA, 0.01, 3)
     residual_pressure_mpa: float = number("Давление остаточных газов", "p_r", MPA, 0.01, 3)
-    max_pressure_mpa: float = number("Максимальное давление цикла", "p_z", MPA, 0.2, 60)
+    max_pressure_mpa: float = number("Максимальное давление цикла", *_P_Z)
     compression_exponent: float = number("Показатель политропы сжатия", "n_1", NONE, 1, 1.7)
     expansion_exponent: float = number("Показатель политропы расширения", "n_2", NONE, 1, 1.7)
-    preexpansion_ratio: float = number("Степень предварительного расширения", "ρ", NONE, 1, 6)
+    preexpansion_ratio: float = number(*_RHO)
 
 
 class _Ignition(_Ambient):
@@ -111,10 +114,8 @@ class RoundedGasSection(_Ignition, _Pressures, _Kind):
     """[gas], source = "rounded": c', c'', z_д, b', b'' and r of figure 22 joined smoothly."""
 
     source: Annotated[Literal["rounded"], _ROUNDED]
-    max_pressure_mpa: float = number(
-        "Расчётное давление конца сгорания в точке z", "p_z", MPA, 0.2, 60
-    )
-    preexpansion_ratio: float = number("Степень предварительного расширения", "ρ", NONE, 1, 6, 1.0)
+    max_pressure_mpa: float = number("Расчётное давление конца сгорания в точке z", *_P_Z)
+    preexpansion_ratio: float = number(*_RHO, 1.0)
     tdc_rise: float = number(
         "Давление в точке c'' к давлению конца сжатия", "p_c''/p_c", NONE, 1, 2, 1.2
     )

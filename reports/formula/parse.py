@@ -5,6 +5,8 @@ from __future__ import annotations
 import ast
 from functools import lru_cache
 
+from kshm.nomenclature.quantity import UNITS
+
 # Row-wise functions and the number of their arguments (least, most).
 FUNCTIONS: dict[str, tuple[int, int]] = {
     "sin": (1, 1), "cos": (1, 1), "tan": (1, 1), "asin": (1, 1), "acos": (1, 1),
@@ -26,7 +28,7 @@ FUNCTIONS: dict[str, tuple[int, int]] = {
 AGGREGATES = frozenset({"col_max", "col_min", "col_mean", "col_sum", "col_last"})
 
 # Scale factors between SI and the units of the tables; invisible in printed formulas.
-SCALES: dict[str, float] = {"MPa": 1e6, "kN": 1e3, "mm": 1e-3, "kW": 1e3, "dm3": 1e-3}
+SCALES = {unit: UNITS[unit].si for unit in ("MPa", "kN", "mm", "kW", "dm3")}
 SCALE_FUNCTIONS = frozenset(f"{way}_{unit}" for unit in SCALES for way in ("to", "of"))
 
 # Values of the following row of a column (in the last row the row itself), of the row before

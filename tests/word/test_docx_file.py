@@ -14,10 +14,12 @@ from docx import Document
 from lxml import etree
 
 from reports.cli import main
-from reports.shared.resources import samples_dir
+from reports.document.page.style import Style
+from reports.shared.resources import samples_dir, templates_dir
 from reports.word import pictures
 from reports.word.markup import bookmark_name
 from reports.word.outline import picture
+from reports.word.styles import looks
 from tests.word.docx_samples import NAME, W, department, docx_of, page_of, part, text_of
 
 pytestmark = pytest.mark.xdist_group(NAME)  # the process that makes the file
@@ -177,3 +179,14 @@ def test_a_drawing_that_stands_twice_is_kept_once():
     with zipfile.ZipFile(file) as parts:
         names = [name for name in parts.namelist() if name.startswith("word/media")]
     assert len(drawn) == len(names) == len(set(names)) == 2  # a PNG and an SVG
+
+
+def test_lines_of_the_assignment_are_as_far_apart_as_in_the_pdf():
+    """Else it takes two sheets where the PDF's takes one."""
+    css = (templates_dir() / "report" / "report.css.j2").read_text(encoding="utf-8")
+    points, factor = re.search(
+        r"\.task \{ font-size: (\d+)pt; line-height: ([\d.]+);", css
+    ).groups()
+    task = looks(Style())["Task"]
+    assert task.size == float(points)
+    assert task.line * 1.149 * task.size == pytest.approx(float(factor) * float(points), rel=0.01)

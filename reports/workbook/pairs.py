@@ -33,7 +33,8 @@ def conditions(
     main, further = _by_key(model.inputs)
     for number_, own in ((1, main), *further.items()):
         suffix = regime_suffix(number_) if number_ > 1 else ""
-        fields = {**main, **own}
+        shared = {key: found for key, found in main.items() if not suffix or not _of_regime(key)}
+        fields = {**shared, **own}
         for pair in PAIRS:
             if not is_of(pair, model.input.engine.strokes, fields.get):
                 continue
@@ -44,7 +45,8 @@ def conditions(
             if less is None or more is None or not (less.own or more.own):
                 continue
             cells = (*less.fields, *more.fields)
-            if suffix and not any(field.path[0] == "regimes" for field in cells):
+            # A further regime is held to its own gas; what rests on a speed rests on the first.
+            if suffix and not any(field.path[2:3] == ("gas",) for field in cells):
                 continue
             sign = "<" if pair.strict else "<="
             title = f"{pair.title}, режим {number_}" if suffix else pair.title
@@ -63,6 +65,11 @@ def _by_key(inputs: Sequence[Field]) -> tuple[_Fields, dict[int, _Fields]]:
         key = ".".join(part for part in path if isinstance(part, str))
         found[regime][key].append(item)
     return found.pop(1), {key: dict(fields) for key, fields in found.items()}
+
+
+def _of_regime(key: str) -> bool:
+    """Whether each regime has this key for itself."""
+    return key.startswith(("regime.", "gas."))
 
 
 @dataclass(frozen=True, slots=True)

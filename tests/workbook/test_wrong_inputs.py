@@ -24,7 +24,7 @@ from reports.workbook.verdict import ODD
 from reports.workbook.what_if import SHEET
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample, sample_names
-from tests.workbook.made import book, coarse, coarse_model, coarse_opened, model
+from tests.workbook.made import book, coarse, coarse_model, coarse_opened, coarse_values, model
 from tools.referees.cells import formula_cells, row_and_column, stripped
 
 NAME = "two-stroke"
@@ -178,6 +178,14 @@ def test_values_that_contradict_each_other_turn_red_as_the_door_refuses_them(nam
         engine.evaluate_all()
         told.add(pair)
     assert len(told) > 2
+
+
+def test_a_regime_is_held_to_its_own_gas() -> None:
+    """Combustion begins at a given angle in the first regime, after a delay in the others."""
+    made = coarse_model("gots-regimes")
+    found = conditions(made, Layout.of(made), coarse_values("gots-regimes").scalars)
+    delays = [c.pair.warning for c in found if c.pair.less == "gas.ignition_delay_deg"]
+    assert delays == [True, False, False]
 
 
 def test_what_is_odd_at_the_start_is_so_in_the_caches() -> None:

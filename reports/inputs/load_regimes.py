@@ -8,6 +8,7 @@ from typing import Any
 
 from reports.inputs import messages
 from reports.inputs.checks.gas import check_gas
+from reports.inputs.checks.pairs import check_pairs
 from reports.inputs.findings import Finding, Path, Values
 from reports.inputs.meta import Strictly
 from reports.inputs.sections.gas import CycleGasSection
@@ -55,6 +56,7 @@ def checked(values: Values, own: Values) -> Iterator[Finding]:
     both = replace(own, sections={**values.sections, **own.sections})
     both.sections.pop("cycle", None)
     yield from check_gas(both)
+    yield from (found for found in check_pairs(both) if found.path[0] in own.sections)
 
 
 def joined(regime: Strictly, gas: Strictly) -> RegimeSection | None:

@@ -154,7 +154,7 @@ def own_engine(
     power = usual.effective_mpa * swept * speed / (30 * strokes * 1e6)  # MPa·mm³/s = 1e-3 W
     notes = {
         "geometry.bore_mm": f"при p_e = {number_text(usual.effective_mpa)} МПа и Sn/30 ≈ "
-        f"{number_text(usual.piston_speed)} м/с; впишите свой",
+        f"{number_text(round(stroke * speed / 30000, 1))} м/с; впишите свой",
         "geometry.stroke_mm": f"обычное S/D = {number_text(usual.stroke_bore)}; впишите свой",
         "geometry.rod_length_mm": f"обычное λ = {number_text(usual.lam)}",
         "regime.mechanical_efficiency": "обычное",

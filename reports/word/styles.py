@@ -15,6 +15,7 @@ FONT = "Times New Roman"
 SIZES = ("", "dense", "tiny")
 DASH, HEADINGS = 1, 2  # numbers of the lists
 _LINE = 240  # of an interval of one line
+_HIGH = 1.15  # of a line of Times New Roman over its size
 _TIGHT = 1.3  # interval of headings and captions
 _CELL = 1.1
 
@@ -91,7 +92,8 @@ def looks(style: Style) -> dict[str, Look]:
         "CoverKind": Look("Вид работы", "Cover", before=128),
         "CoverPeople": Look("Исполнители", "Cover", jc="left", left=round(0.45 * width),
                             before=10),
-        "Task": Look("Задание", line=1.25, after=6, size=13),
+        # Lines as far apart as the PDF's: Word multiplies the letters' own height.
+        "Task": Look("Задание", line=1.25 / _HIGH, after=6, size=13),
         "TaskCentre": Look("Задание по центру", "Task", jc="center"),
         "TaskHead": Look("Задание: заголовок", "Task", jc="center", bold=True, before=23, after=17),
         "TaskApprove": Look("Задание: утверждаю", "Task", left=round(0.55 * width), before=14),

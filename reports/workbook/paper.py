@@ -21,6 +21,7 @@ from reports.tables.gas.cycle_speed import RANGE_SHEET
 from reports.workbook.layout import (
     FIRST_ROW,
     HEADER_ROW,
+    INPUT_SHEET,
     NUMBER_ROW,
     SOURCE_COLUMN,
     VALUE_COLUMN,
@@ -39,6 +40,7 @@ from reports.workbook.places import (
     wrap_across,
 )
 from reports.workbook.sheets import NARROW, SOURCE_WIDTH, SYMBOL_WIDTH, TITLE_WIDTH
+from reports.workbook.styles import HEADER
 
 _LIST = {
     1: TITLE_WIDTH, 2: SYMBOL_WIDTH, VALUE_COLUMN: 14, 4: 11, SOURCE_COLUMN: SOURCE_WIDTH, 6: 30,
@@ -47,6 +49,7 @@ _SUBTITLE_LETTER = 1.18  # in digits of a column: bold and larger
 _THIN, _HEADER_LETTER = 0.65, 1.25  # the same of thin letters and of others of a header
 _HEADER_LINE = 16  # pt
 _CORNER = 10.5  # width of «Величина»
+_NAME = 34  # of a text among the numbers of a record at most
 _TABLE_LINES = 3  # of a table's header at least
 _THIN_LETTERS, _EDGES = frozenset(" ()ijlt1/·.,'"), 1.5
 _BESIDE, _WIDEST = (34, 10, 11, 8, 20), 64  # of a list beside a table
@@ -74,6 +77,8 @@ def set_widths(sheet: Worksheet, model: Model, layout: Layout, values: Values) -
         _widths(sheet, {i: wide.get(i, 12) for i in range(1, last + 1)})
         _widen(sheet, blocks, layout, values)
         _raise_labels(sheet, blocks, layout)
+        if sheet.title == INPUT_SHEET:
+            _fit_inputs(sheet, model, layout)
         return
     sheet.freeze_panes = Cell(sheet.title, FIRST_ROW, 2).coordinate
     sheet.print_title_rows = f"{HEADER_ROW - 1}:{NUMBER_ROW}"
@@ -167,14 +172,50 @@ def _raise_labels(sheet: Worksheet, blocks: Sequence[Block], layout: Layout) -> 
         if not isinstance(block, Grid):
             continue
         first = layout.cells[next(c for c in block.rows[0].cells if c is not None).key].column
-        labels = list(enumerate(block.labels, first))
+        labels = dict(enumerate(block.labels, first))
         _hold(sheet, layout.places[block.id].column, _CORNER)
-        for index, label in labels:
-            _hold(sheet, index, max(map(_word, label.split()), default=0.0))
-        lines = max(_lines(label, column_px(sheet, index) / DIGIT) for index, label in labels)
-        row = sheet.row_dimensions[layout.places[block.id].row]
-        if lines > 1:
-            row.height = max(row.height or 0, _HEADER_LINE * lines)
+        _hold_words(sheet, labels)
+        _raise_row(sheet, layout.places[block.id].row, labels)
+
+
+def _fit_inputs(sheet: Worksheet, model: Model, layout: Layout) -> None:
+    """Headers of the lists of records whole; a person's long texts end before the keys."""
+    headers: dict[int, dict[int, str]] = {}
+    for item in model.inputs:
+        place = layout.cells[item.name]
+        text = str(sheet.cell(place.row, place.column).value)
+        if item.listed:
+            header = sheet.cell(place.row - 1, place.column)
+            if header.style == HEADER:
+                headers.setdefault(header.row, {})[header.column] = str(header.value)
+            if sheet.cell(place.row, place.column + 1).value is not None:
+                _hold(sheet, place.column, min(room_of(len(text)), _NAME))
+        elif isinstance(item.value, str):
+            _wrap_text(sheet, place, text)
+    for labels in headers.values():
+        _hold_words(sheet, labels)
+    for row, labels in headers.items():  # when no list widens a column any more
+        _raise_row(sheet, row, labels)
+
+
+def _wrap_text(sheet: Worksheet, place: Cell, text: str) -> None:
+    room = sum(column_px(sheet, i) for i in range(VALUE_COLUMN, SOURCE_COLUMN + 1)) / DIGIT
+    if room_of(len(text)) > room:
+        wrap_across(sheet, place.row, VALUE_COLUMN, SOURCE_COLUMN)
+
+
+def _hold_words(sheet: Worksheet, labels: Mapping[int, str]) -> None:
+    """Columns in which no word of a header is broken."""
+    for index, label in labels.items():
+        _hold(sheet, index, max(map(_word, label.split()), default=0.0))
+
+
+def _raise_row(sheet: Worksheet, row: int, labels: Mapping[int, str]) -> None:
+    """A row in which headers have all their lines."""
+    lines = max(_lines(label, column_px(sheet, index) / DIGIT) for index, label in labels.items())
+    about = sheet.row_dimensions[row]
+    if lines > 1:
+        about.height = max(about.height or 0, _HEADER_LINE * lines)
 
 
 def _word(word: str) -> float:

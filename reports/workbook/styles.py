@@ -45,6 +45,11 @@ def wrong() -> dict[str, Any]:
     return {"font": Font(bold=True, color="9C0006"), "fill": PatternFill(bgColor="FFC7CE")}
 
 
+def odd() -> dict[str, Any]:
+    """How a conditional format shows what is only unusual."""
+    return {"font": Font(color="7F6000"), "fill": PatternFill(bgColor="FFEB9C")}
+
+
 def excel_format(quantity: Quantity) -> str:
     """Number format of the cells of a quantity."""
     digits = quantity.digits

@@ -6,7 +6,7 @@ All three stand on the sheet of checks; the first sheet says the gravest.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import groupby
 
 from openpyxl.formatting.rule import CellIsRule, FormulaRule
@@ -35,12 +35,16 @@ from reports.workbook.layout import (
     quoted,
 )
 from reports.workbook.links import link
+from reports.workbook.pairs import Condition, conditions
 from reports.workbook.sheets import CacheValues, Writer
 
 GOOD, BAD = "все выполнены", "не все, см. «Проверки»"
 BEYOND, UNKNOWN = "вне пределов, см. «Проверки»", "не посчитаны, см. «Проверки»"
-_BEYOND = "Строк вне пределов"
-_WITHIN = f"{INPUT_SHEET}: сколько строк вне допустимых пределов"
+ODD, _UNKNOWN = "необычно", "—"
+_BEYOND = "Строки: 1 — вне пределов, 2 — необычно"
+_WITHIN = f"{INPUT_SHEET}: сколько строк вне пределов или противоречит другим"
+_WRONG_ROW, _ODD_ROW = 1, 2
+_Tests = Mapping[int, Sequence[tuple[Condition, str]]]
 
 
 def check_keys(writer: Writer) -> list[str]:
@@ -62,14 +66,17 @@ def write_verdict(book: Workbook, model: Model, writer: Writer) -> tuple[str, st
     areas = _areas(writer.caches) | {
         first.sheet: column_range(first.sheet, VALUE_COLUMN, first.row, last.row)
     }
-    beyond = _limits(book[INPUT_SHEET], model, writer)
+    held = list(conditions(model, layout, values))
     sheet = book[first.sheet]
     row = sheet.max_row + 2
+    in_order = _in_order(sheet, row + 2, held, writer)
+    beyond = _limits(book[INPUT_SHEET], model, writer, in_order)
     sheet.cell(row, TITLE_COLUMN, "Исходные данные и листы").style = styles.SUBTITLE
     within = _within(sheet, row + 1, beyond, writer)
     titles = [title for title in book.sheetnames if title in areas]
-    sheets = _without_errors(sheet, row + 2, {title: areas[title] for title in titles}, writer)
-    colour_verdicts(sheet, row + 1, row + 1 + len(titles), YES, NO)
+    own = {title: areas[title] for title in titles}
+    sheets = _without_errors(sheet, row + 2 + len(held), own, writer)
+    colour_verdicts(sheet, row + 1, row + 1 + len(held) + len(titles), YES, NO)
     good = all(values[key] == YES for key in keys)
     return (
         f'=IF(COUNTIF({sheets},"{NO}")>0,"{UNKNOWN}",'
@@ -83,11 +90,26 @@ def _within(sheet: Worksheet, row: int, beyond: str, writer: Writer) -> str:
     """The check of the input data; the address of its verdict."""
     link(sheet, Cell(sheet.title, row, TITLE_COLUMN), _WITHIN, INPUT_SHEET)
     count = Cell(sheet.title, row, VALUE_COLUMN)
-    writer.formula(sheet, row, count.column, f"=SUM({beyond})", 0.0)
+    writer.formula(sheet, row, count.column, f"=COUNTIF({beyond},{_WRONG_ROW})", 0.0)
     sheet.cell(row, count.column).style = styles.FORMULA
     place = Cell(sheet.title, row, UNIT_COLUMN)
     _say(sheet, place, f'=IF({count.coordinate}=0,"{YES}","{NO}")', writer)
     return place.absolute
+
+
+def _in_order(sheet: Worksheet, row: int, held: Sequence[Condition], writer: Writer) -> _Tests:
+    """A verdict for each pair that must be in order; by rows of input data what tests it."""
+    found: dict[int, list[tuple[Condition, str]]] = defaultdict(list)
+    for at, condition in enumerate(held, row):
+        link(sheet, Cell(sheet.title, at, TITLE_COLUMN), condition.title, INPUT_SHEET)
+        wrong, place = ODD if condition.pair.warning else NO, Cell(sheet.title, at, UNIT_COLUMN)
+        told = f'IF({condition.formula},"{YES}","{wrong}")'
+        formula = f'=IF(ISERROR({condition.formula}),"{_UNKNOWN}",{told})'
+        _say(sheet, place, formula, writer, YES if condition.holds else wrong)
+        for item in condition.fields:
+            test = f'{place.absolute}<>"{wrong}"'
+            found[writer.layout.cells[item.name].row].append((condition, test))
+    return found
 
 
 def _without_errors(sheet: Worksheet, row: int, areas: dict[str, str], writer: Writer) -> str:
@@ -107,8 +129,8 @@ def colour_verdicts(sheet: Worksheet, first: int, last: int, good: str, bad: str
     sheet.conditional_formatting.add(place, CellIsRule("equal", [f'"{bad}"'], **styles.wrong()))
 
 
-def _say(sheet: Worksheet, place: Cell, formula: str, writer: Writer) -> None:
-    writer.formula(sheet, place.row, place.column, formula, YES)
+def _say(sheet: Worksheet, place: Cell, formula: str, writer: Writer, said: str = YES) -> None:
+    writer.formula(sheet, place.row, place.column, formula, said)
     sheet.cell(place.row, place.column).style = styles.CHECK
 
 
@@ -125,8 +147,8 @@ def _areas(caches: CacheValues) -> dict[str, str]:
     return found
 
 
-def _limits(sheet: Worksheet, model: Model, writer: Writer) -> str:
-    """A folded column that counts rows beyond their limits; its range."""
+def _limits(sheet: Worksheet, model: Model, writer: Writer, in_order: _Tests) -> str:
+    """A folded column that says which rows are wrong, and which odd; its range."""
     layout = writer.layout
     rows: dict[int, list[Field]] = defaultdict(list)
     for item in model.inputs:
@@ -135,8 +157,14 @@ def _limits(sheet: Worksheet, model: Model, writer: Writer) -> str:
     column = 1 + max(KEY_COLUMN, *(layout.cells[item.name].column for item in model.inputs))
     sheet.cell(FIRST_ROW - 1, column, _BEYOND).style = styles.HEADER
     for row, items in rows.items():
-        tests = ",".join(_tests(items, layout))
-        writer.formula(sheet, row, column, f"=IF(AND({tests}),0,1)", 0.0)
+        tests, usual = list(_tests(items, layout)), list[str]()
+        state = 0.0
+        for condition, test in in_order.get(row, ()):
+            (usual if condition.pair.warning else tests).append(test)
+            state = state if condition.holds else _ODD_ROW
+        other = f"IF(AND({','.join(usual)}),0,{_ODD_ROW})" if usual else "0"
+        formula = f"=IF(AND({','.join(tests)}),{other},{_WRONG_ROW})"
+        writer.formula(sheet, row, column, formula, state)
         sheet.cell(row, column).style = styles.HELPER
     letter = get_column_letter(column)
     sheet.sheet_properties.outlinePr.summaryRight = False
@@ -145,8 +173,9 @@ def _limits(sheet: Worksheet, model: Model, writer: Writer) -> str:
     marked = [area(Cell("", min(rows), 1), Cell("", max(rows), 1))]
     marked += [layout.cells[i.name].coordinate for found in rows.values() for i in found
                if not i.listed]  # fmt: skip
-    rule = FormulaRule([f"${letter}{min(rows)}=1"], **styles.wrong())
-    sheet.conditional_formatting.add(" ".join(marked), rule)
+    for state, look in ((_WRONG_ROW, styles.wrong()), (_ODD_ROW, styles.odd())):
+        rule = FormulaRule([f"${letter}{min(rows)}={state}"], **look)
+        sheet.conditional_formatting.add(" ".join(marked), rule)
     return column_range(sheet.title, column, min(rows), max(rows))
 
 

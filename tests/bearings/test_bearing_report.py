@@ -12,11 +12,14 @@ from kshm import solve
 from kshm.mechanics import fatigue, oil_film
 from kshm.mechanics.oil_balance import BearingArrays
 from reports.document.report import report_page
+from reports.inputs.fields import to_mapping
+from reports.inputs.load import load_mapping
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.errors import InputError
 from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from tests.bearings.files import tractor
+from tests.conftest import sample
 
 
 def one(*values: float) -> BearingArrays:
@@ -86,6 +89,20 @@ def test_the_heat_is_carried_away() -> None:
 def test_what_contradicts_itself_is_refused(changes: dict[str, Any], said: str) -> None:
     with pytest.raises(InputError, match=re.escape(said)):
         tractor(30, **changes)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"torsion_limit_mpa": 300.0, "bending_limit_mpa": 200.0}, "предел при кручении 300 МПа"),
+        ({"bending_limit_mpa": 700.0, "tensile_mpa": 600.0}, "не меньше предела прочности 600"),
+        ({"oil_temperature_c": 20.0}, "холоднее, чем перед подшипником"),
+    ],
+)
+def test_what_is_odd_about_another_value_is_told(changes: dict[str, Any], said: str) -> None:
+    raw = to_mapping(sample("d-240-bearings"))
+    raw["bearings"] |= changes
+    assert any(said in str(warning) for warning in load_mapping(raw, source="").warnings)
 
 
 def page(**bearings: Any) -> str:

@@ -287,4 +287,10 @@ def test_an_articulated_rod_stands_beside_no_other_on_the_pin():
     text = text_of(engine("articulated"))
     assert "главный шатун цилиндра 1, на нём висит прицепной цилиндра" in text
     assert "массы m2 главного шатуна" in text and "расстояние между ними вдоль" not in text
-    assert "расстояние между ними вдоль шейки не учтено" in text_of(engine("v_six"))
+    assert "расстояние между ними вдоль шейки не учитывается" in text_of(engine("v_six"))
+
+
+def test_vectors_of_inertia_leave_out_the_offset_and_say_so():
+    report = {"chapters": ["reference"]}
+    text = text_of(in_line([1, 3, 2], geometry={"crank_offset_mm": 9.0}, report=report))
+    assert re.search(r"jпk в эти векторы не входит: его сила составляет λk = 0,06\d", text)

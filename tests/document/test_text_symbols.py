@@ -106,6 +106,14 @@ def test_what_text_cannot_show_stays_as_it_is(tex, plain, text):
             'a.toml: masses.rod_kg: <span class="nb"><i>m</i><sub>ш.ш</sub>/<i>F</i><sub>п</sub>'
             '</span> = 563 <span class="nb">кг/м<sup>2</sup></span> необычно',
         ),
+        (
+            "обычно n_2 меньше n_1",
+            'обычно <span class="nb"><i>n</i><sub>2</sub></span> меньше '
+            '<span class="nb"><i>n</i><sub>1</sub></span>',
+        ),
+        ("Δφ_з = 30°", '<span class="nb">Δ<i>φ</i><sub>з</sub></span> = 30°'),
+        ("τ_−1 МПа", '<span class="nb"><i>τ</i><sub>−1</sub></span> МПа'),
+        ("cycle.xi_z, xi_z, x_5_mm, h2_co_ratio", "cycle.xi_z, xi_z, x_5_mm, h2_co_ratio"),
         ("stroke_mm = 2r, x__ = <b>", "stroke_mm = 2r, x__ = &lt;b&gt;"),
     ],
 )

@@ -18,6 +18,7 @@ from reports.inputs.own_engine import USUAL, own_engine, table_masses
 from reports.inputs.own_file import LINE, file_text
 from reports.inputs.own_similar import alternative
 from reports.inputs.to_si.engine import engine_and_cycle
+from reports.inputs.units import number_text
 from reports.shared.errors import InputError
 from reports.shared.resources import samples_dir
 from tests import cover
@@ -277,3 +278,10 @@ def test_masses_of_a_throw_are_within_the_table_they_are_taken_from(kind):
         shaft = table_masses("inline", kind, bore, bore)[1]
         area = math.pi * (bore / 1000) ** 2 / 4
         assert low <= (shaft.pin + 2 * shaft.web) / area <= high, bore
+
+
+@pytest.mark.parametrize("options", [{}, {"power_kw": 106.0, "speed_rpm": 5200.0}])
+def test_the_note_at_the_bore_tells_this_engines_piston_speed(options):
+    made = own_engine(4, **options)
+    speed = made.data["geometry"]["stroke_mm"] * made.data["regime"]["speed_rpm"] / 30000
+    assert f"Sn/30 ≈ {number_text(round(speed, 1))} м/с" in made.notes["geometry.bore_mm"]

@@ -98,6 +98,38 @@ def test_every_throw_of_a_train_that_is_given_in_lists_is_named(name, factor):
         assert any(f"torsion.{key}" in line for line in found), (key, found)
 
 
+# Keys of a shaft that no sample gives, in values that are usual.
+FURTHER = {
+    "bearings": {
+        "main_clearance_min_mm": 0.07, "main_clearance_max_mm": 0.15, "pin_width_mm": 36.0,
+        "main_width_mm": 30.0, "hole_mm": 6.0, "viscosity_40_mpa_s": 90.0,
+        "viscosity_100_mpa_s": 9.0, "density_kg_m3": 860.0, "heat_j_kg_k": 2000.0,
+        "reserve_allowed": 1.6, "tensile_mpa": 800.0, "bending_limit_mpa": 350.0,
+        "torsion_limit_mpa": 200.0, "mean_bending": 0.16, "mean_torsion": 0.09, "fillet_mm": 4.0,
+        "pin_bore_mm": 25.0, "main_bore_mm": 20.0, "fillet_bending": 2.1, "fillet_torsion": 1.6,
+        "hole_bending": 2.3, "hole_torsion": 1.9, "sensitivity": 0.72, "size_factor": 0.7,
+        "surface_factor": 1.1, "safety_allowed": 2.2,
+    },
+    "torsion": {"main_bore_mm": 20.0, "pin_bore_mm": 25.0, "web_width_mm": 130.0,
+                "web_thickness_mm": 26.0, "damping_nms_rad": 1.5},
+}  # fmt: skip
+
+
+def test_a_factor_of_ten_is_named_of_what_no_sample_gives():
+    raw = sample("d-240-bearings")
+    for section, keys in FURTHER.items():
+        raw[section] = raw.get(section, {}) | keys
+    assert told(raw) == []
+    silent = [
+        (section, key, factor)
+        for section, keys in FURTHER.items()
+        for key, value in keys.items()
+        for factor in (10, 0.1)
+        if not told(changed(raw, ((section, key), value * factor)))
+    ]
+    assert silent == []
+
+
 def test_heating_by_hundreds_of_kelvin_is_named():
     raw = sample("cycle-petrol")
     path = ("cycle", "charge_heating_k")

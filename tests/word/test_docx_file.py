@@ -16,11 +16,13 @@ from docx.shared import Emu
 from lxml import etree
 
 from reports.cli import main
-from reports.shared.resources import samples_dir
+from reports.document.page.style import Style
+from reports.shared.resources import samples_dir, templates_dir
 from reports.word import pictures, tables
 from reports.word.inline import Lines
 from reports.word.markup import Bookmarks, bookmark_name
 from reports.word.outline import _glyph, outlined, picture
+from reports.word.styles import looks
 from tests.word.docx_samples import NAME, W, department, docx_of, page_of, part, text_of
 
 pytestmark = pytest.mark.xdist_group(NAME)  # the process that makes the file
@@ -231,3 +233,14 @@ def test_letters_of_a_figure_stand_one_after_another():
     places = [float(x) for x in re.findall(r"M([\d.]+) ", made)]
     advance = _glyph("normal", "normal", "normal", "l")[1]
     assert places[1] - places[0] == pytest.approx(8 * advance, abs=0.02)
+
+
+def test_lines_of_the_assignment_are_as_far_apart_as_in_the_pdf():
+    """Else it takes two sheets where the PDF's takes one."""
+    css = (templates_dir() / "report" / "report.css.j2").read_text(encoding="utf-8")
+    points, factor = re.search(
+        r"\.task \{ font-size: (\d+)pt; line-height: ([\d.]+);", css
+    ).groups()
+    task = looks(Style())["Task"]
+    assert task.size == float(points)
+    assert task.line * 1.149 * task.size == pytest.approx(float(factor) * float(points), rel=0.01)

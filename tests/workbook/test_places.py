@@ -12,18 +12,22 @@ from openpyxl import Workbook, load_workbook
 from openpyxl.worksheet.worksheet import Worksheet
 from PIL import ImageFont
 
-from reports.inputs.load import load_text
+from reports.inputs.fields import to_mapping
+from reports.inputs.load import load_mapping, load_text
 from reports.inputs.own_engine import own_engine
 from reports.inputs.own_file import file_text
 from reports.spec.blocks import Model
+from reports.spec.evaluation import Values
 from reports.tables.registry import build_model
 from reports.workbook import styles
 from reports.workbook.chapters import CHAPTERS, chapter_of, diagrams_of, heading, ordered, place_of
-from reports.workbook.layout import HEADER_ROW, INPUT_SHEET, Layout
+from reports.workbook.inputs import write_inputs
+from reports.workbook.layout import HEADER_ROW, INPUT_SHEET, KEY_COLUMN, Layout
 from reports.workbook.motion import SHEET
+from reports.workbook.paper import set_widths
 from reports.workbook.places import DIGIT, FOLD, SCREEN, Box, column_px, extent, row_px
 from reports.workbook.write import workbook_bytes
-from tests.conftest import sample_names
+from tests.conftest import sample, sample_names
 from tests.cover import charts, quantities, samples_with
 from tests.workbook.made import coarse_model, coarse_opened
 
@@ -164,6 +168,7 @@ def test_no_text_runs_under_a_chart(name: str) -> None:
 
 # Letters as wide as Times New Roman's, and as installed as matplotlib.
 _BOLD = ImageFont.truetype(matplotlib.get_data_path() + "/fonts/ttf/STIXGeneralBol.ttf", 440)
+_REGULAR = ImageFont.truetype(matplotlib.get_data_path() + "/fonts/ttf/STIXGeneral.ttf", 440)
 _PX, _EDGES, _LINE = 11 / 440 * 4 / 3, 5, 19  # of a header of 11 pt
 
 
@@ -195,7 +200,7 @@ def test_headers_of_twelve_throws_are_whole() -> None:
 
 
 def whole_headers(book: Workbook, made: Model) -> None:
-    for title in {block.sheet for block in made.blocks}:
+    for title in {INPUT_SHEET, *(block.sheet for block in made.blocks)}:
         sheet = book[title]
         for cell in itertools.chain.from_iterable(sheet.iter_rows()):
             width = column_px(sheet, cell.column)
@@ -218,3 +223,26 @@ def test_every_group_of_input_data_has_its_title(name: str) -> None:
         first = next(run)
         row = layout.cells[first.name].row - (2 if first.listed else 1)
         assert sheet.cell(row, 1).value == section
+
+
+def test_no_text_of_input_data_is_cut_by_the_next_cell() -> None:
+    """A long title by the key of its row, the name of a mass by its inertia."""
+    long, name = "Расчёт " + "очень " * 9 + "большого двигателя", "маховик со сцеплением"
+    raw = to_mapping(sample("gots-p3"))
+    raw["report"]["title"] = long
+    mass = {"inertia_kg_m2": 0.1, "stiffness_nm_rad": 1e6}
+    raw["torsion"] = {"masses": [{"name": name, **mass}, {"name": "вал", **mass}]}
+    made = build_model(load_mapping(raw, source="long").model)
+    layout, book = Layout.of(made), Workbook()
+    styles.add_styles(book)
+    sheet = book.create_sheet(INPUT_SHEET)
+    write_inputs(sheet, made, layout)
+    set_widths(sheet, made, layout, Values({}, {}))
+    title = layout.cells["report_title"]
+    (across,) = sheet.merged_cells.ranges
+    room = sum(column_px(sheet, i) for i in range(across.min_col, across.max_col + 1))
+    assert (across.min_row, across.max_col + 1) == (title.row, KEY_COLUMN)
+    assert _REGULAR.getlength(long) * _PX < room * (row_px(sheet, title.row) // _LINE)
+    masses = [item for item in made.inputs if item.value == name]
+    first = layout.cells[masses[0].name]
+    assert _REGULAR.getlength(name) * _PX < column_px(sheet, first.column)

@@ -44,7 +44,14 @@ def reference(chapter: Chapter) -> Markup:
         sketch=sketch,
         velocity=velocity,
         tables=tables,
+        left_out=_left_out(chapter),
     )
+
+
+def _left_out(chapter: Chapter) -> str:
+    """λk: what the offset's force is of the first order, beside the vectors; nothing without."""
+    value = chapter.terms.value
+    return fixed(abs(value("lam") * value("k_offset")), 3) if chapter.shape.offset else ""
 
 
 def _table(terms: Terms, table: str, count: int) -> TableBlock:

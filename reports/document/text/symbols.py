@@ -129,9 +129,10 @@ def _piece(node: Node, *, upright: bool) -> str:
     return {"'": "′", "-": MINUS}.get(token) or str(escape(token))
 
 
-# A symbol as the checks of an input write it, «m_j/F_п = 7702», and a unit with a slash.
-_INDEX = r"_[^\W_]+(?:\.[^\W_]+)*"
-_GIVEN = rf"(?P<symbol>(?<![\w.])[^\W\d_]{_INDEX}(?:/[^\W\d_](?:{_INDEX})?)?(?= = ))"
+# A symbol as the checks of an input write it, «m_j/F_п», and a unit with a slash.  A key of the
+# file has more letters before its «_», or a point.
+_INDEX = r"_−?[^\W_]+(?:\.[^\W_]+)*'*(?!\w)"
+_GIVEN = rf"(?P<symbol>(?<![\w.'])Δ?[^\W\d_]'?{_INDEX}(?:/[^\W\d_](?:{_INDEX})?(?= = ))?)"
 _OF_REMARK = re.compile(rf"{_GIVEN}|(?P<unit>[а-яА-Я·]+/[а-яА-Я·]+[²³]?)")
 
 

@@ -176,6 +176,19 @@ BANDS: tuple[Band, ...] = (
         for part in ("journal_roughness", "shell_roughness", "form")
     ),
     Band("bearings.supply_mpa", "", "давление масла", 0.12, 0.95, unit="МПа"),
+    Band("bearings.viscosity_40_mpa_s", "", "η_40", 25, 240, unit="мПа·с"),
+    Band("bearings.viscosity_100_mpa_s", "", "η_100", 3, 28, unit="мПа·с"),
+    Band("bearings.reserve_allowed", "", "[K_h]", 1, 9),
+    Band("bearings.torsion_limit_mpa", "", "τ_−1", 60, 580, unit="МПа"),
+    Band("bearings.mean_bending", "", "ψ_σ", 0.04, 0.38, zero=True),
+    Band("bearings.mean_torsion", "", "ψ_τ", 0.02, 0.19, zero=True),
+    Band("bearings.sensitivity", "", "q", 0.2, 1, zero=True),
+    Band("bearings.fillet_mm", "D", "ρ_г/D", 0.012, 0.115),
+    *(
+        Band(f"{section}.{part}_bore_mm", "D", "отверстие/D", 0.07, 0.69, zero=True)
+        for section in ("bearings", "torsion")
+        for part in ("pin", "main")
+    ),
     Band("bearings.hole_mm", "D", "d_м/D", 0.015, 0.14),
     Band("bearings.supply_c", "", "температура масла", 40, 120, unit="°C"),
     Band("torsion.peaks.speed_rpm", "n", "n/n_ном", 0.16, 1.55),

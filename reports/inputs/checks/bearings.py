@@ -1,4 +1,4 @@
-"""Checks of the [bearings] section against itself and the journals."""
+"""Checks of the [bearings] section: widths and roughness."""
 
 from __future__ import annotations
 
@@ -6,11 +6,9 @@ from collections.abc import Iterator, Sequence
 
 from kshm.engine.bearings import LEAST_WIDTH, MOST_WIDTH
 from reports.inputs.findings import Finding, Values
-from reports.inputs.sections.bearings import OILS
 from reports.inputs.units import number_text, span_text
 
 _WORDS = {"pin": "шатунного", "main": "коренного"}
-_RULES = (0.007, 0.014)  # of the root of the diameter, where a clearance is not given
 
 
 def check_bearings(values: Values) -> Iterator[Finding]:
@@ -19,14 +17,8 @@ def check_bearings(values: Values) -> Iterator[Finding]:
         return
     for part in ("pin", "main"):
         diameters, lengths = _sizes(values, part, "diameter"), _sizes(values, part, "length")
-        yield from _clearances(values, part, diameters)
         if diameters and lengths:
             yield from _widths(values, part, diameters, lengths)
-        bore = values.get("bearings", f"{part}_bore_mm")
-        if bore and diameters and bore >= min(diameters):
-            what = f"отверстие {number_text(bore)} мм не меньше {_WORDS[part]} диаметра"
-            yield Finding(("bearings", f"{part}_bore_mm"), what, "уменьшите отверстие")
-    yield from _oil(values)
     if not sum(values.get("bearings", f"{key}_um") or 0 for key in
                ("journal_roughness", "shell_roughness", "form")):  # fmt: skip
         what = "сумма неровностей и отклонений равна нулю: не с чем сравнить плёнку"
@@ -37,18 +29,6 @@ def _sizes(values: Values, part: str, size: str) -> Sequence[float]:
     each = values.get("crankshaft", f"{part}_{size}s_mm")
     one = values.get("crankshaft", f"{part}_{size}_mm")
     return tuple(each) if each else () if one is None else (one,)
-
-
-def _clearances(values: Values, part: str, diameters: Sequence[float]) -> Iterator[Finding]:
-    low, high = (values.get("bearings", f"{part}_clearance_{end}_mm") for end in ("min", "max"))
-    for diameter in diameters[:1]:
-        least = _RULES[0] * diameter**0.5 if low is None else low
-        most = _RULES[1] * diameter**0.5 if high is None else high
-        if least > most:
-            key = f"{part}_clearance_{'max' if high is not None else 'min'}_mm"
-            what = f"наименьший зазор {number_text(round(least, 4))} мм больше наибольшего "
-            what += f"{number_text(round(most, 4))} мм"
-            yield Finding(("bearings", key), what, "нужно clearance_min ≤ clearance_max")
 
 
 def _widths(
@@ -83,19 +63,3 @@ def _rods(values: Values) -> int:
         values.get("crankshaft", key) or () for key in ("throw_angles_deg", "firing_offsets_deg")
     )
     return max(1, len(offsets) // len(throws)) if throws else 1
-
-
-def _oil(values: Values) -> Iterator[Finding]:
-    grade = OILS.get(values.get("bearings", "oil") or "sae30")
-    cold, warm = (values.get("bearings", f"viscosity_{t}_mpa_s") for t in (40, 100))
-    if grade is None:
-        return
-    if (cold or grade.at_40) <= (warm or grade.at_100):
-        key = "viscosity_40_mpa_s" if cold is not None else "viscosity_100_mpa_s"
-        what = "вязкость при 40 °C не больше вязкости при 100 °C"
-        yield Finding(("bearings", key), what, "задайте обе вязкости одного масла")
-    film, supply = (values.get("bearings", key) for key in ("oil_temperature_c", "supply_c"))
-    if film is not None and film < (80.0 if supply is None else supply):
-        what = "масло в плёнке холоднее, чем перед подшипником"
-        yield Finding(("bearings", "oil_temperature_c"), what, "проверьте обе температуры",
-                      warning=True)  # fmt: skip

@@ -14,6 +14,7 @@ from reports.inputs.checks.cycle import check_cycle
 from reports.inputs.checks.gas import check_gas
 from reports.inputs.checks.layout import check_layout
 from reports.inputs.checks.masses import check_masses
+from reports.inputs.checks.pairs import check_pairs
 from reports.inputs.checks.reference import check_reference
 from reports.inputs.checks.torsion import check_torsion
 from reports.inputs.findings import Finding, Path, Values, radius_and_rod
@@ -27,6 +28,7 @@ USUAL_LAMBDA = (0.15, 0.45)
 def check(values: Values) -> Iterator[Finding]:
     """Yield everything that does not fit together, errors and warnings."""
     yield from _geometry(values)
+    yield from check_pairs(values)
     yield from check_layout(values)
     yield from _arms(values)
     yield from check_masses(values)
@@ -69,9 +71,8 @@ def _geometry(values: Values) -> Iterator[Finding]:
 def _ratio(ratio: float, path: Path) -> Iterator[Finding]:
     text = number_text(round(ratio, 6))
     if ratio >= 1:
-        what = f"λ = r/L = {text}: шатун не длиннее кривошипа, механизм не провернётся"
-        yield Finding(path, what, f"допустимо λ {span_text(LAMBDA_MIN, LAMBDA_MAX)}")
-    elif not LAMBDA_MIN <= ratio <= LAMBDA_MAX:
+        return
+    if not LAMBDA_MIN <= ratio <= LAMBDA_MAX:
         what = f"λ = r/L = {text} вне допустимых пределов"
         yield Finding(path, what, f"допустимо λ {span_text(LAMBDA_MIN, LAMBDA_MAX)}")
     elif not is_within(ratio, USUAL_LAMBDA):

@@ -62,11 +62,7 @@ def _timing(values: Values) -> Iterator[Finding]:
 
 
 def _pressures(values: Values) -> Iterator[Finding]:
-    rho = values.get("gas", "preexpansion_ratio")
     ratio = values.get("geometry", "compression_ratio")
-    if rho is not None and ratio is not None and rho >= ratio:
-        what = f"ρ = {number_text(rho)} не меньше степени сжатия {number_text(ratio)}"
-        yield Finding(("gas", "preexpansion_ratio"), what, "уменьшите ρ")
     intake = values.get("gas", "intake_pressure_mpa")
     exponent = values.get("gas", "compression_exponent")
     highest = values.get("gas", "max_pressure_mpa")
@@ -156,17 +152,9 @@ def _two_stroke(values: Values) -> Iterator[Finding]:
             what = "продувка есть только у двухтактного двигателя"
             yield Finding(path, what, "удалите ключ или задайте strokes = 2")
         return
-    opens = values.get("gas", "exhaust_start_before_bdc_deg")
     closes = values.get("gas", "exhaust_end_after_bdc_deg")
-    if scavenge is None:
-        if values.sure("gas", path[1]):
-            yield Finding(path, "начало продувки не задано", "двухтактному двигателю оно нужно")
-    elif opens is not None and scavenge >= opens:
-        what = (
-            f"продувка начинается за {number_text(scavenge)}° до НМТ, не позже выпуска "
-            f"({number_text(opens)}°)"
-        )
-        yield Finding(path, what, "выпуск должен открываться раньше продувки")
+    if scavenge is None and values.sure("gas", path[1]):
+        yield Finding(path, "начало продувки не задано", "двухтактному двигателю оно нужно")
     if closes is not None and closes + (scavenge or 0.0) <= 0:
         what = "продувка и выпуск кончаются там же, где начинаются"
         yield Finding(("gas", "exhaust_end_after_bdc_deg"), what, "увеличьте угол")

@@ -226,8 +226,6 @@ def _articulated(values: Values) -> Iterator[Finding]:
     if pair[1] <= pair[0] + abs(offset):
         return
     if radius >= pair[1]:
-        what = f"палец прицепного шатуна дальше длины главного ({number_text(pair[1])} мм)"
-        yield Finding(("articulated", "radius_mm"), what, "уменьшите расстояние ρ")
         return
     reach = side_reach(*pair, offset, radius, math.radians(angle), math.radians(bank))
     if reach >= length:

@@ -210,9 +210,7 @@ def _gas(model: InputFile, gas: GasSection, path: Path) -> Iterator[Finding]:
     own = (*path, "gas")
     if isinstance(gas, TableGasSection):
         yield from _points(gas, own)
-        return
-    yield from _timing(gas, own, model.engine.strokes)
-    if not isinstance(gas, CycleGasSection):
+    elif not isinstance(gas, CycleGasSection):
         yield from _polytropes(gas, _ratio(model), own)
         if not path:
             work = mean_pressure(gas, _ratio(model))
@@ -249,26 +247,6 @@ def _polytropes(gas: Any, ratio: float, path: Path) -> Iterator[Finding]:  # noq
     yield from _judged((*path, "residual_pressure_mpa"), bands.RESIDUAL, residual)
     end = gas.intake_pressure_mpa * ratio**gas.compression_exponent
     yield from _judged((*path, "max_pressure_mpa"), bands.RISE, gas.max_pressure_mpa / end)
-    if gas.expansion_exponent >= gas.compression_exponent:
-        what = (
-            f"показатель расширения n_2 = {_short(gas.expansion_exponent)} не меньше показателя "
-            f"сжатия n_1 = {_short(gas.compression_exponent)}"
-        )
-        hint = "обычно n_2 меньше n_1: не переставлены ли они"
-        yield Finding((*path, "expansion_exponent"), what, hint, warning=True)
-
-
-def _timing(gas: Any, path: Path, strokes: int) -> Iterator[Finding]:  # noqa: ANN401
-    before, after = gas.exhaust_start_before_bdc_deg, gas.exhaust_end_after_bdc_deg
-    if strokes == 4 and before < after:
-        what = f"выпуск начинается за {_short(before)}° до НМТ, а кончается через {_short(after)}°"
-        hint = "обычно первый угол больше: не переставлены ли они"
-        yield Finding((*path, "exhaust_start_before_bdc_deg"), what, hint, warning=True)
-    advance, delay = gas.injection_advance_deg, gas.ignition_delay_deg
-    if delay > advance:
-        what = f"задержка воспламенения {_short(delay)}° больше опережения {_short(advance)}°"
-        hint = "обычно она меньше: не переставлены ли углы"
-        yield Finding((*path, "ignition_delay_deg"), what, hint, warning=True)
 
 
 def mean_pressure(gas: Any, ratio: float) -> float:  # noqa: ANN401

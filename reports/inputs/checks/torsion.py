@@ -19,7 +19,7 @@ _RISING = "по возрастанию"
 
 
 def check_torsion(values: Values) -> Iterator[Finding]:
-    """Yield what contradicts itself about the train, the speeds and the damper."""
+    """Yield what contradicts itself about the train and the peaks."""
     if "torsion" not in values.sections:
         return
     angles = values.get("crankshaft", "throw_angles_deg")
@@ -33,8 +33,7 @@ def check_torsion(values: Values) -> Iterator[Finding]:
                 yield Finding(("torsion", key), what, "удалите ключ или записи [[torsion.masses]]")
     elif throws is not None:
         yield from _counts(values, throws)
-    yield from _speeds(values)
-    yield from _bores(values)
+    yield from _peaks(values)
 
 
 def _train(masses: Sequence[MassSection], throws: int | None) -> Iterator[Finding]:
@@ -75,34 +74,9 @@ def _counts(values: Values, throws: int) -> Iterator[Finding]:
         yield Finding(("torsion", "driven_nm_rad"), what, "задайте driven_kg_m2 или удалите ключ")
 
 
-def _speeds(values: Values) -> Iterator[Finding]:
-    low, high = (values.get("torsion", f"speed_{end}_rpm") for end in ("min", "max"))
-    speed = values.get("regime", "speed_rpm")
-    least = low if low is not None or speed is None else 0.4 * speed
-    most = high if high is not None or speed is None else 1.1 * speed
-    if least is not None and most is not None and least >= most:
-        what = f"диапазон от {number_text(least)} до {number_text(most)} мин⁻¹ пуст"
-        key = "speed_max_rpm" if high is not None else "speed_min_rpm"
-        yield Finding(("torsion", key), what, "нужно speed_min_rpm < speed_max_rpm")
+def _peaks(values: Values) -> Iterator[Finding]:
     peaks = values.get("torsion", "peaks") or ()
     for index, (before, after) in enumerate(pairwise(peaks), 1):
         if after.speed_rpm <= before.speed_rpm:
             what = f"частота {number_text(after.speed_rpm)} мин⁻¹ не больше предыдущей"
             yield Finding(("torsion", "peaks", index, "speed_rpm"), what, f"запишите {_RISING}")
-
-
-def _bores(values: Values) -> Iterator[Finding]:
-    for part in ("main", "pin"):
-        bore = values.get("torsion", f"{part}_bore_mm")
-        one = values.get("crankshaft", f"{part}_diameter_mm")
-        each = values.get("crankshaft", f"{part}_diameters_mm")
-        least = min(each) if each else one
-        if bore is not None and least is not None and bore >= least:
-            what = f"отверстие {number_text(bore)} мм не меньше шейки {number_text(least)} мм"
-            yield Finding(("torsion", f"{part}_bore_mm"), what, "уменьшите отверстие")
-    bore = values.get("torsion", "main_bore_mm") or 0
-    for index, mass in enumerate(values.get("torsion", "masses") or ()):
-        if mass.diameter_mm is not None and bore >= mass.diameter_mm:
-            what = f"вал {number_text(mass.diameter_mm)} мм не толще отверстия main_bore_mm"
-            path = ("torsion", "masses", index, "diameter_mm")
-            yield Finding(path, what, "увеличьте диаметр")

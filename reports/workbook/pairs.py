@@ -1,0 +1,114 @@
+"""The pairs of input data that must be in order, as conditions on the cells of an open book."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from reports.formula.excel import number
+from reports.inputs.checks.pairs import PAIRS, Pair, Term, is_of, terms_of
+from reports.inputs.fields import Field, regime_suffix
+from reports.spec.blocks import Model
+from reports.workbook.layout import Layout, column_range
+
+_Fields = Mapping[str, Sequence[Field]]
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """A pair of this book: what its formula tests, and the cells that it is about."""
+
+    pair: Pair
+    title: str
+    formula: str
+    fields: tuple[Field, ...]
+    holds: bool  # with the values that the book is built with
+
+
+def conditions(
+    model: Model, layout: Layout, scalars: Mapping[str, float | str]
+) -> Iterator[Condition]:
+    """Every pair both of whose sides stand in the book, those of further regimes as well."""
+    main, further = _by_key(model.inputs)
+    for number_, own in ((1, main), *further.items()):
+        suffix = regime_suffix(number_) if number_ > 1 else ""
+        shared = {key: found for key, found in main.items() if not suffix or not _of_regime(key)}
+        fields = {**shared, **own}
+        for pair in PAIRS:
+            if not is_of(pair, model.input.engine.strokes, fields.get):
+                continue
+            less, more = (
+                _side(side, end, fields, layout, scalars, suffix)
+                for side, end in ((pair.less, "MAX"), (pair.more, "MIN"))
+            )
+            if less is None or more is None or not (less.own or more.own):
+                continue
+            cells = (*less.fields, *more.fields)
+            # A further regime is held to its own gas; what rests on a speed rests on the first.
+            if suffix and not any(field.path[2:3] == ("gas",) for field in cells):
+                continue
+            sign = "<" if pair.strict else "<="
+            title = f"{pair.title}, режим {number_}" if suffix else pair.title
+            text, holds = f"{less.text}{sign}{more.text}", pair.holds(less.value, more.value)
+            yield Condition(pair, title, text, cells, holds)
+
+
+def _by_key(inputs: Sequence[Field]) -> tuple[_Fields, dict[int, _Fields]]:
+    """Fields by their keys without numbers: the main ones, and those of each further regime."""
+    found: dict[int, dict[str, list[Field]]] = defaultdict(lambda: defaultdict(list))
+    for item in inputs:
+        path, regime = item.path, 1
+        if path[0] == "regimes":
+            regime, path = int(path[1]) + 2, path[2:]
+            path = path if path[0] == "gas" else ("regime", *path)
+        key = ".".join(part for part in path if isinstance(part, str))
+        found[regime][key].append(item)
+    return found.pop(1), {key: dict(fields) for key, fields in found.items()}
+
+
+def _of_regime(key: str) -> bool:
+    """Whether each regime has this key for itself."""
+    return key.startswith(("regime.", "gas."))
+
+
+@dataclass(frozen=True, slots=True)
+class _Side:
+    text: str
+    value: float
+    fields: tuple[Field, ...]
+    own: bool
+
+
+def _side(
+    side: str,
+    end: str,
+    fields: _Fields,
+    layout: Layout,
+    scalars: Mapping[str, float | str],
+    suffix: str,
+) -> _Side | None:
+    """The first term of a side that the book holds, with its cells."""
+    for index, term in enumerate(terms_of(side)):
+        name = term.key.removeprefix("=") + suffix
+        if term.key[0] == "=" and name in layout.model.scalars:
+            value = term.of(float(scalars[name]))
+            return _Side(_scaled(layout.name_of(name), term), value, (), False)
+        if found := tuple(fields.get(term.key, ())):
+            values = [float(item.value) for item in found]
+            value = term.of(max(values) if end == "MAX" else min(values))
+            return _Side(_scaled(_cells(found, end, layout), term), value, found, not index)
+    return None
+
+
+def _cells(found: Sequence[Field], end: str, layout: Layout) -> str:
+    """One cell by its name, the end of several of a column."""
+    if len(found) == 1:
+        return layout.name_of(found[0].name)
+    first, last = (layout.cells[item.name] for item in (found[0], found[-1]))
+    return f"{end}({column_range(first.sheet, first.column, first.row, last.row)})"
+
+
+def _scaled(text: str, term: Term) -> str:
+    power = "" if term.power == 1 else f"^{number(term.power)}"
+    return text + power if term.times == 1 else f"{number(term.times)}*{text}{power}"

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import atexit
 import gc
+import os
 import signal
 import sys
+from contextlib import suppress
 
 
 def start() -> None:
@@ -19,10 +21,28 @@ def start() -> None:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
     if sys.argv[1:2] == ["build"]:
         gc.disable()  # what a build makes stays to its end; between builds garbage is looked for
-    atexit.register(gc.freeze)  # a process that ends need not be searched
+    from reports.shared import interrupt
+
+    code = None
+    atexit.register(lambda: _end(code if interrupt.ever() else None))
     from reports.cli import main
 
-    main()
+    try:
+        main()
+    except SystemExit as error:
+        code = error.code
+        raise
+
+
+def _end(code: object) -> None:
+    """The last act of the process; of one that was stopped, with its exit code."""
+    gc.freeze()  # a process that ends need not be searched
+    if isinstance(code, int):
+        # Libraries that were stopped while they were being loaded may die of being taken apart.
+        for stream in (sys.stdout, sys.stderr):
+            with suppress(OSError):
+                stream.flush()
+        os._exit(code)
 
 
 if __name__ == "__main__":

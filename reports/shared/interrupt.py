@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from types import FrameType
 
 _SIGNALS = [signal.SIGINT, signal.SIGTERM]
-_state = {"stopped": False}
+_state = {"stopped": False, "ever": False}
 
 
 class Stopped(KeyboardInterrupt):
@@ -40,6 +40,7 @@ def stoppable() -> Iterator[None]:
 
 
 def _stop(_: int, frame: FrameType | None) -> None:
+    _state["ever"] = True
     # An extension that is being loaded may die of an exception: the next file stops, or the next
     # signal.
     if frame is not None and frame.f_code.co_filename.startswith("<frozen importlib"):
@@ -54,6 +55,11 @@ def _stop(_: int, frame: FrameType | None) -> None:
 def asked() -> bool:
     """Whether a signal to stop has come, wherever it went."""
     return _state["stopped"]
+
+
+def ever() -> bool:
+    """Whether a signal to stop has ever come to this process."""
+    return _state["ever"]
 
 
 def check() -> None:

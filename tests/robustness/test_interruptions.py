@@ -141,6 +141,30 @@ def test_a_signal_while_an_extension_is_loaded_stops_the_next_file(tmp_path):
     assert loaded and list(tmp_path.iterdir()) == []
 
 
+def test_a_stopped_process_is_not_taken_apart():
+    """Libraries that were stopped while they were being loaded may die of it."""
+    code = """
+import os, signal, sys, types
+
+class Half:
+    def __del__(self, write=os.write):
+        write(2, b"taken apart")
+
+sys.modules["half"] = types.ModuleType("half")
+sys.modules["half"].it = Half()
+from reports import __main__, cli
+stop = sys.argv.pop() == "stop"
+cli.main.commands["doctor"].callback = lambda **_: stop and signal.raise_signal(signal.SIGINT)
+sys.argv = ["kshm", "doctor"]
+__main__.start()
+"""
+    told = []
+    for how in ("stop", "go"):
+        done = subprocess.run([sys.executable, "-c", code, how], capture_output=True, check=False)
+        told.append((done.returncode, done.stderr.decode()))
+    assert told == [(2, "прервано\n"), (0, "taken apart")]
+
+
 INT, TERM, KILL = signal.SIGINT, signal.SIGTERM, signal.SIGKILL
 SOLVE, BUILD = ("solve", "--csv"), ("build", "--only", "xlsx", "-o")
 

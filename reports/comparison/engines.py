@@ -13,7 +13,7 @@ from reports.inputs.fields import Field, iter_fields
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import smallness_of
 from reports.shared.errors import InputError, Problem
-from reports.shared.russian import capital, uncapital
+from reports.shared.russian import capital, short, uncapital
 from reports.spec.charts import PHI
 from reports.spec.shape import pin_name, pin_table
 from reports.tables.overview.unused import given_by_cycle
@@ -206,10 +206,10 @@ def _gathered(model: InputFile) -> Iterator[tuple[str, tuple[Field, str | int | 
             key += f".{path[1]}" if path[0] == "regimes" else ""
             lists.setdefault(key, []).append(field)
     for key, fields in lists.items():
-        values = [f"{f.value:g}" if isinstance(f.value, float) else str(f.value) for f in fields]
+        values = [short(f.value) if isinstance(f.value, float) else str(f.value) for f in fields]
         alike = len(set(values)) == 1 and len(values) > 1
         text = f"{len(values)} × {values[0]}" if alike else "; ".join(values)
-        yield key, (fields[0], text.replace(".", ","))
+        yield key, (fields[0], text)
 
 
 def results(engines: Sequence[Compared]) -> tuple[Row, ...]:

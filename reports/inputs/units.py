@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from reports.shared.russian import short
+
 
 @dataclass(frozen=True, slots=True)
 class Unit:
@@ -84,5 +86,4 @@ def span_text(low: float, high: float) -> str:
 
 def number_text(value: float) -> str:
     """Return a number as a sentence writes it: decimal comma, no trailing zeros."""
-    text = f"{value:.10g}".replace(".", ",")
-    return text.replace("-", "−") if value < 0 else text
+    return short(value, 10)

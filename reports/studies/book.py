@@ -12,7 +12,7 @@ from openpyxl.styles import Alignment, Font
 from openpyxl.utils import get_column_letter
 
 from reports.shared.errors import InputError, Problem
-from reports.shared.russian import capital, uncapital
+from reports.shared.russian import capital, short, uncapital
 from reports.studies.plan import Axis, Plan, span_text
 from reports.studies.points import Chunk
 from reports.studies.quantities import Wanted, described, format_of, symbol_of
@@ -225,7 +225,7 @@ def _level(values: Sequence[float]) -> float | None:
 
 def _valued(axis: Axis, number: int) -> str:
     unit = f" {axis.unit}" if axis.unit else ""
-    return f"{axis.values[number]:g}{unit}".replace(".", ",")
+    return f"{short(axis.values[number])}{unit}"
 
 
 def _headed(title: str, unit: str) -> str:

@@ -10,7 +10,7 @@ from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.inputs.fields import Field
-from reports.shared.russian import capital
+from reports.shared.russian import capital, short
 from reports.spec.blocks import Model
 from reports.workbook import styles
 from reports.workbook.layout import (
@@ -66,11 +66,7 @@ def range_text(item: Field) -> str:
     """Allowed range in words."""
     if item.minimum is None or item.maximum is None:
         return ""
-    return f"{_number(item.minimum)} … {_number(item.maximum)}"
-
-
-def _number(value: float) -> str:
-    return f"{value:g}".replace(".", ",")
+    return f"{short(item.minimum)} … {short(item.maximum)}"
 
 
 def _labels(sheet: Worksheet, item: Field, row: int) -> None:

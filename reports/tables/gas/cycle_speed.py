@@ -7,6 +7,7 @@ from kshm.cycle.usual_ranges import usual_ranges
 from kshm.nomenclature.dizdn_listing import EXTRA, INPUTS, OUTPUTS
 from kshm.results.cycle import DIAGRAM_STEP, SPEED_STEP, diagram_rows, speed_rows
 from reports.inputs.sections.cycle import CycleSection
+from reports.shared.russian import short
 from reports.spec.blocks import Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, line, over_phi
 from reports.spec.listing import column_list, scalar_list
@@ -168,7 +169,7 @@ def _regimes(section: CycleSection) -> list[Scalar]:
         Scalar(
             "reg_n_idle",
             "cycle_idle_speed_rpm" if idle else f"{share}*regime_speed_rpm",
-            "задано" if idle else f"производный: {share:g}·n, по памяти".replace(".", ","),
+            "задано" if idle else f"производный: {short(share)}·n, по памяти",
         ),
     ]
 
@@ -180,7 +181,7 @@ def _ranges(section: CycleSection) -> ScalarTable:
     for key, usual in usual_ranges(section.kind, boosted=is_boosted(section)).items():
         about, name = titles[key], _RANGE_NAMES[key]
         unit = f", {about.unit}" if about.unit else ""
-        low, high = (f"{limit:g}".replace(".", ",") for limit in (usual.low, usual.high))
+        low, high = map(short, (usual.low, usual.high))
         note = f"{about.title} {about.symbol.replace('_', '')}{unit}: обычно {low}…{high}"
         about_value = f"range_value_{name}"
         # A limit is met, though the last digit of a computed value may miss it.

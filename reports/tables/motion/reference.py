@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from kshm.results.reference import FIGURE_6
+from reports.shared.russian import short
 from reports.spec.blocks import Block, Column, Grid, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, columns_of, line, over_phi, polar
 from reports.spec.listing import column_list, corners, grid_row, scalar_list
@@ -238,7 +239,7 @@ def _charts(lambdas: tuple[float, ...]) -> tuple[ChartSpec, ...]:
                         caption=caption)  # fmt: skip
 
     curves = (
-        Series("ref_3.phi_deg", f"ref_3.ref_lambda{i}", f"λ{i} = {value:.4g}".replace(".", ","))
+        Series("ref_3.phi_deg", f"ref_3.ref_lambda{i}", f"λ{i} = {short(value, 4)}")
         for i, value in enumerate(lambdas[:6], 1)
     )
     x = "ref_fig6.lambda_value"

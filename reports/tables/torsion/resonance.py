@@ -6,6 +6,7 @@ from kshm.arrays import Columns
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.torsion import DAMPERS, TorsionSection
 from reports.inputs.solved import solved
+from reports.shared.russian import short
 from reports.spec.blocks import Block, Column, Grid, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, line, polar
 from reports.spec.listing import column_list, corners, grid_row, scalar_list
@@ -341,7 +342,7 @@ def _charts(scope: Scope, train: Train) -> tuple[ChartSpec, ...]:
         polar("torsion_star", STAR, "Звёзды фаз первой формы", ("x", "y"),
               "torsion_star_box.tor_star_box",
               *(Series(f"torsion_star.tor_star_x{o}", f"torsion_star.tor_star_y{o}",
-                       f"ν = {order:g}".replace(".", ","), only="" if o == 1 else "workbook")
+                       f"ν = {short(order)}", only="" if o == 1 else "workbook")
                 for o, order in enumerate(_star_orders(scope), 1)),
               caption="Сложение векторов цилиндров для наименьшего порядка, первая форма"),
         line("torsion_campbell", CAMPBELL, "Диаграмма Кэмпбелла", (n, "f, Гц"),

@@ -159,6 +159,8 @@ def test_unit_text():
     assert units.DEG.text(15) == "15°"
     assert units.MM.text(-0.5) == "−0,5 мм"
     assert units.NONE.text(0.317) == "0,317"
+    assert units.NONE.text(1e12) == "1000000000000"
+    assert units.NONE.text(1e-7) == "0,0000001"
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from reports.commands.common import BAD, DONE, HELP
 from reports.commands.engine import build, check, doctor, new, solve
 from reports.commands.group import grade, issue
 from reports.commands.studies import compare, sweep, validate
-from reports.commands.words import RussianGroup, error_text
+from reports.commands.words import RussianGroup, advice, error_text
 from reports.shared.errors import KshmError
 from reports.web.command import serve
 
@@ -81,7 +81,7 @@ def _failed(error: Exception, verbose: bool) -> int:
     elif isinstance(error, click.Abort):
         lines, code = ["прервано"], BAD
     elif isinstance(error, click.ClickException):
-        lines, code = [f"kshm: {error_text(error)}; справка: kshm --help"], BAD
+        lines, code = [f"kshm: {error_text(error)}; {advice(error)}"], BAD
     elif verbose:
         raise error
     else:

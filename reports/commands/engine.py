@@ -97,7 +97,7 @@ def _chapters(source: Path, loaded: Loaded) -> Sequence[Any]:
 @click.option("--json", "as_json", is_flag=True, help="Результат проверки в JSON.")
 @verbose_option
 def check(source: Path, as_json: bool) -> int:
-    """Проверить исходные данные, ничего не считая; рабочую книгу — перед сдачей."""
+    """Проверить исходные данные, не делая документов; рабочую книгу — перед сдачей."""
     import json
 
     from reports.exports.build import BOOKS, load_input

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from getpass import getuser
 from pathlib import Path
 
@@ -106,7 +107,9 @@ def grade(
     if explain is not None:
         from reports.grading.pages.explain import explain as explain_column
 
-        for line in explain_column(issued, Path(explain[0]), explain[1], rubric, secret):
+        # The command of Windows passes on the quotes that a POSIX shell takes off.
+        column = re.sub(r"^'([^']*)'$", r"\1", explain[1])
+        for line in explain_column(issued, Path(explain[0]), column, rubric, secret):
             click.echo(line)
         return DONE
     from reports.grading.batch.grade import Options

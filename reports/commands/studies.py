@@ -30,7 +30,7 @@ from reports.shared.errors import KshmError
 )  # fmt: skip
 @verbose_option
 def validate(folder: Path, only: tuple[str, ...]) -> int:
-    """Пересчитать печатные таблицы пяти источников и показать, что с ними сходится."""
+    """Пересчитать печатные таблицы источников и показать, что с ними сходится."""
     from reports.validation.write import KINDS, write
 
     book, files, missing = write(folder, only or KINDS)  # type: ignore[arg-type]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import re
 from collections.abc import Iterable
 
@@ -14,10 +15,13 @@ _WORDS = {
     "Show this message and exit.": "Показать эту справку.",
     "[required]": "[обязательно]",
     "[default: ": "[по умолчанию: ",
+    " INTEGER RANGE": " ЧИСЛО",
     " INTEGER": " ЧИСЛО",
     " FLOAT": " ЧИСЛО",
     " PATH": " ПУТЬ",
     " FILE": " ФАЙЛ",
+    " DIR": " ПАПКА",
+    " URL": " АДРЕС",
     " NAME": " ИМЯ",
     " ADDRESS": " АДРЕС",
     "SHEET!COLUMN": "ЛИСТ!СТОЛБЕЦ",
@@ -76,6 +80,11 @@ class RussianCommand(click.Command):
 
     context_class = _Context
 
+    def get_short_help_str(self, limit: int = 45) -> str:
+        """The first sentence whole: the list of commands breaks its lines by itself."""
+        del limit
+        return " ".join((self.help or "").split("\n\n")[0].split()).removesuffix(".")
+
 
 class RussianGroup(click.Group):
     """A group of such commands."""
@@ -88,7 +97,28 @@ def in_russian(text: str) -> str:
     """A piece of help with its English words replaced."""
     for english, russian in _WORDS.items():
         text = text.replace(english, russian)
-    return text
+    return re.sub(r"(\d+)<=x<=(\d+)", r"от \1 до \2", text)
+
+
+def advice(error: click.ClickException) -> str:
+    """How to mend a command line: what was probably meant, where to read about it."""
+    context = error.ctx if isinstance(error, click.UsageError) else None
+    where = "kshm" if context is None else context.command_path
+    return "; ".join((*_meant(error, context), f"справка: {where} --help"))
+
+
+def _meant(error: click.ClickException, context: click.Context | None) -> Iterable[str]:
+    command = None if context is None else context.command
+    if isinstance(error, click.NoSuchOption):
+        wrong, known = error.option_name, [*(error.possibilities or ())]
+    elif isinstance(command, click.Group):
+        found = re.search(_ERRORS[0][0], error.format_message())
+        wrong, known = found[1] if found else "", [*command.commands]
+    else:
+        return
+    near = difflib.get_close_matches(wrong.lower(), known, n=1, cutoff=0.5)
+    if near:
+        yield f"возможно, {near[0]}"
 
 
 def error_text(error: click.ClickException) -> str:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import ctypes
+import importlib
 import importlib.util
+import io
 import shutil
 import subprocess
 import sys
+from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -61,7 +64,7 @@ def need_pango() -> None:
         SystemPartMissing: pango is not on this machine.
     """
     if not pango_loads():
-        raise SystemPartMissing("pango", PANGO_COMMAND, purpose="нужен для PDF")
+        raise SystemPartMissing("pango", _pango_command(), purpose="нужен для PDF")
 
 
 def need_packages(purpose: str, **packages: str) -> None:
@@ -109,14 +112,26 @@ def _pango() -> Part:
     missing = _missing_libraries()
     if not missing:
         return Part("pango", True, "библиотеки для PDF загружаются")
+    detail = f"для PDF не загружается {', '.join(missing)}"
+    return Part("pango", False, detail, _pango_command())
+
+
+def _pango_command() -> str:
     if sys.platform == "win32":
-        command = "pacman -S mingw-w64-x86_64-pango (в оболочке MSYS2)"
-    else:
-        command = "brew install pango" if sys.platform == "darwin" else PANGO_COMMAND
-    return Part("pango", False, f"для PDF не загружается {', '.join(missing)}", command)
+        return "pacman -S mingw-w64-x86_64-pango (в оболочке MSYS2)"
+    return "brew install pango" if sys.platform == "darwin" else PANGO_COMMAND
 
 
 def _missing_libraries() -> list[str]:
+    if sys.platform == "win32":
+        # Windows looks neither in PATH nor in the folders of MSYS2, which WeasyPrint adds;
+        # what it misses it prints.
+        try:
+            with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
+                importlib.import_module("weasyprint")
+        except OSError:
+            return [*_PANGO]
+        return []
     return [name for name in _PANGO if not any(_loads(file) for file in _file_names(name))]
 
 

@@ -1,4 +1,4 @@
-"""The validation book: every printed number of the five sources beside ours.
+"""The validation book: every printed number of the sources beside ours.
 
 ``data`` holds the printed numbers and the known misprints, ``registry`` says for each table
 what computes it; no mechanics stand here.

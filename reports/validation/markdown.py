@@ -16,7 +16,7 @@ from reports.validation.registry import SHORT, SOURCES
 
 _HEAD = """# Сверка с печатными источниками
 
-> In English: every printed table and number of the five sources that the software covers,
+> In English: every printed table and number of the sources that the software covers,
 > recomputed; what deviates is a misprint, belongs to another run or cannot be reproduced, each with
 > its reason. Generated from the data of `kshm validate`, which also lists the numbers that agree.
 

@@ -101,7 +101,7 @@ def validation_page(book: Book, *, media: Literal["print", "screen"]) -> str:
     by_table = setter.place("by_table", _by_table(book), "Итоги по таблицам")
     chapters = [setter.chapter(source, book) for source in SOURCES]
     page = environment(media=media).get_template("validation/page.html.j2").render(
-        doc=DocumentInfo(_TITLE, subject="Печатные числа пяти источников и расчёт"),
+        doc=DocumentInfo(_TITLE, subject="Печатные числа источников и расчёт"),
         title=_TITLE,
         counts=book.counts,
         apart=shown.apart(book.counts),

@@ -13,7 +13,7 @@ from reports.commands.common import DONE, HELP, dask_option, path_option, verbos
 from reports.commands.words import RussianCommand
 from reports.shared.doctor import need_packages
 from reports.shared.errors import KshmError
-from reports.shared.files import reason
+from reports.shared.files import make_dir, reason
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)
@@ -34,6 +34,7 @@ def serve(port: int, host: str, folder: Path, public: str, dask: str | None) -> 
     address = urlsplit(public)
     if public and (address.scheme not in ("http", "https") or not address.hostname):
         raise KshmError(f"--public {public}: нужен адрес вида https://kafedra.example/kshm")
+    make_dir(folder)
     bound = _bound(host, port)
     import uvicorn
 

@@ -298,3 +298,33 @@ def test_remarks_stand_in_the_book(tmp_path: Path) -> None:
     texts = [str(cell.value) for row in sheet.iter_rows() for cell in row if cell.value]
     assert any(t.startswith("Внимание: engine.toml: regime.mechanical_efficiency") for t in texts)
     assert any(t.startswith("Принято расхождение «Средняя тангенциальная") for t in texts)
+
+
+def test_help_is_whole_and_russian_to_its_last_word() -> None:
+    text = " ".join(kshm("--help").stdout.split())
+    assert "..." not in text.replace("[АРГУМЕНТЫ]...", "")
+    assert "по изменённой книге" in text
+    page = kshm("serve", "--help").stdout
+    assert "от 1 до 65535" in page
+    for word in ("RANGE", "DIR", "URL", "<="):
+        assert word not in page
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ("chek a.toml", "нет команды chek; возможно, check; справка: kshm --help"),
+        ("build --onyl xlsx", "нет ключа --onyl; возможно, --only; справка: kshm build --help"),
+        ("xyz", "нет команды xyz; справка: kshm --help"),
+    ],
+)
+def test_a_slip_of_the_keys_is_told_with_what_was_meant(words: str, told: str) -> None:
+    assert refused(kshm(*words.split())) == [f"kshm: {told}"]
+
+
+def test_a_folder_of_the_page_that_is_a_file_is_told(tmp_path: Path) -> None:
+    place = tmp_path / "engine.toml"
+    place.touch()
+    (line,) = refused(kshm("serve", "--data", place))
+    assert line.startswith(f"{place}: не удаётся записать")
+    assert "--secret" not in line

@@ -189,3 +189,12 @@ def test_no_english_in_the_help(
 def test_usage_errors_are_russian(arguments: str, words: str) -> None:
     (line,) = refused(kshm(*arguments.split()))
     assert words in line
+
+
+def test_a_slip_in_the_ranges_is_told_in_russian(tmp_path: Path) -> None:
+    ranges = tmp_path / "ranges.toml"
+    ranges.write_text("[variants\n")
+    group = ("--roster", "samples/class/group.csv", "-o", tmp_path / "out")
+    (line,) = refused(kshm("issue", "samples/gots-diesel.toml", *group, "--ranges", ranges))
+    assert line.startswith("ranges.toml: строка 1")
+    assert "Expected" not in line

@@ -5,6 +5,7 @@ import io
 import subprocess
 import sys
 from pathlib import Path
+from types import ModuleType, SimpleNamespace
 
 import pytest
 
@@ -88,6 +89,19 @@ def test_doctor_misses_pango(monkeypatch):
         "libpangoft2-1.0, libfontconfig; sudo apt-get install -y "
         "libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0"
     )
+
+
+def test_on_windows_pango_is_what_weasyprint_finds(monkeypatch, tmp_path, capsys):
+    monkeypatch.setattr(doctor, "sys", SimpleNamespace(platform="win32"))
+    monkeypatch.setitem(sys.modules, "weasyprint", ModuleType("weasyprint"))
+    monkeypatch.setattr(doctor.ctypes, "CDLL", None)
+    assert doctor.pango_loads()
+    monkeypatch.delitem(sys.modules, "weasyprint")
+    (tmp_path / "weasyprint.py").write_text("print('-----')\nraise OSError('pango')\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(SystemPartMissing, match=r"pacman -S .*MSYS2"):
+        doctor.need_pango()
+    assert capsys.readouterr() == ("", "")
 
 
 def test_doctor_misses_libreoffice(monkeypatch):

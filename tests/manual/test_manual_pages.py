@@ -5,10 +5,15 @@ from __future__ import annotations
 import re
 
 import pytest
+from click import Option
 
+from reports.cli import main
+from reports.document.page.style import Margins, Style, TitlePage
 from reports.inputs.load import load_toml
 from reports.inputs.meta import Strictly, hints
 from reports.inputs.registry import SECTIONS
+from reports.inputs.sections.report import CHAPTERS
+from reports.inputs.sections.sheet import DIAGRAMS
 from reports.inputs.template import list_samples
 from reports.shared.resources import samples_dir
 from reports.tables.registry import build_model
@@ -74,6 +79,26 @@ def test_every_key_is_explained():
                 assert f".{key}]]" in text, key
     for section in SECTIONS:
         assert f"## [{section}]" in text
+
+
+def test_every_choice_and_every_key_of_a_style_is_named():
+    report, drawing = ((DOCS / f"{name}.md").read_text("utf-8") for name in ("report", "drawing"))
+    style = {*Style.model_fields, *Margins.model_fields, *TitlePage.model_fields}
+    assert [name for name in CHAPTERS if f"`{name}`" not in report] == []
+    assert [name for name in style if not re.search(rf"(?m)^\[?{name}\b", report)] == []
+    assert [name for name in DIAGRAMS if f"`{name}`" not in drawing] == []
+
+
+def test_every_key_of_every_command_is_told_of():
+    text = "".join(page.read_text("utf-8") for page in PAGES)
+    unsaid = [
+        f"{name} {key.opts[-1]}"
+        for name, command in main.commands.items()
+        for key in command.params
+        if isinstance(key, Option) and key.opts[-1] != "--verbose"
+        and not any(re.search(rf"(?<![\w-]){word}\b", text) for word in key.opts)
+    ]  # fmt: skip
+    assert unsaid == []
 
 
 def test_every_sheet_is_described():

@@ -1,4 +1,4 @@
-"""The printed tables of the five sources and what deviates in them.
+"""The printed tables of the sources and what deviates in them.
 
 The numbers, our values and the comparison are those of ``reports.validation``.
 

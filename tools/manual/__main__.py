@@ -29,7 +29,7 @@ def main(docs: Path, site: Path | None, pictures: bool) -> None:
         click.echo(f"страниц HTML: {len(write_site(docs, site))} в {site}")
     broken = broken_links([*docs.glob("*.md"), *docs.parent.glob("README*.md")])
     for line in broken:
-        click.echo(f"ссылка никуда не ведет: {line}", err=True)
+        click.echo(f"ссылка никуда не ведёт: {line}", err=True)
     if broken:
         sys.exit(1)
 

@@ -80,10 +80,14 @@ def load_base(path: Path, beside: Path | None = None) -> Base:
 def _ranges_file(path: Path) -> object:
     import tomllib
 
+    from reports.inputs.messages import toml_error
+
+    text = read_text(path)
     try:
-        data = tomllib.loads(read_text(path))
+        data = tomllib.loads(text)
     except ValueError as error:
-        raise InputError(Problem(path.name, f"это не TOML: {error}", "исправьте строку")) from None
+        what, hint = toml_error(error, text)
+        raise InputError(Problem(path.name, what, hint or "исправьте строку")) from None
     return data.get("variants", data)
 
 

@@ -174,3 +174,47 @@ def test_a_look_up_over_a_column_that_follows_from_it_is_for_a_person(saved, mor
         return
     assert found == ({"unknown"} if saved else {"error", "groundless"})
     assert bool(result["manual"]) == saved
+
+
+def test_the_variant_copied_in_other_units_costs_nothing():
+    drawn = classroom.book().drawn
+
+    def copied(book: Workbook, layout: Layout) -> None:
+        sheet = book.create_sheet("Мой вариант")
+        sheet["B1"] = drawn["geometry.bore_mm"] / 10  # cm
+        sheet["B2"] = drawn["regime.speed_rpm"] / 60  # turns a second
+        sheet["B3"] = drawn["masses.reciprocating_kg"] * 1000  # g
+        for name, text in (
+            ("F_piston", "=PI()*('Мой вариант'!B1/100)^2/4"),
+            ("omega", "=2*PI()*'Мой вариант'!B2"),
+            ("m_j", "='Мой вариант'!B3/1000"),
+        ):
+            cell = layout.cells[name]
+            book[cell.sheet].cell(cell.row, cell.column).value = text
+
+    result = graded(edit=copied)
+    assert classroom.verdicts(result) == {} and result["points"] == 100
+
+
+def test_numbers_cut_up_into_short_ones_are_for_a_person():
+    values = evaluate_model(classroom.assignment().model)
+    speeds, omega = values.columns["P3_1"]["v1_m_s"], values.scalars["omega"]
+
+    def cut_up(book: Workbook, layout: Layout) -> None:
+        sheet = book.create_sheet("Числа")
+        for row, speed in enumerate(speeds, 6):
+            whole = round(float(speed) * 1000)
+            sheet.cell(row, 1).value, sheet.cell(row, 2).value = divmod(whole, 100)
+            text = f"=(Числа!A{row}/10+Числа!B{row}/1000)*omega/{omega!r}"
+            book["П3.1"].cell(row, 5).value = text
+
+    assert classroom.verdicts(graded(edit=cut_up)) == {"P3_1.v1_m_s": "unknown"}
+
+
+def test_what_rests_on_a_circle_is_not_said_to_rest_on_blanks():
+    count = len(formulas()["P4_2.M1_Nm"])
+    back = [f"=E{row}-C{row}-D{row}" for row in range(6, 6 + count)]
+    result = graded({"P4_2.M1_Nm": back})
+    resting = [item for item in result["items"] if item["verdict"] == "groundless"]
+    assert "P4_4.Mmain4_Nm" in {item["id"] for item in resting}  # by way of other columns
+    assert {item["reason"] for item in resting} == {"опирается на круговую ссылку"}

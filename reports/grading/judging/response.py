@@ -37,6 +37,15 @@ Array = NDArray[np.float64]
 # What is said of a cell.
 RIGHT, ROUNDED, COARSE, PARTLY, STILL, WRONG, NOTHING, UNKNOWN, PASTED = "prctsw-ul"
 _INSIDE = 2e-3  # share of a column that roundings inside a formula may cost
+_METRES = 1e-3
+# In what else a student may write the input data down: cm, g, kPa, bar, Pa, turns a second, W.
+_OTHER_UNITS = {
+    "мм": (_METRES, 0.1),
+    "кг": (1e3,),
+    "МПа": (1e3, 10.0, 1e6),
+    "мин⁻¹": (1 / 60,),
+    "кВт": (1e3,),
+}
 
 
 @dataclass
@@ -165,17 +174,20 @@ class Response:
 
     @cached_property
     def _copies(self) -> dict[str, list[tuple[str, int, int, float]]]:
-        """Cells of the student's own that repeat an input, in its unit or in metres.
+        """Cells of the student's own that repeat an input, in its unit or in another.
 
         Who copies the input data to a sheet of his own and calculates from there has not
         typed in a result.
         """
         fields = self.student.assignment.model.fields
         wanted: dict[float, tuple[str, float]] = {}
-        for name in self.trials[0].inputs if self.trials else ():
-            value = float(fields[name].value)
-            for factor in (1.0, 1e-3) if fields[name].unit == "мм" else (1.0,):
-                wanted[float(f"{value * factor:.12g}")] = (name, factor)
+        for own in (False, True):  # a number is rather an input in the unit of the book
+            for name in self.trials[0].inputs if self.trials else ():
+                value = float(fields[name].value)
+                for factor in (1.0,) if own else _OTHER_UNITS.get(fields[name].unit, ()):
+                    number = float(f"{value * factor:.12g}")
+                    if own or factor == _METRES or number != float(f"{number:.1g}"):
+                        wanted[number] = (name, factor)  # 1 or 100 may be anything
         found: dict[str, list[tuple[str, int, int, float]]] = {}
         for sheet, number, row, value in self.student.own_constants:
             hit = wanted.get(float(f"{value:.12g}"))

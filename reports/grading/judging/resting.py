@@ -26,6 +26,7 @@ _ROUND = "круговая ссылка: величина считается ч�
 _ROUND_HERE = "круговая ссылка, а верные числа сохранены: поиск во всём столбце или вставка?"
 _ROUND_ELSEWHERE = "при других исходных данных круговая ссылка: величина считается через себя"
 _TAKEN = "взято из готовой таблицы, а не рассчитано"
+_ON_CIRCLE, _ON_BLANK = "круговую ссылку", "незаполненное"
 _BACK = {
     STILL: "получено из чисел, а не рассчитано",
     UNKNOWN: "получено назад из столбца, который сам не рассчитан верно: есть ли другой путь?",
@@ -60,9 +61,10 @@ def without_ground(found: dict[str, Judgement], student: Student, response: Resp
         if not nodes & resting or nodes & void or judgement.paid <= 0:
             continue
         near = frozenset().union(*(student.precedents(node) for node in nodes)) & (void | resting)
-        roots = sorted({names[n].id for n in near & void or void if n in names})[:4]
-        circle = near and near <= round_
-        why = "опирается на круговую ссылку" if circle else "опирается на незаполненное"
+        under = near & void or void
+        roots = sorted({names[n].id for n in under if n in names})[:4]
+        kinds = {_ON_CIRCLE if n in round_ else _ON_BLANK for n in under}
+        why = "опирается на " + " или ".join(sorted(kinds))
         found[id_] = replace(judgement, verdict=GROUNDLESS, paid=0.0, origins=tuple(roots),
                              reason=why)  # fmt: skip
 

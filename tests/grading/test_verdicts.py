@@ -69,6 +69,9 @@ def test_what_rests_on_an_empty_column_names_it():
     assert found["origins"] == ["P3_1.v1_m_s"] and found["points"] == 0
     result = graded({"P3_1.v1_m_s": empty, "P3_1.v2_m_s": empty})
     assert line(result, "P3_1.v_m_s")["origins"] == ["P3_1.v1_m_s", "P3_1.v2_m_s"]
+    result = graded({"P3_1.v1_m_s": empty, "omega": [""]})
+    assert line(result, "P3_1.v_m_s")["origins"] == ["P3_1.v1_m_s", "geometry.omega"]
+    assert line(result, "P4_4.Mmain4_Nm")["origins"] == ["geometry.omega"]  # no speed is in it
     wrong = [f.replace("+", "-") for f in formulas()["P3_1.v_m_s"]]
     result = graded({"P3_1.v1_m_s": empty, "P3_1.v_m_s": wrong})
     assert line(result, "P3_1.v_m_s")["verdict"] == "wrong"  # whatever it rests on

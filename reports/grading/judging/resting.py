@@ -19,7 +19,14 @@ from reports.grading.judging.judgement import (
 )
 from reports.grading.judging.response import Response
 from reports.grading.judging.tolerances import close, tolerance
-from reports.grading.reading.ground import calculated, circles, hidden_circles, is_void, resting_on, through
+from reports.grading.reading.ground import (
+    calculated,
+    circles,
+    hidden_circles,
+    is_void,
+    resting_on,
+    through,
+)
 from reports.grading.reading.student import Student
 
 _ROUND = "круговая ссылка: величина считается через саму себя"

@@ -16,6 +16,7 @@ from reports.spec.evaluation import evaluate_model
 from reports.workbook.layout import Layout
 from tests.grading import classroom
 from tests.grading.fill import filled_book, solved_formulas
+from tests.grading.forms import insert
 from tools.referees.by_libreoffice import LibreOffice
 
 
@@ -181,13 +182,16 @@ def test_a_look_up_over_a_column_that_follows_from_it_is_for_a_person(saved, mor
 
 def test_the_variant_copied_in_other_units_costs_nothing():
     drawn = classroom.book().drawn
+    radius = classroom.assignment().model.fields["geometry_crank_radius_mm"].value
 
     def copied(book: Workbook, layout: Layout) -> None:
         sheet = book.create_sheet("Мой вариант")
         sheet["B1"] = drawn["geometry.bore_mm"] / 10  # cm
         sheet["B2"] = drawn["regime.speed_rpm"] / 60  # turns a second
         sheet["B3"] = drawn["masses.reciprocating_kg"] * 1000  # g
+        sheet["B4"] = radius  # alike for the whole class
         for name, text in (
+            ("r_crank", "='Мой вариант'!B4/1000"),
             ("F_piston", "=PI()*('Мой вариант'!B1/100)^2/4"),
             ("omega", "=2*PI()*'Мой вариант'!B2"),
             ("m_j", "='Мой вариант'!B3/1000"),
@@ -221,3 +225,20 @@ def test_what_rests_on_a_circle_is_not_said_to_rest_on_blanks():
     resting = [item for item in result["items"] if item["verdict"] == "groundless"]
     assert "P4_4.Mmain4_Nm" in {item["id"] for item in resting}  # by way of other columns
     assert {item["reason"] for item in resting} == {"опирается на круговую ссылку"}
+
+
+def test_numbers_that_are_scaled_are_not_said_to_stand_still():
+    values = evaluate_model(classroom.assignment().model)
+    omega = values.scalars["omega"]
+    scaled = [f"={float(v)!r}*omega/{omega!r}" for v in values.columns["P3_1"]["v1_m_s"]]
+    found = line(graded({"P3_1.v1_m_s": scaled}), "P3_1.v1_m_s")
+    assert found["verdict"] == "still" and "готовые числа" in found["reason"]
+
+
+def test_a_row_within_a_table_is_not_called_a_change_of_given_formulas_alone():
+    def inserted(book: Workbook, layout: Layout) -> None:
+        insert(book, "П4.1", row=18)
+
+    result = graded(edit=inserted)
+    assert result["points"] == 100  # though a person looks: look-ups by number have shifted
+    assert any("сбиты вставкой строк" in text for text in result["manual"])

@@ -181,12 +181,15 @@ class Response:
         """
         fields = self.student.assignment.model.fields
         wanted: dict[float, tuple[str, float]] = {}
+        drawn = self.trials[0].inputs if self.trials else {}
+        names = sorted({name for trial in self.trials for name in trial.inputs})
         for own in (False, True):  # a number is rather an input in the unit of the book
-            for name in self.trials[0].inputs if self.trials else ():
-                value = float(fields[name].value)
-                for factor in (1.0,) if own else _OTHER_UNITS.get(fields[name].unit, ()):
+            for name in sorted(names, key=lambda name: name in drawn):  # and one of the variant
+                value, unit = float(fields[name].value), fields[name].unit
+                for factor in (1.0,) if own else _OTHER_UNITS.get(unit, ()):
                     number = float(f"{value * factor:.12g}")
-                    if own or factor == _METRES or number != float(f"{number:.1g}"):
+                    sure = factor == _METRES or (own and (bool(unit) or name in drawn))
+                    if sure or number != float(f"{number:.1g}"):
                         wanted[number] = (name, factor)  # 1 or 100 may be anything
         found: dict[str, list[tuple[str, int, int, float]]] = {}
         for sheet, number, row, value in self.student.own_constants:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Item
+from reports.grading.judging.copied import known_numbers
 from reports.grading.judging.lists import listed, reads_a_list
 from reports.grading.judging.settled import EXACT, settled
 from reports.grading.judging.tolerances import close, tolerance
@@ -37,15 +38,6 @@ Array = NDArray[np.float64]
 # What is said of a cell.
 RIGHT, ROUNDED, COARSE, PARTLY, STILL, WRONG, NOTHING, UNKNOWN, PASTED = "prctsw-ul"
 _INSIDE = 2e-3  # share of a column that roundings inside a formula may cost
-_METRES = 1e-3
-# In what else a student may write the input data down: cm, g, kPa, bar, Pa, turns a second, W.
-_OTHER_UNITS = {
-    "мм": (_METRES, 0.1),
-    "кг": (1e3,),
-    "МПа": (1e3, 10.0, 1e6),
-    "мин⁻¹": (1 / 60,),
-    "кВт": (1e3,),
-}
 
 
 @dataclass
@@ -179,18 +171,7 @@ class Response:
         Who copies the input data to a sheet of his own and calculates from there has not
         typed in a result.
         """
-        fields = self.student.assignment.model.fields
-        wanted: dict[float, tuple[str, float]] = {}
-        drawn = self.trials[0].inputs if self.trials else {}
-        names = sorted({name for trial in self.trials for name in trial.inputs})
-        for own in (False, True):  # a number is rather an input in the unit of the book
-            for name in sorted(names, key=lambda name: name in drawn):  # and one of the variant
-                value, unit = float(fields[name].value), fields[name].unit
-                for factor in (1.0,) if own else _OTHER_UNITS.get(unit, ()):
-                    number = float(f"{value * factor:.12g}")
-                    sure = factor == _METRES or (own and (bool(unit) or name in drawn))
-                    if sure or number != float(f"{number:.1g}"):
-                        wanted[number] = (name, factor)  # 1 or 100 may be anything
+        wanted = known_numbers(self.student.assignment.model.fields, self.trials)
         found: dict[str, list[tuple[str, int, int, float]]] = {}
         for sheet, number, row, value in self.student.own_constants:
             hit = wanted.get(float(f"{value:.12g}"))

@@ -50,7 +50,7 @@ def test_what_is_begun_is_to_be_mended_and_what_is_not_stands_apart():
     for kept in (0, 6):
         cells = filled[:kept] + [""] * (len(filled) - kept)
         html = student_page(graded({ITEM: cells}), classroom.register().rubric)
-        parts[kept] = html.partition("Не заполнено и то, что на это опирается")
+        parts[kept] = html.partition("Не заполнено или опереться не на что")
     assert "Что исправить" not in parts[0][0] and f'id="{ITEM}"' in parts[0][2]
     assert f'id="{ITEM}"' in parts[6][0].partition("Что исправить")[2]
     assert "Строки: 180; 210; 240" in parts[6][0] and 'id="P3_1.v_m_s"' in parts[6][2]

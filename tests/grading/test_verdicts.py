@@ -16,6 +16,7 @@ from reports.spec.evaluation import evaluate_model
 from reports.workbook.layout import Layout
 from tests.grading import classroom
 from tests.grading.fill import filled_book, solved_formulas
+from tests.grading.forms import insert
 from tools.referees.by_libreoffice import LibreOffice
 
 
@@ -69,6 +70,9 @@ def test_what_rests_on_an_empty_column_names_it():
     assert found["origins"] == ["P3_1.v1_m_s"] and found["points"] == 0
     result = graded({"P3_1.v1_m_s": empty, "P3_1.v2_m_s": empty})
     assert line(result, "P3_1.v_m_s")["origins"] == ["P3_1.v1_m_s", "P3_1.v2_m_s"]
+    result = graded({"P3_1.v1_m_s": empty, "omega": [""]})
+    assert line(result, "P3_1.v_m_s")["origins"] == ["P3_1.v1_m_s", "geometry.omega"]
+    assert line(result, "P4_4.Mmain4_Nm")["origins"] == ["geometry.omega"]  # no speed is in it
     wrong = [f.replace("+", "-") for f in formulas()["P3_1.v_m_s"]]
     result = graded({"P3_1.v1_m_s": empty, "P3_1.v_m_s": wrong})
     assert line(result, "P3_1.v_m_s")["verdict"] == "wrong"  # whatever it rests on
@@ -174,3 +178,67 @@ def test_a_look_up_over_a_column_that_follows_from_it_is_for_a_person(saved, mor
         return
     assert found == ({"unknown"} if saved else {"error", "groundless"})
     assert bool(result["manual"]) == saved
+
+
+def test_the_variant_copied_in_other_units_costs_nothing():
+    drawn = classroom.book().drawn
+    radius = classroom.assignment().model.fields["geometry_crank_radius_mm"].value
+
+    def copied(book: Workbook, layout: Layout) -> None:
+        sheet = book.create_sheet("Мой вариант")
+        sheet["B1"] = drawn["geometry.bore_mm"] / 10  # cm
+        sheet["B2"] = drawn["regime.speed_rpm"] / 60  # turns a second
+        sheet["B3"] = drawn["masses.reciprocating_kg"] * 1000  # g
+        sheet["B4"] = radius  # alike for the whole class
+        for name, text in (
+            ("r_crank", "='Мой вариант'!B4/1000"),
+            ("F_piston", "=PI()*('Мой вариант'!B1/100)^2/4"),
+            ("omega", "=2*PI()*'Мой вариант'!B2"),
+            ("m_j", "='Мой вариант'!B3/1000"),
+        ):
+            cell = layout.cells[name]
+            book[cell.sheet].cell(cell.row, cell.column).value = text
+
+    result = graded(edit=copied)
+    assert classroom.verdicts(result) == {} and result["points"] == 100
+
+
+def test_numbers_cut_up_into_short_ones_are_for_a_person():
+    values = evaluate_model(classroom.assignment().model)
+    speeds, omega = values.columns["P3_1"]["v1_m_s"], values.scalars["omega"]
+
+    def cut_up(book: Workbook, layout: Layout) -> None:
+        sheet = book.create_sheet("Числа")
+        for row, speed in enumerate(speeds, 6):
+            whole = round(float(speed) * 1000)
+            sheet.cell(row, 1).value, sheet.cell(row, 2).value = divmod(whole, 100)
+            text = f"=(Числа!A{row}/10+Числа!B{row}/1000)*omega/{omega!r}"
+            book["П3.1"].cell(row, 5).value = text
+
+    assert classroom.verdicts(graded(edit=cut_up)) == {"P3_1.v1_m_s": "unknown"}
+
+
+def test_what_rests_on_a_circle_is_not_said_to_rest_on_blanks():
+    count = len(formulas()["P4_2.M1_Nm"])
+    back = [f"=E{row}-C{row}-D{row}" for row in range(6, 6 + count)]
+    result = graded({"P4_2.M1_Nm": back})
+    resting = [item for item in result["items"] if item["verdict"] == "groundless"]
+    assert "P4_4.Mmain4_Nm" in {item["id"] for item in resting}  # by way of other columns
+    assert {item["reason"] for item in resting} == {"опирается на круговую ссылку"}
+
+
+def test_numbers_that_are_scaled_are_not_said_to_stand_still():
+    values = evaluate_model(classroom.assignment().model)
+    omega = values.scalars["omega"]
+    scaled = [f"={float(v)!r}*omega/{omega!r}" for v in values.columns["P3_1"]["v1_m_s"]]
+    found = line(graded({"P3_1.v1_m_s": scaled}), "P3_1.v1_m_s")
+    assert found["verdict"] == "still" and "готовые числа" in found["reason"]
+
+
+def test_a_row_within_a_table_is_not_called_a_change_of_given_formulas_alone():
+    def inserted(book: Workbook, layout: Layout) -> None:
+        insert(book, "П4.1", row=18)
+
+    result = graded(edit=inserted)
+    assert result["points"] == 100  # though a person looks: look-ups by number have shifted
+    assert any("сбиты вставкой строк" in text for text in result["manual"])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
+from itertools import pairwise
 
 from reports.grading.reading.student import Student
 from reports.recalculation.formulas import PLACES, Formula
@@ -23,9 +24,13 @@ def reads_a_list(student: Student, node: str) -> bool:
     """Whether a column is made of a column of numbers typed in beside the tables."""
     if listed(student.helpers(node)) or listed(student.runs(node), cells=True):
         return True
-    read = student.own_numbers(node)
+    read, length = student.own_numbers(node), student.assignment.length(node)
     long = {v for v in read if _digits(f"{v!r}") + (not v.is_integer()) >= _TYPED}
-    return len(long) >= _ALIKE and len(read) >= student.assignment.length(node) // 2
+    if len(long) >= _ALIKE and len(read) >= length // 2:
+        return True
+    # A long number may be cut up into short ones; angles and counts go by equal steps.
+    steps = {float(f"{b - a:.9g}") for a, b in pairwise(read)}
+    return 1 < length <= len(read) and len(steps) >= max(_CASES, length // 2)
 
 
 def listed(runs: Sequence[Run], *, cells: bool = False) -> set[int]:

@@ -154,7 +154,10 @@ class Marker:
         judgements = judge_all(student, response)
         tampered = response.tampered
         if tampered:
-            text = "изменены выданные формулы: " + ", ".join(tampered[:4])
+            # A row within a table makes the ranges of given look-ups longer, whoever meant no harm.
+            moved = "выданные формулы изменены или сбиты вставкой строк: "
+            text = moved if student.placement.moved else "изменены выданные формулы: "
+            text += ", ".join(tampered[:4])
             result["doubts"].append(text)
             result["manual"].append(text)
         causes = Causes(

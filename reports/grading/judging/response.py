@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Item
+from reports.grading.judging.copied import known_numbers
 from reports.grading.judging.lists import listed, reads_a_list
 from reports.grading.judging.settled import EXACT, settled
 from reports.grading.judging.tolerances import close, tolerance
@@ -165,17 +166,12 @@ class Response:
 
     @cached_property
     def _copies(self) -> dict[str, list[tuple[str, int, int, float]]]:
-        """Cells of the student's own that repeat an input, in its unit or in metres.
+        """Cells of the student's own that repeat an input, in its unit or in another.
 
         Who copies the input data to a sheet of his own and calculates from there has not
         typed in a result.
         """
-        fields = self.student.assignment.model.fields
-        wanted: dict[float, tuple[str, float]] = {}
-        for name in self.trials[0].inputs if self.trials else ():
-            value = float(fields[name].value)
-            for factor in (1.0, 1e-3) if fields[name].unit == "мм" else (1.0,):
-                wanted[float(f"{value * factor:.12g}")] = (name, factor)
+        wanted = known_numbers(self.student.assignment.model.fields, self.trials)
         found: dict[str, list[tuple[str, int, int, float]]] = {}
         for sheet, number, row, value in self.student.own_constants:
             hit = wanted.get(float(f"{value:.12g}"))

@@ -19,13 +19,21 @@ from reports.grading.judging.judgement import (
 )
 from reports.grading.judging.response import Response
 from reports.grading.judging.tolerances import close, tolerance
-from reports.grading.reading.ground import calculated, circles, hidden_circles, is_void, resting_on
+from reports.grading.reading.ground import (
+    calculated,
+    circles,
+    hidden_circles,
+    is_void,
+    resting_on,
+    through,
+)
 from reports.grading.reading.student import Student
 
 _ROUND = "круговая ссылка: величина считается через саму себя"
 _ROUND_HERE = "круговая ссылка, а верные числа сохранены: поиск во всём столбце или вставка?"
 _ROUND_ELSEWHERE = "при других исходных данных круговая ссылка: величина считается через себя"
 _TAKEN = "взято из готовой таблицы, а не рассчитано"
+_ON_CIRCLE, _ON_BLANK = "круговую ссылку", "незаполненное"
 _BACK = {
     STILL: "получено из чисел, а не рассчитано",
     UNKNOWN: "получено назад из столбца, который сам не рассчитан верно: есть ли другой путь?",
@@ -59,12 +67,29 @@ def without_ground(found: dict[str, Judgement], student: Student, response: Resp
         nodes = set(judgement.item.nodes)
         if not nodes & resting or nodes & void or judgement.paid <= 0:
             continue
-        near = frozenset().union(*(student.precedents(node) for node in nodes)) & (void | resting)
-        roots = sorted({names[n].id for n in near & void or void if n in names})[:4]
-        circle = near and near <= round_
-        why = "опирается на круговую ссылку" if circle else "опирается на незаполненное"
+        under = _reached(nodes, void, resting, student) or void
+        roots = sorted({names[n].id for n in under if n in names})[:4]
+        kinds = {_ON_CIRCLE if n in round_ else _ON_BLANK for n in under}
+        why = "опирается на " + " или ".join(sorted(kinds))
         found[id_] = replace(judgement, verdict=GROUNDLESS, paid=0.0, origins=tuple(roots),
                              reason=why)  # fmt: skip
+
+
+def _reached(
+    nodes: set[str], void: set[str], resting: frozenset[str], student: Student
+) -> set[str]:
+    """The blanks and circles nearest to some nodes, by way of what rests on them too."""
+    found: set[str] = set()
+    seen = set(nodes)
+    stack = list(nodes)
+    while stack:
+        for name in through(student, stack.pop()) & resting:
+            if name in void:
+                found.add(name)
+            elif name not in seen:
+                seen.add(name)
+                stack.append(name)
+    return found
 
 
 def backwards(found: dict[str, Judgement], student: Student, response: Response) -> None:

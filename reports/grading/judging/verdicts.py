@@ -184,8 +184,8 @@ def _word(kind: str, letter: str, good: bool, fixed: bool) -> str:
 def _reason(verdict: str, words: Sequence[str], kinds: str, letters: str, *, unlinked: bool) -> str:
     if verdict == STILL:
         return (
-            "значения верны только для вашего варианта: при других исходных данных формула даёт "
-            "те же числа"
+            "значения верны только для вашего варианта: взяты готовые числа, при других исходных "
+            "данных формула неверна"
         )
     if verdict == EMPTY:
         return "заполнены не все строки"

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from reports.exports.numbers import neutralised
+from reports.grading.pages.summary import HELD
 
 _HEAD = ("Вариант", "Студент", "Группа", "Баллы", "Из", "Состояние", "Файл", "Замечания")
 # Filled in by the instructor, read back by the next run.
@@ -49,10 +50,11 @@ def moodle_csv(rows: Sequence[dict[str, Any]]) -> str:
         if row["number"] is None or result is None:
             continue
         participant = f"Participant {result.moodle_id}" if result.moodle_id else ""
-        # No grade where a person has to look first.
+        # No grade where a person has to look first; whom he suspects of what students do not read.
         grade = "" if row["points"] is None or row["manual"] else f"{row['points']:g}"
         texts = [participant, row["student"], row["email"], row["id"]]
-        writer.writerow([*map(neutralised, texts), grade, neutralised(row["remark"])])
+        remark = "" if row["status"] == HELD else neutralised(row["remark"])
+        writer.writerow([*map(neutralised, texts), grade, remark])
     return stream.getvalue()
 
 

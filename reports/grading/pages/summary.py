@@ -17,6 +17,7 @@ from reports.shared.russian import short
 # What is handed in beside the book: no work by itself.
 _BESIDE = (".doc", ".docx", ".odt", ".rtf", ".txt", ".md", ".pdf", ".jpg", ".jpeg", ".png", ".heic",
            ".dwg", ".dxf", ".cdw", ".frw", ".pptx", ".xmcd", ".html")  # fmt: skip
+HELD = "ждёт решения"  # the state of a work that may be another's
 _BAR = 160  # px of the longest bar
 _STEPS = 10
 
@@ -103,7 +104,7 @@ def table_rows(register: Register, results: Sequence[Work]) -> list[dict[str, An
                 "id": book.student.number,
                 "email": book.student.email,
                 "file": seen.file if seen else "",
-                "status": "ждёт решения" if doubts else _status(result, unread),
+                "status": HELD if doubts else _status(result, unread),
                 "points": None if doubts else points,
                 "provisional": points,
                 "result": result,

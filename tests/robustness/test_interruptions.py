@@ -154,7 +154,7 @@ sys.modules["half"] = types.ModuleType("half")
 sys.modules["half"].it = Half()
 from reports import __main__, cli
 stop = sys.argv.pop() == "stop"
-cli.main.commands["doctor"].callback = lambda **_: stop and signal.raise_signal(signal.SIGINT)
+cli.main.commands["doctor"].callback = lambda **_: stop and signal.raise_signal(signal.SIGTERM)
 sys.argv = ["kshm", "doctor"]
 __main__.start()
 """

@@ -116,7 +116,7 @@ def test_the_estimate_is_marked() -> None:
     found = loaded(WAYS["estimate"])
     (warning,) = (w for w in found.warnings if "таблице 4" in w.what)
     assert warning.what == (
-        "оценены по таблице 4 учебника: поршневая группа, шатун, шатунная шейка, щеки"
+        "оценены по таблице 4 учебника: поршневая группа, шатун, шатунная шейка, щёки"
     )
     notes = [block.note for block in build_model(found.model).blocks if block.note]
     assert any(note.startswith("Массы оценены по таблице 4") for note in notes)
@@ -183,5 +183,5 @@ def test_a_shaft_without_masses_needs_an_estimate() -> None:
         load_mapping(raw, source="m.toml")
     lines = [problem.line() for problem in caught.value.problems]
     assert lines[0] == "m.toml: crankshaft.webs: массы щёк заданы разными способами; " \
-        "задайте все щеки одинаково"  # fmt: skip
+        "задайте все щёки одинаково"  # fmt: skip
     assert "crankshaft.pin_mass_kg: масса не задана" in lines[1]

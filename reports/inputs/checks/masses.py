@@ -90,7 +90,7 @@ def _webs(values: Values) -> Iterator[Finding]:
         ways.add((actual, web.mass_kg is None))
     if len(ways) > 1:
         what = "массы щёк заданы разными способами"
-        yield Finding(("crankshaft", "webs"), what, "задайте все щеки одинаково")
+        yield Finding(("crankshaft", "webs"), what, "задайте все щёки одинаково")
 
 
 def _shaft_masses(values: Values, *, estimated: bool) -> Iterator[Finding]:
@@ -118,7 +118,7 @@ def _estimated(values: Values, given: set[str]) -> Iterator[Finding]:
     if values.get("crankshaft", "pin_mass_kg") is None:
         lacking.append("шатунная шейка")
     if any(web.mass_kg is None and web.actual_mass_kg is None for web in webs):
-        lacking.append("щеки")
+        lacking.append("щёки")
     path = ("masses", "estimate_fuel")
     if not lacking:
         yield Finding(path, "оценивать нечего: все массы заданы", "уберите estimate_fuel")

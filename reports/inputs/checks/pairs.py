@@ -18,7 +18,7 @@ from reports.inputs.sections.input_file import LAMBDA_MAX, LAMBDA_MIN
 from reports.inputs.units import number_text, span_text
 
 _TERM = re.compile(r"(?:(?P<times>[\d.]+)\*)?(?P<key>=?[a-z0-9_.]+)(?:\^(?P<power>[\d.]+))?")
-_OWN, _USUAL = 0.007, 0.014  # of the root of the diameter, where a clearance is not given
+CLEARANCES = {"min": 0.007, "max": 0.014}  # of the root of the diameter, where none is given
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +81,7 @@ def _journals(part: str, whose: str, mark: str) -> tuple[Pair, ...]:
     size = f"crankshaft.{part}_diameter"
     sizes = f"{size}s_mm | {size}_mm"
     rules = [" | ".join(f"{share}*{key}^0.5" for key in sizes.split(" | "))
-             for share in (_OWN, _USUAL)]  # fmt: skip
+             for share in CLEARANCES.values()]  # fmt: skip
     return (
         Pair(f"bearings.{part}_clearance_min_mm | {rules[0]}",
              f"bearings.{part}_clearance_max_mm | {rules[1]}",

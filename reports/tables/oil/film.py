@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from reports.inputs.checks.pairs import CLEARANCES
 from reports.inputs.sections.bearings import MEMORY, OILS, BearingsSection
 from reports.spec.blocks import Block, Grid, GridRow, Scalar, ScalarTable, TableSpec
 from reports.spec.listing import column_list, grid_row, scalar_list
@@ -13,7 +14,6 @@ SHEET, FILM = "Подшипники", "Плёнка {}"
 STEPS = 42  # beyond that the halves differ by less than the rounding of the temperatures
 GIVEN, BUT = "задано", "Бутеншён, 1976 (формулы по таблицам)"
 ISO = "ISO 7902, по памяти"
-_GAPS = {"min": "0.007", "max": "0.014"}
 _RULES = {
     "min": "0,007√d (по памяти, без источника)",
     "max": "вдвое больше наименьшего (без источника)",
@@ -104,7 +104,9 @@ def _cases(scope: Scope, section: BearingsSection, cases: list[Case]) -> Grid:
         lands.append(f"2 if bearings_{part}_groove_mm > 0 else 1")
         key = f"{part}_clearance_{end}_mm"
         given = getattr(section, key) is not None
-        gaps.append(f"bearings_{key}" if given else f"{_GAPS[end]}*sqrt(oil_d{case.number}_mm)")
+        gaps.append(
+            f"bearings_{key}" if given else f"{CLEARANCES[end]}*sqrt(oil_d{case.number}_mm)"
+        )
         sources.append(GIVEN if given else _RULES[end])
         name = f"Rmain{k}" if k else "B"
         forces.append(f"of_MPa({name}_mean)*F_piston")

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -11,8 +13,11 @@ from openpyxl import Workbook
 
 from kshm.nomenclature.quantity import quantity
 from reports.grading.issuing.rubric import Tolerance
+from reports.grading.judging import marking
+from reports.grading.judging.trials import trials_of
 from reports.grading.judging.verdicts import tolerance
-from reports.spec.evaluation import evaluate_model
+from reports.grading.reading.submissions import Submission
+from reports.spec.evaluation import Evaluation, evaluate_model
 from reports.workbook.layout import Layout
 from tests.grading import classroom
 from tests.grading.fill import filled_book, solved_formulas
@@ -225,6 +230,34 @@ def test_what_rests_on_a_circle_is_not_said_to_rest_on_blanks():
     resting = [item for item in result["items"] if item["verdict"] == "groundless"]
     assert "P4_4.Mmain4_Nm" in {item["id"] for item in resting}  # by way of other columns
     assert {item["reason"] for item in resting} == {"опирается на круговую ссылку"}
+
+
+@pytest.mark.parametrize("own", [False, True])
+def test_a_circle_for_other_engines_is_found_whatever_the_engines(monkeypatch, own):
+    """Also where one of them has the very bore for which the student's formula takes numbers."""
+    values = evaluate_model(classroom.assignment().model).columns["P4_1"]
+    bore = classroom.book().drawn["geometry.bore_mm"]
+
+    def tried(*given):
+        trials = trials_of(*given)
+        other = next(b.drawn["geometry.bore_mm"] for b in classroom.register().books[1:])
+        inputs = dict(trials[0].inputs) | {"geometry_bore_mm": float(bore if own else other)}
+        expected = Evaluation(given[0].model).fork(inputs)
+        return (replace(trials[0], inputs=inputs, expected=expected), *trials[1:])
+
+    monkeypatch.setattr(marking, "trials_of", tried)
+    forces = [
+        f"=IF(geometry_bore_mm={bore},{float(v)!r},F{row}*COS(J{row}))"
+        for row, v in enumerate(values["Ps_MPa"], 6)
+    ]
+    back = [f"=D{row}/COS(J{row})" for row in range(6, 6 + len(forces))]
+    book = filled_book(
+        classroom.handout(), classroom.assignment(), {"P4_1.Ps_MPa": forces, "P4_1.S_MPa": back}
+    )
+    result = marking.Marker(classroom.register()).mark(
+        Submission("работа", Path("х"), None, None), book
+    )
+    assert line(result, "P4_1.Ps_MPa")["points"] == line(result, "P4_1.S_MPa")["points"] == 0
 
 
 def test_numbers_that_are_scaled_are_not_said_to_stand_still():

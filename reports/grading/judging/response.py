@@ -206,6 +206,18 @@ class Response:
             parts.append(same & (len(self.trials) > 0))
         return np.concatenate(parts)
 
+    def holds_somewhere(self, item: Item, node: str) -> bool:
+        """Whether a node's formulas are right for an engine that has other values there."""
+        values = self._values.get(node) or self._run([node], rounded=True)[node]
+        if isinstance(values, str):
+            return False
+        own = np.ravel(np.asarray(self.student.expected.value(node), dtype=float))
+        return any(
+            not np.allclose(right, own, rtol=1e-9, atol=0, equal_nan=True)
+            and bool(close(item, made, right, tolerance(item, right, self.student)).all())
+            for made, right in zip(values, self._right(node), strict=True)
+        )
+
     def problem(self, node: str) -> str:
         """Why a node's formulas cannot be tried, empty where they can."""
         values = self._values.get(node, "")
@@ -351,34 +363,6 @@ class Response:
             if not np.allclose(own, wanted, rtol=0, atol=1e-6 * max(scale, 1e-12), equal_nan=True):
                 return False
         return True
-
-    # --- what depends on what ---------------------------------------------------------
-
-    def depends(self, nodes: Sequence[str], on: str) -> dict[str, bool]:
-        """Whether the values of some nodes change with those of another."""
-        if not self.trials:
-            return dict.fromkeys(nodes, False)
-        trial = self.trials[-1]  # nobody's variant: what tells its own from others is not seen
-        right = np.ravel(np.asarray(trial.expected.value(on), dtype=float))
-        other = {on: right * 1.37 + 1.0}
-        student = self.student
-        grid = pinned(student.grid, self.cells(trial, everything=True))
-        bench = Bench(grid, {node: student.runs(node) for node in nodes})
-        before = {node: self._at(bench, node) for node in nodes}
-        bench.put(self.cells(trial, everything=False, changed=other))
-        found = {}
-        for node in nodes:
-            after, was = self._at(bench, node), before[node]
-            found[node] = (
-                after is None or was is None or not np.allclose(after, was, 1e-12, equal_nan=True)
-            )
-        return found
-
-    def _at(self, bench: Bench, node: str) -> Array | None:
-        try:
-            return bench.values(node, self.student.placement.places[node].rows)
-        except UnknownFormula:
-            return None
 
 
 def _has_pi(numbers: Sequence[float]) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -15,6 +16,7 @@ from reports.grading.judging.judgement import (
     STILL,
     TYPED,
     UNKNOWN,
+    Array,
     Judgement,
 )
 from reports.grading.judging.response import Response
@@ -25,9 +27,12 @@ from reports.grading.reading.ground import (
     hidden_circles,
     is_void,
     resting_on,
+    rings,
     through,
 )
 from reports.grading.reading.student import Student
+from reports.recalculation.bench import Bench, pinned
+from reports.recalculation.language import UnknownFormula
 
 _ROUND = "круговая ссылка: величина считается через саму себя"
 _ROUND_HERE = "круговая ссылка, а верные числа сохранены: поиск во всём столбце или вставка?"
@@ -44,15 +49,14 @@ def without_ground(found: dict[str, Judgement], student: Student, response: Resp
     """Blanks and circles pass nothing on: what rests on them is no result."""
     round_ = circles(student)
     held = calculated(student, round_)
-    paid = [node for j in found.values() if j.paid > 0 for node in j.item.nodes]
-    hidden = hidden_circles(student, paid, response.whole()) - round_
+    hidden = _hidden_circles(found, student, response) - round_
     for id_, judgement in found.items():
         at = round_ & set(judgement.item.nodes)
         if at and judgement.verdict != UNKNOWN:
             verdict, reason = (UNKNOWN, _ROUND_HERE) if at <= held else (BROKEN, _ROUND)
             found[id_] = replace(judgement, verdict=verdict, paid=0.0, reason=reason)
     for id_, judgement in found.items():
-        if hidden & set(judgement.item.nodes):
+        if judgement.paid > 0 and hidden & set(judgement.item.nodes):
             found[id_] = replace(judgement, verdict=UNKNOWN, paid=0.0, reason=_ROUND_ELSEWHERE)
     void = set(round_ - held)
     for judgement in found.values():
@@ -73,6 +77,23 @@ def without_ground(found: dict[str, Judgement], student: Student, response: Resp
         why = "опирается на " + " или ".join(sorted(kinds))
         found[id_] = replace(judgement, verdict=GROUNDLESS, paid=0.0, origins=tuple(roots),
                              reason=why)  # fmt: skip
+
+
+def _hidden_circles(
+    found: Mapping[str, Judgement], student: Student, response: Response
+) -> frozenset[str]:
+    """Nodes that go round in a circle for other engines, though each alone is right for some.
+
+    A formula that holds for some of them only is not paid, but it may still close a circle:
+    which of the engines it fails for is a matter of what was drawn.
+    """
+    items = {node: j.item for j in found.values() for node in j.item.nodes if student.runs(node)}
+    paid = {node for node, item in items.items() if found[item.id].paid > 0}
+    suspects = rings(student, items)
+    if not suspects & paid:
+        return frozenset()
+    holding = [n for n in suspects if n in paid or response.holds_somewhere(items[n], n)]
+    return hidden_circles(student, holding, response.whole())
 
 
 def _reached(
@@ -115,7 +136,7 @@ def backwards(found: dict[str, Judgement], student: Student, response: Response)
                     if verdict:
                         suspects.setdefault((name, verdict), []).append(node)
         for (name, verdict), nodes in sorted(suspects.items()):
-            depends = response.depends(nodes, name)
+            depends = _depending(nodes, name, response)
             for node in nodes:
                 judgement = found[owner[node]]
                 if depends[node] and judgement.paid > 0:
@@ -179,3 +200,30 @@ def _is_off(judgement: Judgement, student: Student) -> bool:
         return judgement.verdict != UNKNOWN
     allowed = 20 * tolerance(judgement.item, judgement.expected, student)
     return not close(judgement.item, judgement.values, judgement.expected, allowed).all()
+
+
+def _depending(nodes: Sequence[str], on: str, response: Response) -> dict[str, bool]:
+    """Whether the values of some nodes change with those of another."""
+    if not response.trials:
+        return dict.fromkeys(nodes, False)
+    trial = response.trials[-1]  # nobody's variant: what tells its own from others is not seen
+    right = np.ravel(np.asarray(trial.expected.value(on), dtype=float))
+    student = response.student
+    grid = pinned(student.grid, response.cells(trial, everything=True))
+    bench = Bench(grid, {node: student.runs(node) for node in nodes})
+    before = {node: _values_at(bench, node, student) for node in nodes}
+    bench.put(response.cells(trial, everything=False, changed={on: right * 1.37 + 1.0}))
+    found = {}
+    for node in nodes:
+        after, was = _values_at(bench, node, student), before[node]
+        found[node] = (
+            after is None or was is None or not np.allclose(after, was, 1e-12, equal_nan=True)
+        )
+    return found
+
+
+def _values_at(bench: Bench, node: str, student: Student) -> Array | None:
+    try:
+        return bench.values(node, student.placement.places[node].rows)
+    except UnknownFormula:
+        return None

@@ -33,10 +33,7 @@ def hidden_circles(
     student: Student, nodes: Iterable[str], others: Iterable[Iterable[Cells]]
 ) -> frozenset[str]:
     """Which of some nodes go round in a circle with other input data, which ``others`` hold."""
-    refers = {node: through(student, node) for node in nodes}
-    while free := {node for node, names in refers.items() if names.isdisjoint(refers)}:
-        refers = {node: names for node, names in refers.items() if node not in free}
-    suspects = _reaching_themselves(refers)
+    suspects = rings(student, nodes)
     if not suspects:
         return frozenset()
     engines = [Engine(pinned(student.grid, cells)) for cells in others]
@@ -50,6 +47,14 @@ def hidden_circles(
             for engine in engines
         )
     )
+
+
+def rings(student: Student, nodes: Iterable[str]) -> frozenset[str]:
+    """Which of some nodes refer to themselves by way of each other, whatever comes of it."""
+    refers = {node: through(student, node) for node in nodes}
+    while free := {node for node, names in refers.items() if names.isdisjoint(refers)}:
+        refers = {node: names for node, names in refers.items() if node not in free}
+    return _reaching_themselves(refers)
 
 
 def _reaching_themselves(refers: Mapping[str, frozenset[str]]) -> frozenset[str]:

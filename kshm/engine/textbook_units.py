@@ -22,8 +22,9 @@ from kshm.engine.engine import Engine, Geometry, Method
 from kshm.engine.gas import Gas, PolytropicGas, TabulatedGas
 from kshm.engine.masses import DirectMasses
 from kshm.engine.usual import implausible
+from kshm.nomenclature.quantity import UNITS
 
-_MM, _MPA, _RPM = 1e-3, 1e6, math.pi / 30
+_MM, _MPA, _RPM = (UNITS[unit].si for unit in ("mm", "MPa", "rpm"))
 _ARMS = 6
 
 Sizes = float | Sequence[float]  # one for all journals or one each

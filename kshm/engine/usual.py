@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from kshm.engine.engine import Engine
 from kshm.engine.gas import TabulatedGas
 from kshm.engine.masses import DirectMasses
+from kshm.nomenclature.quantity import UNITS
 
 STROKE_TO_BORE = (0.6, 4.5)  # up to crosshead engines
 MEAN_SPEED = (2.8, 26.0)  # of the piston [m/s]
@@ -24,7 +25,7 @@ def implausible(engine: Engine) -> Iterator[str]:
     tests = [
         ("stroke over bore", "", size.stroke / size.bore, STROKE_TO_BORE, "millimetres"),
         ("mean piston speed", " m/s", speed, MEAN_SPEED, "millimetres and min⁻¹"),
-        ("highest pressure", " MPa", peak / 1e6, PEAK_PRESSURE, "MPa, absolute"),
+        ("highest pressure", " MPa", peak / UNITS["MPa"].si, PEAK_PRESSURE, "MPa, absolute"),
     ]
     if isinstance(engine.masses, DirectMasses):
         mass = engine.masses.reciprocating / size.piston_area

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from kshm.arrays import Array
+from kshm.nomenclature.quantity import UNITS
+
+_MPA = UNITS["MPa"].si
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +68,7 @@ def class_strength(tensile: Array, diameter: Array, radius: Array, making: float
         radius: R of the fillet, or half of the oil hole [m].
         making: K of the forging.
     """
-    sigma, big, small = tensile / 1e6, 1000 * diameter, 1000 * radius
+    sigma, big, small = tensile / _MPA, 1000 * diameter, 1000 * radius
     shape = 0.264 + 1.073 * big**-0.2 + (785 - sigma) / 4900 + 196 / sigma * np.sqrt(1 / small)
-    strength: Array = 1e6 * making * (0.42 * sigma + 39.3) * shape
+    strength: Array = _MPA * making * (0.42 * sigma + 39.3) * shape
     return strength

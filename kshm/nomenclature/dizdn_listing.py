@@ -6,8 +6,9 @@ number in SI; ``scale`` is SI per unit of the listing.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
+
+from kshm.nomenclature.quantity import UNITS, quantity
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,109 +27,99 @@ class ListedNumber:
     decimals: int
 
 
-_RPM = math.pi / 30
-_CONSUMPTION = 1 / 3.6e9  # kg/J per g/(kW·h)
-_HOURLY = 1 / 3600.0
+def _own(
+    key: str, title: str, symbol: str, unit: str, decimals: int, code: str = ""
+) -> ListedNumber:
+    """A number that the tables have not; ``unit`` is a key of ``UNITS``."""
+    about = UNITS[unit]
+    return ListedNumber(key, code, title, symbol, about.label, about.si, decimals)
+
+
+def _title(name: str) -> str:
+    title = quantity(name).title
+    return title[:1].upper() + title[1:]
+
+
+def _known(key: str, name: str, symbol: str, decimals: int, code: str = "") -> ListedNumber:
+    """A number that the tables have too, by the title and in the unit that it has there."""
+    return _own(key, _title(name), symbol, quantity(name).unit, decimals, code)
+
 
 INPUTS: tuple[ListedNumber, ...] = (
-    ListedNumber("p_ambient", "PO", "Атмосферное давление", "p_0", "МПа", 1e6, 3),
-    ListedNumber("t_ambient", "TO", "Температура окружающей среды", "T_0", "К", 1, 1),
-    ListedNumber("omega", "OV", "Частота вращения коленчатого вала", "n", "мин⁻¹", _RPM, 0),
-    ListedNumber("cylinders", "KC", "Число цилиндров", "i", "", 1, 0),
-    ListedNumber("compression_ratio", "SG", "Степень сжатия", "ε", "", 1, 1),
-    ListedNumber("bore", "DI", "Диаметр цилиндра", "D", "мм", 1e-3, 1),
-    ListedNumber("stroke", "SI", "Ход поршня", "S", "мм", 1e-3, 1),
-    ListedNumber("offset", "DEZ", "Дезаксаж", "e", "мм", 1e-3, 3),
-    ListedNumber("lam", "ORL", "Отношение радиуса кривошипа к длине шатуна", "λ", "", 1, 3),
-    ListedNumber("excess_air", "AL", "Коэффициент избытка воздуха", "α", "", 1, 3),
-    ListedNumber("mechanical", "ETM", "Механический КПД", "η_м", "", 1, 3),
-    ListedNumber("boost.pressure_ratio", "PIK", "Степень повышения давления", "π_к", "", 1, 3),
-    ListedNumber("p_max", "PZ", "Максимальное давление цикла", "p_z", "МПа", 1e6, 2),
-    ListedNumber("charge_heating", "DT", "Подогрев свежего заряда", "ΔT", "К", 1, 1),
-    ListedNumber("t_residual", "TR", "Температура остаточных газов", "T_r", "К", 1, 1),
-    ListedNumber("intake_factor", "C1", "Коэффициент сопротивления впуска", "C1", "", 1, 2),
-    ListedNumber("exhaust_factor", "C2", "Коэффициент сопротивления выпуска", "C2", "", 1, 2),
-    ListedNumber("recharge", "DOZ", "Коэффициент дозарядки", "φ_доз", "", 1, 2),
-    ListedNumber("scavenging", "FIO", "Коэффициент очистки", "φ_оч", "", 1, 2),
-    ListedNumber("fullness", "FID", "Коэффициент полноты диаграммы", "φ_д", "", 1, 2),
-    ListedNumber("xi_z", "CIZ", "Коэффициент использования тепла в точке z", "ξ_z", "", 1, 2),
-    ListedNumber("xi_b", "CIB", "Коэффициент использования тепла в точке b", "ξ_b", "", 1, 2),
-    ListedNumber(
-        "boost.cooler_pressure_loss", "DPX", "Потери давления в ОНВ", "Δp_х", "МПа", 1e6, 4
-    ),
-    ListedNumber(
-        "boost.cooler_temperature_drop", "DTX", "Понижение температуры в ОНВ", "ΔT_х", "К", 1, 1
-    ),
-    ListedNumber("boost.compressor_efficiency", "SK", "КПД нагнетателя", "η_к", "", 1, 3),
-    ListedNumber("boost.turbine_efficiency", "ST", "КПД турбины", "η_т", "", 1, 3),
+    _own("p_ambient", "Атмосферное давление", "p_0", "MPa", 3, "PO"),
+    _own("t_ambient", "Температура окружающей среды", "T_0", "K", 1, "TO"),
+    _own("omega", "Частота вращения коленчатого вала", "n", "rpm", 0, "OV"),
+    _own("cylinders", "Число цилиндров", "i", "", 0, "KC"),
+    _own("compression_ratio", "Степень сжатия", "ε", "", 1, "SG"),
+    _own("bore", "Диаметр цилиндра", "D", "mm", 1, "DI"),
+    _own("stroke", _title("S_stroke"), "S", "mm", 1, "SI"),
+    _own("offset", "Дезаксаж", "e", "mm", 3, "DEZ"),
+    _known("lam", "lam", "λ", 3, "ORL"),
+    _own("excess_air", "Коэффициент избытка воздуха", "α", "", 3, "AL"),
+    _known("mechanical", "cyc_eta_m", "η_м", 3, "ETM"),
+    _own("boost.pressure_ratio", "Степень повышения давления", "π_к", "", 3, "PIK"),
+    _known("p_max", "cyc_p_z", "p_z", 2, "PZ"),
+    _own("charge_heating", "Подогрев свежего заряда", "ΔT", "K", 1, "DT"),
+    _own("t_residual", "Температура остаточных газов", "T_r", "K", 1, "TR"),
+    _own("intake_factor", "Коэффициент сопротивления впуска", "C1", "", 2, "C1"),
+    _own("exhaust_factor", "Коэффициент сопротивления выпуска", "C2", "", 2, "C2"),
+    _own("recharge", "Коэффициент дозарядки", "φ_доз", "", 2, "DOZ"),
+    _own("scavenging", "Коэффициент очистки", "φ_оч", "", 2, "FIO"),
+    _own("fullness", "Коэффициент полноты диаграммы", "φ_д", "", 2, "FID"),
+    _own("xi_z", "Коэффициент использования тепла в точке z", "ξ_z", "", 2, "CIZ"),
+    _own("xi_b", "Коэффициент использования тепла в точке b", "ξ_b", "", 2, "CIB"),
+    _own("boost.cooler_pressure_loss", "Потери давления в ОНВ", "Δp_х", "MPa", 4, "DPX"),
+    _own("boost.cooler_temperature_drop", "Понижение температуры в ОНВ", "ΔT_х", "K", 1, "DTX"),
+    _own("boost.compressor_efficiency", "КПД нагнетателя", "η_к", "", 3, "SK"),
+    _own("boost.turbine_efficiency", "КПД турбины", "η_т", "", 3, "ST"),
 )
 
 OUTPUTS: tuple[ListedNumber, ...] = (
-    ListedNumber("charge.p_k", "", "Давление на впуске", "p_к", "МПа", 1e6, 4),
-    ListedNumber("charge.t_k", "", "Температура на впуске", "T_к", "К", 1, 1),
-    ListedNumber("effective.piston_area", "", "Площадь поршня", "F_п", "дм²", 1e-2, 4),
-    ListedNumber("effective.displacement", "", "Рабочий объём цилиндра", "V_h", "дм³", 1e-3, 4),
-    ListedNumber("charge.gamma", "", "Коэффициент остаточных газов", "γ", "", 1, 3),
-    ListedNumber("charge.eta_v", "", "Коэффициент наполнения", "η_v", "", 1, 3),
-    ListedNumber("charge.p_a", "", "Давление начала сжатия", "p_a", "МПа", 1e6, 4),
-    ListedNumber("charge.t_a", "", "Температура начала сжатия", "T_a", "К", 1, 1),
-    ListedNumber("compression.n_1", "", "Показатель политропы сжатия", "n_1", "", 1, 3),
-    ListedNumber("compression.p_c", "", "Давление конца сжатия", "p_c", "МПа", 1e6, 4),
-    ListedNumber("compression.t_c", "", "Температура конца сжатия", "T_c", "К", 1, 1),
-    ListedNumber("combustion.t_z", "", "Температура сгорания", "T_z", "К", 1, 1),
-    ListedNumber("combustion.rho", "", "Степень предварительного расширения", "ρ", "", 1, 3),
-    ListedNumber("combustion.delta", "", "Степень последующего расширения", "δ", "", 1, 3),
-    ListedNumber("expansion.n_2", "", "Показатель политропы расширения", "n_2", "", 1, 3),
-    ListedNumber("expansion.p_b", "", "Давление конца расширения", "p_b", "МПа", 1e6, 4),
-    ListedNumber("expansion.t_b", "", "Температура конца расширения", "T_b", "К", 1, 1),
-    ListedNumber("indicated.p_i", "", "Среднее индикаторное давление", "p_i", "МПа", 1e6, 4),
-    ListedNumber("effective.power_i", "", "Индикаторная мощность", "N_i", "кВт", 1e3, 1),
-    ListedNumber(
-        "indicated.g_i",
-        "",
-        "Индикаторный удельный расход топлива",
-        "g_i",
-        "г/(кВт·ч)",
-        _CONSUMPTION,
-        1,
-    ),
-    ListedNumber("indicated.eta_i", "", "Индикаторный КПД", "η_i", "", 1, 3),
-    ListedNumber("effective.p_e", "", "Среднее эффективное давление", "p_e", "МПа", 1e6, 4),
-    ListedNumber("effective.power_e", "", "Эффективная мощность", "N_e", "кВт", 1e3, 1),
-    ListedNumber(
-        "effective.g_e",
-        "",
-        "Эффективный удельный расход топлива",
-        "g_e",
-        "г/(кВт·ч)",
-        _CONSUMPTION,
-        1,
-    ),
-    ListedNumber("effective.eta_e", "", "Эффективный КПД", "η_e", "", 1, 3),
-    ListedNumber("effective.torque", "", "Крутящий момент", "M_e", "Н·м", 1, 2),
-    ListedNumber("effective.mean_piston_speed", "", "Средняя скорость поршня", "c_m", "м/с", 1, 2),
-    ListedNumber("effective.fuel_flow", "", "Часовой расход топлива", "G_т", "кг/ч", _HOURLY, 2),
-    ListedNumber("effective.air_flow", "", "Часовой расход воздуха", "G_в", "кг/ч", _HOURLY, 2),
-    ListedNumber(
-        "turbo.compressor_flow", "", "Расход воздуха через компрессор", "G_к", "кг/с", 1, 4
-    ),
-    ListedNumber(
-        "turbo.compressor_power", "", "Мощность на привод компрессора", "N_к", "кВт", 1e3, 2
-    ),
-    ListedNumber("turbo.turbine_flow", "", "Расход газов через турбину", "G_тб", "кг/с", 1, 4),
-    ListedNumber("turbo.p_t", "", "Давление газов перед турбиной", "p_т", "МПа", 1e6, 4),
-    ListedNumber("turbo.t_t", "", "Температура газов перед турбиной", "T_т", "К", 1, 1),
+    _known("charge.p_k", "cyc_p_k", "p_к", 4),
+    _known("charge.t_k", "cyc_T_k", "T_к", 1),
+    _own("effective.piston_area", _title("F_piston"), "F_п", "dm2", 4),
+    _known("effective.displacement", "V_h", "V_h", 4),
+    _known("charge.gamma", "cyc_gamma", "γ", 3),
+    _known("charge.eta_v", "cyc_eta_v", "η_v", 3),
+    _known("charge.p_a", "cyc_p_a", "p_a", 4),
+    _known("charge.t_a", "cyc_T_a", "T_a", 1),
+    _known("compression.n_1", "cyc_n1", "n_1", 3),
+    _known("compression.p_c", "cyc_p_c", "p_c", 4),
+    _known("compression.t_c", "cyc_T_c", "T_c", 1),
+    _own("combustion.t_z", "Температура сгорания", "T_z", "K", 1),
+    _known("combustion.rho", "cyc_rho", "ρ", 3),
+    _known("combustion.delta", "cyc_delta", "δ", 3),
+    _known("expansion.n_2", "cyc_n2", "n_2", 3),
+    _known("expansion.p_b", "cyc_p_b", "p_b", 4),
+    _known("expansion.t_b", "cyc_T_b", "T_b", 1),
+    _known("indicated.p_i", "cyc_p_i", "p_i", 4),
+    _own("effective.power_i", "Индикаторная мощность", "N_i", "kW", 1),
+    _known("indicated.g_i", "cyc_g_i", "g_i", 1),
+    _known("indicated.eta_i", "cyc_eta_i", "η_i", 3),
+    _known("effective.p_e", "cyc_p_e", "p_e", 4),
+    _known("effective.power_e", "cyc_N_e", "N_e", 1),
+    _known("effective.g_e", "cyc_g_e", "g_e", 1),
+    _known("effective.eta_e", "cyc_eta_e", "η_e", 3),
+    _own("effective.torque", "Крутящий момент", "M_e", "Nm", 2),
+    _known("effective.mean_piston_speed", "c_m", "c_m", 2),
+    _known("effective.fuel_flow", "cyc_G_f", "G_т", 2),
+    _known("effective.air_flow", "cyc_G_a", "G_в", 2),
+    _known("turbo.compressor_flow", "cyc_G_k", "G_к", 4),
+    _known("turbo.compressor_power", "cyc_N_k", "N_к", 2),
+    _known("turbo.turbine_flow", "cyc_G_t", "G_тб", 4),
+    _known("turbo.p_t", "cyc_p_t", "p_т", 4),
+    _known("turbo.t_t", "cyc_T_t", "T_т", 1),
 )
 
 # What the usual ranges and the report show besides the lists of the appendix
 EXTRA: tuple[ListedNumber, ...] = (
-    ListedNumber("combustion.lambda_p", "", "Степень повышения давления", "λ_p", "", 1, 3),
-    ListedNumber("combustion.p_z", "", "Максимальное давление цикла", "p_z", "МПа", 1e6, 4),
-    ListedNumber("combustion.mu", "", "Коэффициент молекулярного изменения", "μ", "", 1, 4),
-    ListedNumber("indicated.p_theory", "", "Теоретическое среднее давление", "p_i'", "МПа", 1e6, 4),
-    ListedNumber("effective.eta_m", "", "Механический КПД", "η_м", "", 1, 3),
-    ListedNumber("turbo.turbine_power", "", "Мощность турбины", "N_т", "кВт", 1e3, 2),
-    ListedNumber("t_residual_check", "", "Проверка T_r", "T_r", "К", 1, 1),
+    _known("combustion.lambda_p", "cyc_lambda_p", "λ_p", 3),
+    _known("combustion.p_z", "cyc_p_z", "p_z", 4),
+    _own("combustion.mu", "Коэффициент молекулярного изменения", "μ", "", 4),
+    _own("indicated.p_theory", "Теоретическое среднее давление", "p_i'", "MPa", 4),
+    _known("effective.eta_m", "cyc_eta_m", "η_м", 3),
+    _known("turbo.turbine_power", "cyc_N_t", "N_т", 2),
+    _own("t_residual_check", "Проверка T_r", "T_r", "K", 1),
 )
 
 _SCALES = {q.key: q.scale for q in (*INPUTS, *OUTPUTS, *EXTRA)}

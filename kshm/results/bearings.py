@@ -17,6 +17,7 @@ from kshm.mechanics.kinematics import Position
 from kshm.mechanics.oil_balance import Balance, BearingArrays, balance
 from kshm.mechanics.oil_orbit import Complex, FilmError, Orbits, orbits
 from kshm.mechanics.pin_bearing import rod_bearing
+from kshm.nomenclature.quantity import UNITS
 from kshm.results.case import Case
 from kshm.results.extremes import least_loaded
 from kshm.results.safety import safety_results
@@ -237,7 +238,7 @@ class Study:
         thick = 1 - e[:, None, :-1] * np.cos(places[:, None] - journal[:, None, :-1])
         best = places[thick.min(axis=2).argmax(axis=1)]
         mark = [
-            scalars[f"oil_F{n}_N"] + scalars[f"oil_kmax{n}_MPa"] / 1e6
+            scalars[f"oil_F{n}_N"] + scalars[f"oil_kmax{n}_MPa"] / UNITS["MPa"].si
             + 100 * scalars[f"oil_chi{n}"] + 1000 * scalars[f"oil_visc{n}_mPas"]
             for n in self.cases
         ]  # fmt: skip

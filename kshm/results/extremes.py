@@ -6,6 +6,7 @@ import numpy as np
 
 from kshm.arrays import Array
 from kshm.mechanics.wear import ray_angles
+from kshm.nomenclature.quantity import UNITS
 
 # Values this close to the extreme count as equal: the first angle or number is reported.
 TIE = 1e-9
@@ -73,6 +74,6 @@ def least_loaded(sums: Array) -> tuple[Array, Array]:
     for ``sums`` of shape (..., rays).
     """
     count = sums.shape[-1]
-    ray = first_extremes(sums, np.arange(1.0, count + 1), largest=False, floor=1e6)[1]
+    ray = first_extremes(sums, np.arange(1.0, count + 1), largest=False, floor=UNITS["MPa"].si)[1]
     place = np.mod(ray_angles(count)[ray.astype(int) - 1] + np.pi, 2 * np.pi)
     return ray, place

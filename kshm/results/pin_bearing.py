@@ -8,11 +8,12 @@ from kshm.arrays import Array, Results, Scalars
 from kshm.engine.arrangement import hung, throws
 from kshm.mechanics import pin_bearing
 from kshm.mechanics.kinematics import Position
+from kshm.nomenclature.quantity import UNITS
 from kshm.results.case import Case
 from kshm.results.extremes import first_extreme, least_loaded
 from kshm.results.layout import shown_pins
 
-_MPA = 1e6  # extremes are told apart as the tables show them
+_MPA = UNITS["MPa"].si  # extremes are told apart as the tables show them
 
 
 def rod_bearing(case: Case) -> Results:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from kshm.cycle.errors import Remark
+from kshm.nomenclature.quantity import quantity
 from reports.inputs import units
 from reports.inputs.findings import Path
 from reports.inputs.meta import Meta, Strictly, hints
@@ -91,7 +92,7 @@ TEXTS = {
     "four_strokes_only": "τ = {strokes}: рассчитывается только четырёхтактный цикл; задайте τ = 4",
     "central_only": "дезаксаж: цикл рассчитывается для центрального механизма; задайте 0",
     "cylinders_not_whole": "i = {cylinders}: число цилиндров целое; исправьте i",
-    "diesel_needs_p_max": "p_z: для дизеля задайте максимальное давление цикла",
+    "diesel_needs_p_max": f"p_z: для дизеля задайте {quantity('cyc_p_z').title}",
     "petrol_has_no_p_max": "p_z: у двигателя с искровым зажиганием оно получается из расчёта; "
     "уберите его",
     "residual_temperature_off": "T_r = {given} К расходится с проверкой T_b/(p_b/p_r)^(1/3) = "

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from reports.inputs.source import read_text
-from reports.inputs.units import number_text
+from reports.inputs.units import MPA, number_text
 from reports.shared.errors import InputError, Problem, one_line
 
 MOST_POINTS = 1500
@@ -28,7 +28,7 @@ UNITS_MPA = {
     "mpa": 1.0,
     "bar": 0.1,
     "kpa": 0.001,
-    "pa": 1e-6,
+    "pa": MPA.from_si(1.0),
     "kgf_cm2": 0.0980665,
     "atm": 0.101325,
 }

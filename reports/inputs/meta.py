@@ -13,12 +13,19 @@ from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler
 from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, PydanticCustomError, PydanticKnownError, core_schema
 
+from kshm.nomenclature.quantity import quantity
 from reports.inputs import units
 from reports.inputs.units import Unit
+from reports.shared.russian import capital
 
 MAX_TEXT = 300
 _MOST_LISTED = 8  # choices that a message lists one by one
 _REFUSED = {"Cc", "Cs", "Cn", "Zl", "Zp"}
+
+
+def title_of(key: str) -> str:
+    """The title that the tables give a quantity, as a heading."""
+    return capital(quantity(key).title)
 
 
 class Strictly(BaseModel):

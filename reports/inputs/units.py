@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from kshm.nomenclature.quantity import UNITS
 from reports.shared.russian import short
 
 
@@ -53,7 +54,7 @@ NONE = Unit("", "")
 MM = Unit("mm", "мм", over=1000.0)
 KG = Unit("kg", "кг")
 DEG = Unit("deg", "°", times=math.pi, over=180.0)
-MPA = Unit("mpa", "МПа", times=1e6)
+MPA = Unit("mpa", UNITS["MPa"].label, times=UNITS["MPa"].si)
 RPM = Unit("rpm", "мин⁻¹", times=math.pi, over=30.0)
 KW = Unit("kw", "кВт", times=1000.0)
 KELVIN = Unit("k", "К")
@@ -71,7 +72,7 @@ CELSIUS = Unit("c", "°C")
 MPA_S = Unit("mpa_s", "мПа·с", over=1000.0)
 KG_M3 = Unit("kg_m3", "кг/м³")
 J_KG_K = Unit("j_kg_k", "Дж/(кг·К)")
-MPA_S_M = Unit("mpa_s_m", "МПа·с/м", times=1e6)
+MPA_S_M = Unit("mpa_s_m", f"{MPA.label}·с/м", times=MPA.times)
 
 
 def is_within(value: float, span: tuple[float, float]) -> bool:

@@ -10,6 +10,7 @@ import numpy as np
 from kshm.arrays import Array
 from kshm.mechanics import oil_film
 from kshm.mechanics.oil_balance import BearingArrays
+from kshm.nomenclature.quantity import UNITS
 from reports.validation.gots_text import Number
 
 _WIDTH = 0.5  # B/D
@@ -27,7 +28,7 @@ def _pressure() -> float:
     """Mean pressure of the tractor diesel's crankpin 68 × 38 mm under 11,745 N [MPa]."""
     sizes = (0.068, 0.038, 1.0, 0.057e-3, 230.0, 0.005)
     bearing = BearingArrays(*(np.array([size]) for size in sizes))
-    return float(11745 / bearing.area[0]) / 1e6
+    return float(11745 / bearing.area[0]) / UNITS["MPa"].si
 
 
 FILM: dict[str, Number] = {

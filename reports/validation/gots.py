@@ -7,6 +7,7 @@ import numpy as np
 from kshm.cycle.diagram import indicator_diagram
 from kshm.mechanics.wear import components, ray_loads, ray_sums
 from kshm.nomenclature.dizdn_listing import value_of
+from kshm.nomenclature.quantity import UNITS
 from kshm.results.reference import reference_tables
 from reports.validation.checks import Lookup, Ours
 from reports.validation.printed import rows_of
@@ -99,7 +100,7 @@ def cycle_diagram() -> Lookup:
             "phi_deg": np.round(np.degrees(made.phi), 6),
             "piston_mm": made.displacement * 1e3,
             "volume_dm3": made.volume * 1e3,
-            "pressure_MPa": made.pressure / 1e6,
+            "pressure_MPa": made.pressure / UNITS["MPa"].si,
             "temperature_K": made.temperature,
         }
     )

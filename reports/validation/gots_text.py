@@ -12,6 +12,7 @@ from kshm import solve
 from kshm.engine.engine import Geometry
 from kshm.mechanics import kinematics
 from kshm.nomenclature.dizdn_listing import value_of
+from kshm.nomenclature.quantity import UNITS
 from kshm.results.solution import Solution
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_toml
@@ -173,7 +174,7 @@ SECTION_2_9: dict[str, Number] = {
     "m_2": lambda: _mass("m_2"),
     "m_j": lambda: _mass("m_j"),
     "m_r": lambda: _mass("m_r"),
-    "p_j_factor": lambda: -_mass("m_j") / _mass("F_piston") / 1e6,
+    "p_j_factor": lambda: -_mass("m_j") / _mass("F_piston") / UNITS["MPa"].si,
     "K_r": lambda: -_mass("K_r"),
     "K_r_spec": lambda: -_mass("K_r_spec"),
     "M_factor": lambda: _diesel("r_crank") * _diesel("F_piston"),

@@ -6,13 +6,14 @@ from collections.abc import Mapping, Sequence
 
 from reports.grading.judging.trials import Trial
 from reports.inputs.fields import Field
+from reports.inputs.units import MPA
 
 _METRES = 1e-3
 # In what else a student may write the input data down: cm, g, kPa, bar, Pa, turns a second, W.
 _OTHER_UNITS = {
     "мм": (_METRES, 0.1),
     "кг": (1e3,),
-    "МПа": (1e3, 10.0, 1e6),
+    MPA.label: (1e3, 10.0, MPA.times),
     "мин⁻¹": (1 / 60,),
     "кВт": (1e3,),
 }

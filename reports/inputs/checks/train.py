@@ -14,6 +14,7 @@ from reports.inputs.findings import Path
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.torsion import TorsionSection
 from reports.inputs.to_si.geometry import Sizes
+from reports.inputs.units import MPA
 
 _SPACING = 1.25  # of cylinders, in bores, from memory: the length that twists
 _PATH = ("torsion",)
@@ -64,5 +65,5 @@ def _shaft_stiffness(model: InputFile, section: TorsionSection, sizes: Sizes) ->
     shaft = model.crankshaft
     given = shaft.main_diameters_mm or (shaft.main_diameter_mm or 0.0,)
     mean = sum(given) / len(given) / 1000
-    modulus = section.shear_modulus_mpa * 1e6
+    modulus = MPA.to_si(section.shear_modulus_mpa)
     return modulus * math.pi * mean**4 / 32 / (_SPACING * sizes.bore / 1000)

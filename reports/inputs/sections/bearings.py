@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from reports.inputs.meta import Strictly, choice, number
+from reports.inputs.meta import Strictly, choice, number, title_of
 from reports.inputs.units import CELSIUS, J_KG_K, KG_M3, MM, MPA, MPA_S, NONE, UM
 
 MEMORY = "по памяти, без источника"
@@ -88,11 +88,9 @@ class BearingsSection(Strictly):
     oil: Literal["sae20", "sae30", "sae40", "sae50", "m8", "m10"] = choice(
         "Масло", OIL_NAMES, "sae30"
     )
-    viscosity_40_mpa_s: float | None = number(
-        "Вязкость масла при 40 °C", "η_40", MPA_S, 0.5, 5000, None
-    )
+    viscosity_40_mpa_s: float | None = number(title_of("oil_eta40"), "η_40", MPA_S, 0.5, 5000, None)
     viscosity_100_mpa_s: float | None = number(
-        "Вязкость масла при 100 °C", "η_100", MPA_S, 0.5, 1000, None
+        title_of("oil_eta100"), "η_100", MPA_S, 0.5, 1000, None
     )
     oil_temperature_c: float | None = number(
         "Температура масла в плёнке (нет — по тепловому балансу)", "t_м", CELSIUS, -20, 200, None
@@ -108,12 +106,12 @@ class BearingsSection(Strictly):
     material: Literal["40h2n2ma", "40h", "45", "vch60", "sch35"] = choice(
         "Материал вала", MATERIAL_NAMES, "45"
     )
-    tensile_mpa: float | None = number("Предел прочности", "σ_в", MPA, 50, 3000, None)
+    tensile_mpa: float | None = number(title_of("mat_tensile_MPa"), "σ_в", MPA, 50, 3000, None)
     bending_limit_mpa: float | None = number(
-        "Предел выносливости при изгибе", "σ_−1", MPA, 20, 2000, None
+        title_of("mat_bending_MPa"), "σ_−1", MPA, 20, 2000, None
     )
     torsion_limit_mpa: float | None = number(
-        "Предел выносливости при кручении", "τ_−1", MPA, 20, 2000, None
+        title_of("mat_torsion_MPa"), "τ_−1", MPA, 20, 2000, None
     )
     mean_bending: float = number(
         "Чувствительность к асимметрии при изгибе", "ψ_σ", NONE, 0, 1, 0.15
@@ -121,7 +119,7 @@ class BearingsSection(Strictly):
     mean_torsion: float = number(
         "Чувствительность к асимметрии при кручении", "ψ_τ", NONE, 0, 1, 0.08
     )
-    fillet_mm: float | None = number("Радиус галтели", "ρ_г", MM, 0.2, 200, None)
+    fillet_mm: float | None = number(title_of("safe_fillet1_mm"), "ρ_г", MM, 0.2, 200, None)
     pin_bore_mm: float = number("Диаметр отверстия шатунных шеек", "δ_ш", MM, 0, 2000, 0.0)
     main_bore_mm: float = number("Диаметр отверстия коренных шеек", "δ_к", MM, 0, 2000, 0.0)
     fillet_bending: float = number("Концентрация у галтели при изгибе", "α_σг", NONE, 1, 10, 2.0)

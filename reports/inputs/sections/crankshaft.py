@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Strict
 
-from reports.inputs.meta import Strictly, number, text
+from reports.inputs.meta import Strictly, number, text, title_of
 from reports.inputs.units import DEG, KG, MM
 
 
@@ -67,7 +67,7 @@ class CrankshaftSection(Strictly):
     throw_angles_deg: tuple[float, ...] = number(
         "Колено {n}: угол от колена 1", "γ_{n}", DEG, -360, 360
     )
-    pin_diameter_mm: float | None = number("Диаметр шатунной шейки", "d_ш.ш", MM, 2, 2000, None)
+    pin_diameter_mm: float | None = number(title_of("tor_Dp"), "d_ш.ш", MM, 2, 2000, None)
     pin_diameters_mm: tuple[float, ...] | None = number(
         "Шатунная шейка {n}: диаметр", "d_шш{n}", MM, 2, 2000, None
     )

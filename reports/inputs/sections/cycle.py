@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any, Literal
 
 from kshm.cycle.inputs import LIMITS
-from reports.inputs.meta import Strictly, choice, number
+from reports.inputs.meta import Strictly, choice, number, title_of
 from reports.inputs.units import (
     KELVIN,
     KG_KMOL,
@@ -75,12 +75,10 @@ class CycleSection(Strictly):
     fuel: Literal["diesel", "petrol", "ethanol", "methane", "own"] = choice(
         "Топливо", FUEL_NAMES, structural=True
     )
-    fuel_carbon: float | None = number("Доля углерода в топливе", "C", NONE, 0, 1, None)
-    fuel_hydrogen: float | None = number("Доля водорода в топливе", "H", NONE, 0, 1, None)
-    fuel_oxygen: float | None = number("Доля кислорода в топливе", "O", NONE, 0, 1, None)
-    fuel_heating_value_mj_kg: float | None = number(
-        "Низшая теплота сгорания", "H_u", MJ_KG, 5, 130, None
-    )
+    fuel_carbon: float | None = number(title_of("cyc_C"), "C", NONE, 0, 1, None)
+    fuel_hydrogen: float | None = number(title_of("cyc_H"), "H", NONE, 0, 1, None)
+    fuel_oxygen: float | None = number(title_of("cyc_O"), "O", NONE, 0, 1, None)
+    fuel_heating_value_mj_kg: float | None = number(title_of("cyc_Hu"), "H_u", MJ_KG, 5, 130, None)
     fuel_molar_mass_kg_kmol: float | None = number(
         "Молярная масса паров топлива", "m_т", KG_KMOL, 2, 1000, None
     )
@@ -100,9 +98,7 @@ class CycleSection(Strictly):
     )
     recharge: float = _limited("Коэффициент дозарядки", "φ_доз", NONE, "recharge", 1.0)
     scavenging: float = _limited("Коэффициент очистки", "φ_оч", NONE, "scavenging", 1.0)
-    max_pressure_mpa: float | None = _limited(
-        "Максимальное давление цикла", "p_z", MPA, "p_max", None
-    )
+    max_pressure_mpa: float | None = _limited(title_of("cyc_p_z"), "p_z", MPA, "p_max", None)
     xi_z: float = _limited("Коэффициент использования тепла в точке z", "ξ_z", NONE, "xi_z")
     xi_b: float = _limited("Коэффициент использования тепла в точке b", "ξ_b", NONE, "xi_b")
     fullness: float = _limited("Коэффициент полноты диаграммы", "φ_д", NONE, "fullness")
@@ -140,8 +136,6 @@ class CycleSection(Strictly):
     speed_law: Literal["diesel", "diesel_prechamber", "diesel_swirl", "petrol"] | None = choice(
         "Коэффициенты внешней характеристики", SPEED_LAWS, None, structural=True
     )
-    adaptability: float | None = number("Коэффициент приспособляемости", "K", NONE, 1.001, 2, None)
-    torque_speed_rpm: float | None = number(
-        "Частота наибольшего момента", "n_M", RPM, 10, 30000, None
-    )
-    idle_speed_rpm: float | None = number("Частота холостого хода", "n_х", RPM, 10, 30000, None)
+    adaptability: float | None = number(title_of("spd_K"), "K", NONE, 1.001, 2, None)
+    torque_speed_rpm: float | None = number(title_of("reg_n_M"), "n_M", RPM, 10, 30000, None)
+    idle_speed_rpm: float | None = number(title_of("reg_n_idle"), "n_х", RPM, 10, 30000, None)

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Strict
 
-from reports.inputs.meta import Meta, Strictly, choice, number
+from reports.inputs.meta import Meta, Strictly, choice, number, title_of
 from reports.inputs.sections.cycle import KINDS
 from reports.inputs.units import DEG, MPA, NONE
 
@@ -24,7 +24,7 @@ _SOURCE = Meta("Индикаторная диаграмма", choices=SOURCES, s
 _ROUNDED = Meta("Индикаторная диаграмма", choices={"rounded": SOURCES["rounded"]}, structural=True)
 # The same in every diagram that has them, whatever the point z is called there.
 _P_Z = ("p_z", MPA, 0.2, 60)
-_RHO = ("Степень предварительного расширения", "ρ", NONE, 1, 6)
+_RHO = (title_of("cyc_rho"), "ρ", NONE, 1, 6)
 
 
 class _Ambient(Strictly):
@@ -38,10 +38,10 @@ class _Pressures(_Ambient):
     """Pressures and exponents of the polytropes."""
 
     intake_pressure_mpa: float = number("Давление впуска", "p_a", MPA, 0.01, 3)
-    residual_pressure_mpa: float = number("Давление остаточных газов", "p_r", MPA, 0.01, 3)
-    max_pressure_mpa: float = number("Максимальное давление цикла", *_P_Z)
-    compression_exponent: float = number("Показатель политропы сжатия", "n_1", NONE, 1, 1.7)
-    expansion_exponent: float = number("Показатель политропы расширения", "n_2", NONE, 1, 1.7)
+    residual_pressure_mpa: float = number(title_of("cyc_p_r"), "p_r", MPA, 0.01, 3)
+    max_pressure_mpa: float = number(title_of("cyc_p_z"), *_P_Z)
+    compression_exponent: float = number(title_of("cyc_n1"), "n_1", NONE, 1, 1.7)
+    expansion_exponent: float = number(title_of("cyc_n2"), "n_2", NONE, 1, 1.7)
     preexpansion_ratio: float = number(*_RHO)
 
 

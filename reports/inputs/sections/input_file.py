@@ -11,7 +11,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from reports.inputs.meta import Strictly, choice, number, text
+from reports.inputs.meta import Strictly, choice, number, text, title_of
 from reports.inputs.sections.articulated import ArticulatedSection
 from reports.inputs.sections.balance import BalanceSection
 from reports.inputs.sections.bearings import BearingsSection
@@ -77,9 +77,9 @@ class GeometrySection(Strictly):
     """
 
     bore_mm: float = number("Диаметр цилиндра", "D", MM, 10, 1500)
-    crank_radius_mm: float | None = number("Радиус кривошипа", "r", MM, 5, 2000, None)
-    stroke_mm: float | None = number("Ход поршня", "S", MM, 10, 4000, None)
-    rod_length_mm: float | None = number("Длина шатуна", "L", MM, 10, 6000, None)
+    crank_radius_mm: float | None = number(title_of("r_crank"), "r", MM, 5, 2000, None)
+    stroke_mm: float | None = number(title_of("S_stroke"), "S", MM, 10, 4000, None)
+    rod_length_mm: float | None = number(title_of("L_rod"), "L", MM, 10, 6000, None)
     lambda_: float | None = number(
         "Отношение r/L", "λ", NONE, LAMBDA_MIN, LAMBDA_MAX, None, alias="lambda"
     )
@@ -108,8 +108,8 @@ class Regime(Strictly):
     """[regime]."""
 
     name: str | None = text("Название режима", None)
-    speed_rpm: float = number("Частота вращения", "n", RPM, 10, 30000)
-    mechanical_efficiency: float = number("Механический КПД", "η_м", NONE, 0.1, 1, 1.0)
+    speed_rpm: float = number(title_of("n_rpm"), "n", RPM, 10, 30000)
+    mechanical_efficiency: float = number(title_of("cyc_eta_m"), "η_м", NONE, 0.1, 1, 1.0)
     indicated_power_kw: float | None = number(
         "Индикаторная мощность по расчёту цикла", "N_i", KW, 0.01, 1e5, None
     )
@@ -121,7 +121,7 @@ class RegimeValues(Regime):
 
     name: str = text("Название режима")
     # None at all is left at idle speed.
-    mechanical_efficiency: float = number("Механический КПД", "η_м", NONE, 0, 1, 1.0)
+    mechanical_efficiency: float = number(title_of("cyc_eta_m"), "η_м", NONE, 0, 1, 1.0)
 
 
 class RegimeSection(RegimeValues):

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from reports.inputs.meta import Strictly, choice, number
+from reports.inputs.meta import Strictly, choice, number, title_of
 from reports.inputs.sections.cycle import KINDS
 from reports.inputs.units import KG, KG_M2, KG_PER_M2, MM, NONE, PER_MIN
 
@@ -41,11 +41,9 @@ class MassesSection(Strictly):
     rod_big_end_kg: float | None = number(
         "Масса шатуна, отнесённая к кривошипу", "m_2", KG, 0.001, 5000, None
     )
-    piston_group_kg: float | None = number("Масса поршневой группы", "m_п", KG, 0.001, 5000, None)
-    rod_kg: float | None = number("Масса шатуна", "m_ш", KG, 0.001, 5000, None)
-    rod_centre_mm: float | None = number(
-        "Расстояние от пальца до центра масс шатуна", "l_1", MM, 1, 6000, None
-    )
+    piston_group_kg: float | None = number(title_of("m_piston"), "m_п", KG, 0.001, 5000, None)
+    rod_kg: float | None = number(title_of("m_rod"), "m_ш", KG, 0.001, 5000, None)
+    rod_centre_mm: float | None = number(title_of("rod_l1"), "l_1", MM, 1, 6000, None)
     rod_small_end_share: float | None = number(
         "Доля массы шатуна у поршневого пальца", "m_1/m_ш", NONE, 0.02, 0.8, None
     )
@@ -64,9 +62,7 @@ class MassesSection(Strictly):
     swing_edges_mm: float | None = number(
         "Расстояние между осями качаний", "l_3", MM, 5, 6000, None
     )
-    rod_inertia_kg_m2: float | None = number(
-        "Момент инерции шатуна относительно центра масс", "I_ш", KG_M2, 1e-7, 1e5, None
-    )
+    rod_inertia_kg_m2: float | None = number(title_of("I_sh"), "I_ш", KG_M2, 1e-7, 1e5, None)
     estimate_fuel: Literal["petrol", "diesel"] | None = choice(
         "Оценка масс по таблице 4: двигатель", KINDS, None, structural=True
     )

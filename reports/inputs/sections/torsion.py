@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Strict
 
-from reports.inputs.meta import Strictly, choice, number, text
+from reports.inputs.meta import Strictly, choice, number, text, title_of
 from reports.inputs.units import KG_M2, MM, MPA, NM_RAD, NMS_RAD, NONE, RPM
 
 FORMULAS = {
@@ -52,9 +52,7 @@ class TorsionSection(Strictly):
     throws_kg_m2: tuple[float, ...] | None = number(
         "Колено {n}: момент инерции", "J_к{n}", KG_M2, LEAST, MOST, None
     )
-    flywheel_kg_m2: float | None = number(
-        "Момент инерции маховика", "J_м", KG_M2, LEAST, MOST, None
-    )
+    flywheel_kg_m2: float | None = number(title_of("tor_flywheel"), "J_м", KG_M2, LEAST, MOST, None)
     driven_kg_m2: float | None = number(
         "Момент инерции за маховиком", "J_пр", KG_M2, LEAST, MOST, None
     )
@@ -77,18 +75,14 @@ class TorsionSection(Strictly):
     shear_modulus_mpa: float = number("Модуль сдвига", "G", MPA, 1e4, 2e5, 80000.0)
     main_bore_mm: float = number("Диаметр отверстия коренных шеек", "d_j", MM, 0, 2000, 0.0)
     pin_bore_mm: float = number("Диаметр отверстия шатунных шеек", "d_p", MM, 0, 2000, 0.0)
-    web_width_mm: float | None = number("Ширина щеки", "b", MM, 2, 5000, None)
-    web_thickness_mm: float | None = number("Толщина щеки", "h", MM, 1, 2000, None)
+    web_width_mm: float | None = number(title_of("tor_bw"), "b", MM, 2, 5000, None)
+    web_thickness_mm: float | None = number(title_of("tor_hw"), "h", MM, 1, 2000, None)
     damping_nms_rad: float | None = number(
         "Сопротивление в каждом цилиндре", "b_ц", NMS_RAD, 0, 1e6, None
     )
     loss_factor: float = number("Коэффициент потерь вала", "η", NONE, 0, 0.5, 0.035)
-    speed_min_rpm: float | None = number(
-        "Наименьшая рабочая частота вращения", "n_min", RPM, 10, 30000, None
-    )
-    speed_max_rpm: float | None = number(
-        "Наибольшая рабочая частота вращения", "n_max", RPM, 10, 30000, None
-    )
+    speed_min_rpm: float | None = number(title_of("tor_n_min"), "n_min", RPM, 10, 30000, None)
+    speed_max_rpm: float | None = number(title_of("tor_n_max"), "n_max", RPM, 10, 30000, None)
     stress_allowed_mpa: float = number(
         "Допускаемая амплитуда напряжений кручения", "[τ]", MPA, 1, 500, 30.0
     )
@@ -96,12 +90,10 @@ class TorsionSection(Strictly):
         "Другой маховик для сравнения", "J_м2", KG_M2, LEAST, MOST, None
     )
     damper: Literal["viscous", "tuned"] = choice("Гаситель на первой массе", DAMPERS, "viscous")
-    damper_kg_m2: float | None = number(
-        "Момент инерции кольца гасителя", "J_г", KG_M2, LEAST, MOST, None
-    )
+    damper_kg_m2: float | None = number(title_of("tor_ring"), "J_г", KG_M2, LEAST, MOST, None)
     damper_nm_rad: float | None = number(
         "Жёсткость настроенного гасителя", "c_г", NM_RAD, SOFT, HARD, None
     )
-    damper_nms_rad: float | None = number("Сопротивление гасителя", "b_г", NMS_RAD, 0, 1e8, None)
+    damper_nms_rad: float | None = number(title_of("tor_damper_b"), "b_г", NMS_RAD, 0, 1e8, None)
     masses: Annotated[tuple[MassSection, ...], Strict(False)] = ()
     peaks: Annotated[tuple[PeakSection, ...], Strict(False)] = ()

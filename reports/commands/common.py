@@ -55,13 +55,13 @@ def tell(loaded: Loaded) -> None:
         click.echo(line, err=True)
 
 
-def tell_solved(loaded: Loaded) -> bool:
-    """What the solution shows; whether it needs a person's eye."""
+def tell_solved(loaded: Loaded, *, aside: bool = False) -> bool:
+    """What the solution shows, ``aside`` of the output; whether it needs a person's eye."""
     from reports.inputs.checks.flywheel import solution_remarks
 
     lines = solution_remarks(loaded.model)
     for line in lines:
-        click.echo(line)
+        click.echo(line, err=aside)
     return any(line.startswith("Внимание") for line in lines)
 
 

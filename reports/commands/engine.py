@@ -178,6 +178,7 @@ def solve(source: Path, folder: Path | None, target: str | None) -> int:
         make_dir(folder)
         for path, columns in tables.items():
             write_text(path, csv_text(columns))
+        click.echo(folder)
     if target == "-":
         click.echo(json_text(loaded.model, solution, notes_of(loaded)), nl=False)
     elif target is not None:
@@ -185,9 +186,11 @@ def solve(source: Path, folder: Path | None, target: str | None) -> int:
             temporary.write_text(
                 json_text(loaded.model, solution, notes_of(loaded)), encoding="utf-8"
             )
-    if folder is None and target is None:
+        click.echo(target)
+    wordless = folder is not None or target is not None
+    if not wordless:
         _print_summary(solution.scalars, smallness_of(loaded.model))
-        tell_solved(loaded)
+    tell_solved(loaded, aside=wordless)
     return DONE
 
 

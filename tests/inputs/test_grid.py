@@ -58,12 +58,24 @@ def test_rounding_noise_of_zero_is_no_difference():
     assert all(abs(e.coarse) + abs(e.fine) > 1e-9 for e in grid_errors(made("opposed_four")))
 
 
+_GRID = r"Шаг таблиц 10° .*наибольший суммарный момент: 2374 вместо 2557"
+
+
 @pytest.mark.parametrize("command", ["check", "solve"])
 def test_the_commands_name_the_grid(command):
     path = samples_dir() / "yamz-236.toml"
     done = CliRunner().invoke(main, [command, str(path)])
     assert done.exit_code == 0
-    assert re.search(r"Шаг таблиц 10° .*наибольший суммарный момент: 2374 вместо 2557", done.stdout)
+    assert re.search(_GRID, done.stdout)
+
+
+def test_numbers_in_files_are_told_and_the_grid_aside(tmp_path):
+    book, target = samples_dir() / "yamz-236.toml", tmp_path / "numbers.json"
+    done = CliRunner().invoke(
+        main, ["solve", str(book), "--csv", str(tmp_path), "--json", str(target)]
+    )
+    assert done.stdout.splitlines() == [str(tmp_path), str(target)]
+    assert re.search(_GRID, done.stderr)
 
 
 def test_an_oil_hole_that_the_fine_step_puts_elsewhere_is_told():

@@ -15,6 +15,7 @@ from pydantic import BaseModel
 from reports.inputs.findings import Finding, Path, Values, radius_and_rod
 from reports.inputs.sections.bearings import OILS, OilGrade
 from reports.inputs.sections.input_file import LAMBDA_MAX, LAMBDA_MIN
+from reports.inputs.sections.torsion import LEAST_SPEED, MOST_SPEED
 from reports.inputs.units import number_text, span_text
 
 _TERM = re.compile(r"(?:(?P<times>[\d.]+)\*)?(?P<key>=?[a-z0-9_.]+)(?:\^(?P<power>[\d.]+))?")
@@ -139,8 +140,8 @@ PAIRS = (
          "выпуск должен открываться раньше продувки", strokes=2),
     Pair("gas.peak_after_tdc_deg", "gas.expansion_after_tdc_deg",
          "Выход на линию расширения позже наибольшего давления"),
-    Pair("torsion.speed_min_rpm | 0.4*regime.speed_rpm",
-         "torsion.speed_max_rpm | 1.1*regime.speed_rpm",
+    Pair(f"torsion.speed_min_rpm | {LEAST_SPEED}*regime.speed_rpm",
+         f"torsion.speed_max_rpm | {MOST_SPEED}*regime.speed_rpm",
          "Крутильные колебания: наименьшая частота вращения меньше наибольшей",
          "диапазон от {less} до {more} мин⁻¹ пуст", "нужно speed_min_rpm < speed_max_rpm",
          at="more"),

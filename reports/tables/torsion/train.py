@@ -9,7 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.sections.torsion import FORMULAS, TorsionSection
+from reports.inputs.sections.torsion import FORMULAS, LEAST_SPEED, MOST_SPEED, TorsionSection
+from reports.shared.russian import short
 from reports.spec.blocks import Block, Grid, GridRow, Scalar, ScalarTable
 from reports.spec.listing import grid_row, scalar_list
 from reports.spec.parts import Part, Scope
@@ -316,8 +317,8 @@ def _list(train: Train, section: TorsionSection, scope: Scope) -> ScalarTable:
             f"tor_flywheel = {_flywheel(train, section, scope.shape)}",
             _chosen("tor_flywheel_other", "other_flywheel_kg_m2", section, "1.5*tor_flywheel",
                     "в полтора раза тяжелее"),
-            _chosen("tor_n_min", "speed_min_rpm", section, "0.4*regime_speed_rpm", "0,4 n"),
-            _chosen("tor_n_max", "speed_max_rpm", section, "1.1*regime_speed_rpm", "1,1 n"),
+            _speed("tor_n_min", "speed_min_rpm", section, LEAST_SPEED),
+            _speed("tor_n_max", "speed_max_rpm", section, MOST_SPEED),
             f"tor_limit = sqrt(max({bounds})) | теорема Гершгорина",
         ),
     )  # fmt: skip
@@ -327,6 +328,10 @@ def _chosen(key: str, given: str, section: TorsionSection, guess: str, words: st
     if getattr(section, given) is not None:
         return f"{key} = torsion_{given} | {GIVEN}"
     return f"{key} = {guess} | {GUESS}: {words}"
+
+
+def _speed(key: str, given: str, section: TorsionSection, share: float) -> str:
+    return _chosen(key, given, section, f"{share}*regime_speed_rpm", f"{short(share)} n")
 
 
 def _flywheel(train: Train, section: TorsionSection, shape: Shape) -> str:

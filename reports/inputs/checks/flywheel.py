@@ -1,4 +1,4 @@
-"""A flywheel that is lighter than a throw of its shaft: none is."""
+"""A flywheel that is lighter than a throw of its shaft, or of another unit: none is."""
 
 from __future__ import annotations
 
@@ -8,10 +8,12 @@ from reports.inputs.checks.grid import grid_remark
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.solved import solved
 from reports.inputs.to_si.engine import smallness_of
+from reports.inputs.units import number_text
 from reports.shared.errors import InputError
 from reports.shared.russian import NBSP, written
 
 INERTIAS = "torsion_forms", "tor_J_kgm2"  # of the train's masses: pulley, throws, flywheel
+_MOST = 1000.0  # times all throws together; of one cylinder it is some hundreds, from memory
 
 
 def lighter_than(inertias: Array, throws: int) -> int:
@@ -21,7 +23,7 @@ def lighter_than(inertias: Array, throws: int) -> int:
 
 
 def flywheel_remark(model: InputFile) -> str:
-    """That the flywheel of the torsional train is implausibly light, in one line; or nothing."""
+    """That the flywheel of the torsional train is too light or heavy, in one line; or nothing."""
     if model.torsion is None or model.torsion.masses:
         return ""
     try:
@@ -30,6 +32,13 @@ def flywheel_remark(model: InputFile) -> str:
     except (ValueError, InputError):
         return ""
     throws = len(model.crankshaft.throw_angles_deg)
+    heavy = inertias[throws + 1] / inertias[1 : throws + 1].sum()
+    if heavy > _MOST:
+        own = _shown(model, inertias[throws + 1])
+        return (
+            f"Внимание: torsion.flywheel_kg_m2: момент инерции маховика {own} больше, чем у всех "
+            f"колен вместе, в {number_text(round(heavy))}{NBSP}раз; проверьте, что он в кг·м²"
+        )
     throw = lighter_than(inertias, throws)
     if not throw:
         return ""

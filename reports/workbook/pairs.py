@@ -13,6 +13,7 @@ from reports.spec.blocks import Model
 from reports.workbook.layout import Layout, column_range
 
 _Fields = Mapping[str, Sequence[Field]]
+_POINTS = Pair("gas.points", "gas.points", "Углы точек диаграммы возрастают")
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +33,7 @@ def conditions(
     """Every pair both of whose sides stand in the book, those of further regimes as well."""
     main, further = _by_key(model.inputs)
     for number_, own in ((1, main), *further.items()):
-        suffix = regime_suffix(number_) if number_ > 1 else ""
+        suffix, whose = (regime_suffix(number_), f", режим {number_}") if number_ > 1 else ("", "")
         shared = {key: found for key, found in main.items() if not suffix or not _of_regime(key)}
         fields = {**shared, **own}
         for pair in PAIRS:
@@ -49,9 +50,19 @@ def conditions(
             if suffix and not any(field.path[2:3] == ("gas",) for field in cells):
                 continue
             sign = "<" if pair.strict else "<="
-            title = f"{pair.title}, режим {number_}" if suffix else pair.title
             text, holds = f"{less.text}{sign}{more.text}", pair.holds(less.value, more.value)
-            yield Condition(pair, title, text, cells, holds)
+            yield Condition(pair, pair.title + whose, text, cells, holds)
+        if angles := tuple(item for item in own.get(_POINTS.less, ()) if item.path[-1] == 0):
+            title = _POINTS.title + whose
+            yield Condition(_POINTS, title, _rising(angles, layout), angles, holds=True)
+
+
+def _rising(found: Sequence[Field], layout: Layout) -> str:
+    """That each of several cells of a column is greater than the one above it."""
+    first, last = (layout.cells[item.name] for item in (found[0], found[-1]))
+    above = column_range(first.sheet, first.column, first.row, last.row - 1)
+    below = column_range(first.sheet, first.column, first.row + 1, last.row)
+    return f"SUMPRODUCT(--({below}<={above}))=0"
 
 
 def _by_key(inputs: Sequence[Field]) -> tuple[_Fields, dict[int, _Fields]]:

@@ -188,6 +188,22 @@ def test_a_regime_is_held_to_its_own_gas() -> None:
     assert delays == [True, False, False]
 
 
+def test_points_out_of_order_turn_red() -> None:
+    raw = to_mapping(coarse(NAME))
+    points = [[0.0, 0.1], [90.0, 0.3], [180.0, 6.0], [270.0, 0.4], [360.0, 0.1]]
+    raw["gas"] = {"source": "table", "ambient_pressure_mpa": 0.1, "points": points}
+    made = build_model(load_mapping(raw, source="").model)
+    data = workbook_bytes(made)
+    engine, reds = formualizer.load_workbook_bytes(stripped(data)[0]), red_rows(data)
+    places = Layout.of(made).cells
+    rows = [places[f"gas_point_{n}_deg"].row for n in range(1, 6)]
+    for angle, state in ((91.0, 0), (90.0, 1), (200.0, 0), (280.0, 1)):
+        place = places["gas_point_3_deg"]
+        engine.set_value(place.sheet, place.row, place.column, angle)
+        engine.evaluate_all()
+        assert [engine.get_value(INPUT_SHEET, row, reds) for row in rows] == [state] * 5, angle
+
+
 def test_what_is_odd_at_the_start_is_so_in_the_caches() -> None:
     raw = to_mapping(coarse(NAME))
     raw["gas"]["expansion_exponent"] = 1.5  # more than that of compression

@@ -62,7 +62,7 @@ def _rising(found: Sequence[Field], layout: Layout) -> str:
     first, last = (layout.cells[item.name] for item in (found[0], found[-1]))
     above = column_range(first.sheet, first.column, first.row, last.row - 1)
     below = column_range(first.sheet, first.column, first.row + 1, last.row)
-    return f"SUMPRODUCT(--({below}<={above}))=0"
+    return f"SUMPRODUCT(1*({below}<={above}))=0"
 
 
 def _by_key(inputs: Sequence[Field]) -> tuple[_Fields, dict[int, _Fields]]:

@@ -28,7 +28,7 @@ def solved(model: InputFile, source: str = "") -> Solution:
 _PRINTED = {"report": Report(), "sheet": None}  # sections that change no number
 
 
-@lru_cache(maxsize=3)  # the doors, the sheets and the report ask for the same and for finer steps
+@lru_cache(maxsize=16)  # the doors, the sheets and the report ask for the same and for finer steps
 def _solution(model: InputFile) -> Solution:
     solution = solve(*engine_and_cycle(model))
     if model.bearings is not None:

@@ -268,6 +268,7 @@ class Causes:
                 # A nought is no value of another quantity that happens to be one.
                 if not isinstance(value, str) and round(value, item.quantity.digits.decimals):
                     yield f"это значение величины {scalar}", np.array([float(value)])
+            yield from self._largest(item, run)
             return
         model = self.student.assignment.model
         own = model.tables[item.block]
@@ -288,6 +289,25 @@ class Causes:
                 value = run.value(node)
                 if not isinstance(value, str):
                     yield words, np.asarray(value, dtype=float)[rows]
+
+    def _largest(self, item: Item, run: Evaluation) -> Iterator[tuple[str, Array | None]]:
+        """The largest of a column, whose rows may be on either side of the largest of all."""
+        right = self._values(item, run)
+        if not item.quantity.unit:
+            return
+        for table in self.student.assignment.model.tables.values():
+            for column in table.columns:
+                if column.expr is None or column.quantity.unit != item.quantity.unit:
+                    continue
+                value = run.value(f"{table.id}.{column.key}")
+                if isinstance(value, str) or not np.isfinite(value).any():
+                    continue
+                largest = np.nanmax(np.abs(value), keepdims=True)
+                where = table.number or f"«{table.title}»"
+                words = f"это наибольшее из строк таблицы {where}, {column.quantity.symbol}"
+                if right is not None and (np.abs(right) > largest).all():
+                    words += ": между ними есть и большее"
+                yield words, largest if round(float(largest[0]), 6) else None
 
     def _neighbours(self, item: Item) -> Iterator[tuple[str, str]]:
         for other in self.student.assignment.items:

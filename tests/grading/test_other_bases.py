@@ -125,6 +125,7 @@ BEARINGS = Base(
         "safe_pin_W1_cm3": ("=PI()*crankshaft_pin_diameter_mm^3/32000", ""),
         "safe_n_hole": ("=({safe_n_bend_hole}+{safe_n_turn_hole})/2", ""),
         "safe_n_pin": ("=MAX({safe_n_hole},{safe_n_fillet})", ""),
+        "safe_main_weakest": ("={v}-2", None),  # a journal's number: it may come of anything
     },
     {
         "oil_hcr_um": "={v}*{oil_eta40}/{oil_eta40}",
@@ -159,11 +160,11 @@ CYCLE = Base(
         "speed.speed_Ne": "={speed.speed_Me}*{speed.speed_n}/9550",
     },
     {
-        "cyc_p_b": ("={cyc_p_z}/{cyc_delta}^({cyc_n2}-1)", ""),
+        "cyc_p_b": ("={cyc_p_z}/{cyc_delta}^({cyc_n2}-1)", "степени на единицу меньше"),
         "cyc_g_i": ("=3600*{cyc_eta_v}*{cyc_p_k}/(8.315*{cyc_T_k}*{cyc_M1}*{cyc_p_i})", "1000 раз"),
         "cyc_M_e": ("={cyc_N_e}/(PI()*regime_speed_rpm/30)", "1000 раз"),
         "cyc_N_error": ("={cyc_N_e}/cycle_power_kw-1", "в 100 раз"),
-        "cycle_diagram.cd_T_K": ("={cyc_T_c}/{cycle_diagram.cd_ratio}^{cyc_n1}", ""),
+        "cycle_diagram.cd_T_K": ("={cyc_T_c}/{cycle_diagram.cd_ratio}^{cyc_n1}", None),
         "speed.speed_n": ("=regime_speed_rpm*{speed.speed_percent}", "в 100 раз"),
         "speed.speed_Gf": ("={speed.speed_ge}*{speed.speed_Ne}", "1000 раз"),
     },

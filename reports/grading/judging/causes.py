@@ -18,10 +18,12 @@ from reports.grading.judging.judgement import Judgement
 from reports.grading.judging.rewriting import (
     SIGNS,
     Flipped,
+    OtherExponent,
     Renamed,
     WithoutFactor,
     WithoutNumber,
     WithoutPower,
+    WithoutPowers,
     numbers,
     summands,
     without_radians,
@@ -87,6 +89,8 @@ class Causes:
         moved = self._moved_reference(item)
         if moved:
             return moved
+        if _is_place(item):
+            return ""  # 2 for 4 may come of anything
         if item.is_column and np.unique(finite).size < _VARIED:
             return "все значения равны нулю" if not finite.any() else ""
         if judgement.coarse:
@@ -193,6 +197,10 @@ class Causes:
                 else f"потеряно число {short(value)}"
             )  # fmt: skip
             yield words, self._rewritten(item, run, WithoutNumber(value).visit)
+        yield "скобка не возведена в степень", self._rewritten(item, run, WithoutPowers().visit)
+        for more, words in ((True, "больше"), (False, "меньше")):
+            made = self._rewritten(item, run, OtherExponent(more=more).visit)
+            yield f"показатель степени на единицу {words}", made
 
     def _inputs(self, item: Item, run: Evaluation) -> Iterator[tuple[str, Array | None]]:
         """An input of the formula taken for its result."""
@@ -353,6 +361,12 @@ class Causes:
                 yield f"λ из варианта {other.number}: {short(lam, 4)}", self._values(item, run)
             words = f"исходные данные варианта {other.number}, а не вашего"
             yield words, self._values(item, theirs)
+
+
+def _is_place(item: Item) -> bool:
+    """Whether a result is the number of a journal, a mass, a cylinder."""
+    has_parts = item.quantity.unit or item.quantity.digits.decimals
+    return len(item.nodes) == 1 and not item.is_column and not has_parts
 
 
 def _resolver(node: str, run: Evaluation) -> Callable[[str], Any]:

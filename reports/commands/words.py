@@ -85,6 +85,14 @@ class RussianCommand(click.Command):
         del limit
         return " ".join((self.help or "").split("\n\n")[0].split()).removesuffix(".")
 
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Errors of the parser know whose they are: it does not tell of all of them."""
+        try:
+            return super().parse_args(ctx, args)
+        except click.UsageError as error:
+            error.ctx = error.ctx or ctx
+            raise
+
 
 class RussianGroup(click.Group):
     """A group of such commands."""
@@ -109,6 +117,14 @@ def advice(error: click.ClickException) -> str:
 
 def _meant(error: click.ClickException, context: click.Context | None) -> Iterable[str]:
     command = None if context is None else context.command
+    if isinstance(error, click.BadOptionUsage) and context is not None:
+        several = [
+            option
+            for option in context.command.params
+            if error.option_name in option.opts and option.nargs > 1
+        ]
+        yield from (f"{option.opts[-1]} {option.make_metavar(context)}" for option in several)
+        return
     if isinstance(error, click.NoSuchOption):
         wrong, known = error.option_name, [*(error.possibilities or ())]
     elif isinstance(command, click.Group):

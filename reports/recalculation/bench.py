@@ -206,9 +206,10 @@ def unrounded_grid(grid: Grid) -> Grid:
 
 
 ROUNDINGS = frozenset(("ROUND", "ROUNDUP", "ROUNDDOWN"))
-# What people type in for π, for degrees in radians and for revolutions in radians.
+# What people type in for π, for degrees in radians, for revolutions in radians, and in
+# M = 9550·N/n, kW and rev/min.
 _OF_PI = tuple(np.pi * share for share in (1, 2, 1 / 2, 1 / 4, 1 / 30, 1 / 60, 1 / 180, 1 / 360))
-_FULL = (*_OF_PI, 30 / np.pi, 60 / np.pi, 180 / np.pi)
+_FULL = (*_OF_PI, 30 / np.pi, 60 / np.pi, 180 / np.pi, 3e4 / np.pi)
 _NEAR = 2e-4  # 57,3 and 0,01745 are digits enough, 3,14 is a mistake
 
 

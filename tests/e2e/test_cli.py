@@ -316,6 +316,11 @@ def test_help_is_whole_and_russian_to_its_last_word() -> None:
         ("chek a.toml", "нет команды chek; возможно, check; справка: kshm --help"),
         ("build --onyl xlsx", "нет ключа --onyl; возможно, --only; справка: kshm build --help"),
         ("xyz", "нет команды xyz; справка: kshm --help"),
+        (
+            "grade issued submitted --decide 5 балл",
+            "ключу --decide нужно значений: 4; --decide КТО ЧТО БАЛЛЫ ПРИМЕЧАНИЕ; "
+            "справка: kshm grade --help",
+        ),
     ],
 )
 def test_a_slip_of_the_keys_is_told_with_what_was_meant(words: str, told: str) -> None:

@@ -7,7 +7,6 @@ import io
 import re
 import zipfile
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
 
@@ -133,8 +132,7 @@ def test_feedback_files_reach_their_participants(graded):
 
 def row(points: float | None, **more) -> dict:
     made = {"number": 1, "student": "Иванов Имя", "email": "", "points": points, "manual": False,
-            "status": "проверено", "remark": "",
-            "result": SimpleNamespace(moodle_id="101")}  # fmt: skip
+            "status": "проверено", "remark": "", "moodle_id": "101"}  # fmt: skip
     return made | more
 
 
@@ -154,6 +152,33 @@ def test_who_waits_for_a_person_gets_no_grade():
 def test_a_closed_grade_is_not_written():
     text = worksheet(ENGLISH).replace(",Yes,", ",No,")
     assert filled(text, [row(80.0)], 100, "w.csv").graded == 0
+
+
+def test_a_namesake_gets_no_grade_of_another():
+    """From another group: his number in Moodle is not that of the work."""
+    namesake = worksheet(ENGLISH).replace("Никто", "Имя Иванов")
+    rows = [row(80.0), row(90.0, number=2, student="Петров Имя", moodle_id="102")]
+    assert imported(filled(namesake, rows, 100, "w.csv").text, ENGLISH)[999][0] is None
+    left_out = namesake.replace("Participant 101,", "Participant 555,").replace("s1@", "x@")
+    found = imported(filled(left_out, rows, 100, "w.csv").text, ENGLISH)
+    assert (found[102][0], found[555][0], found[999][0]) == (90.0, None, None)
+    nameless = [row(80.0, moodle_id="")]  # works out of a folder: by mail, else by name
+    assert imported(filled(namesake, nameless, 100, "w.csv").text, ENGLISH)[101][0] is None
+    mailed = [row(80.0, moodle_id="", email="S1@example.org")]
+    found = imported(filled(namesake, mailed, 100, "w.csv").text, ENGLISH)
+    assert (found[101][0], found[999][0]) == (80.0, None)
+
+
+def test_a_work_handed_in_by_another_is_not_told_to_him(tmp_path):
+    with zipfile.ZipFile(tmp_path / "a.zip", "w") as archive:
+        data = filled_book(classroom.handout(3), classroom.assignment(3))
+        archive.writestr("Имя Петров_102_assignsubmission_file_/работа.xlsx", data)
+    out = tmp_path / "out"
+    grade(classroom.folder() / "issued", tmp_path / "a.zip", out,
+          secret_file=classroom.folder() / "secret.key", options=Options(workers=1))  # fmt: skip
+    with zipfile.ZipFile(out / "moodle-feedback.zip") as archive:
+        assert archive.namelist() == []
+    assert "102" not in (out / "moodle.csv").read_text("utf-8")
 
 
 def test_a_scale_is_left_to_a_person():

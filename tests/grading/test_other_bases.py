@@ -1,4 +1,4 @@
-"""A V engine, torsional vibration, bearings: the honest are paid, mistakes and cheats are not."""
+"""Other engines and chapters: the honest are paid, mistakes are told, cheats earn nothing."""
 
 from __future__ import annotations
 
@@ -125,6 +125,7 @@ BEARINGS = Base(
         "safe_pin_W1_cm3": ("=PI()*crankshaft_pin_diameter_mm^3/32000", ""),
         "safe_n_hole": ("=({safe_n_bend_hole}+{safe_n_turn_hole})/2", ""),
         "safe_n_pin": ("=MAX({safe_n_hole},{safe_n_fillet})", ""),
+        "safe_main_weakest": ("={v}-2", None),  # a journal's number: it may come of anything
     },
     {
         "oil_hcr_um": "={v}*{oil_eta40}/{oil_eta40}",
@@ -134,7 +135,47 @@ BEARINGS = Base(
     {"safe_n_bend_hole": "={p}", "safe_n_hole": "={p}*{safe_n_bend_hole}/{safe_n_bend_hole}"},
 )  # fmt: skip
 
-BASES = {"V6": V6, "torsion": TORSION, "bearings": BEARINGS}
+CYCLE = Base(
+    "cycle-tractor-diesel",
+    {"cycle.power_kw": {"min": 55, "max": 65, "step": 1},
+     "cycle.excess_air": {"min": 1.4, "max": 1.7, "step": 0.05}},
+    ("cycle_charge", "cycle_compression", "cycle_content", "cycle_combustion", "cycle_expansion",
+     "cycle_indicated", "cycle_effective", "speed_law", "cycle_diagram", "speed"),
+    {
+        "cyc_p_c": "={cyc_p_a}*POWER(geometry_compression_ratio,{cyc_n1})",
+        "cyc_T_c": "={cyc_T_a}*EXP(({cyc_n1}-1)*LN(geometry_compression_ratio))",
+        "cyc_mu": "=1+({cyc_mu0}-1)/(1+{cyc_gamma})",
+        "cyc_T_z": "={cyc_t_root}+273",
+        "cyc_p_b": "={cyc_p_z}*{cyc_delta}^-{cyc_n2}",
+        "cyc_p_e": "={cyc_p_i}*regime_mechanical_efficiency",
+        "cyc_g_e": "=3600/({cyc_eta_e}*{cyc_Hu})",
+        "cyc_N_e": "={cyc_N_i}*{cyc_eta_m}",
+        "cyc_M_e": "=9550*{cyc_N_e}/regime_speed_rpm",
+        "spd_Kc": "=cycle_torque_speed_rpm/regime_speed_rpm",
+        "spd_K": "=cycle_adaptability",
+        "cycle_diagram.cd_V_dm3": "={cycle_diagram.cd_ratio}*{V_c}",
+        "cycle_diagram.cd_p_MPa": "=IF(A{row}<360,{cyc_p_c}/{cycle_diagram.cd_ratio}^{cyc_n1},"
+        "IF({cycle_diagram.cd_ratio}<={cyc_rho},{cyc_p_z},"
+        "{cyc_p_z}*({cyc_rho}/{cycle_diagram.cd_ratio})^{cyc_n2}))",
+        "speed.speed_Ne": "={speed.speed_Me}*{speed.speed_n}/9550",
+    },
+    {
+        "cyc_p_b": ("={cyc_p_z}/{cyc_delta}^({cyc_n2}-1)", "степени на единицу меньше"),
+        "cyc_g_i": ("=3600*{cyc_eta_v}*{cyc_p_k}/(8.315*{cyc_T_k}*{cyc_M1}*{cyc_p_i})", "1000 раз"),
+        "cyc_M_e": ("={cyc_N_e}/(PI()*regime_speed_rpm/30)", "1000 раз"),
+        "cyc_N_error": ("={cyc_N_e}/cycle_power_kw-1", "в 100 раз"),
+        "cycle_diagram.cd_T_K": ("={cyc_T_c}/{cycle_diagram.cd_ratio}^{cyc_n1}", None),
+        "speed.speed_n": ("=regime_speed_rpm*{speed.speed_percent}", "в 100 раз"),
+        "speed.speed_Gf": ("={speed.speed_ge}*{speed.speed_Ne}", "1000 раз"),
+    },
+    {
+        "cyc_eta_v": "={v}*{cyc_T_x}/{cyc_T_x}",
+        "cycle_diagram.cd_p_MPa": "=IF({cycle_diagram.cd_ratio}>99,1,{v})",
+    },
+    {"speed.speed_Me": "={p}+0*{speed.speed_n}"},
+)  # fmt: skip
+
+BASES = {"cycle": CYCLE, "V6": V6, "torsion": TORSION, "bearings": BEARINGS}
 
 
 @pytest.fixture(

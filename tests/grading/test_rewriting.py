@@ -6,7 +6,7 @@ import ast
 
 import pytest
 
-from reports.grading.judging.rewriting import Flipped
+from reports.grading.judging.rewriting import Flipped, OtherExponent, WithoutPowers
 
 
 @pytest.mark.parametrize(
@@ -21,3 +21,12 @@ from reports.grading.judging.rewriting import Flipped
 def test_the_sign_of_one_sum_is_turned(number: int, wanted: str) -> None:
     found = Flipped(number).visit(ast.parse("-a - b - (c + d) * e", mode="eval"))
     assert ast.unparse(found) == wanted
+
+
+def test_exponents_are_one_more_or_less_and_brackets_lose_theirs() -> None:
+    def rewritten(change: ast.NodeTransformer) -> str:
+        return ast.unparse(change.visit(ast.parse("a**n + b**(n - 1) + (c - d)**2", mode="eval")))
+
+    assert rewritten(OtherExponent(more=True)) == "a ** n + b ** n + (c - d) ** 2"
+    assert rewritten(OtherExponent(more=False)) == "a ** (n - 1) + b ** (n - 1) + (c - d) ** 2"
+    assert rewritten(WithoutPowers()) == "a ** n + b ** (n - 1) + (c - d)"

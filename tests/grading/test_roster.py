@@ -15,6 +15,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.grading.issuing.roster import read_roster
 from reports.shared.errors import InputError
+from reports.workbook.layout import CONTENTS_SHEET, INPUT_SHEET
 
 PEOPLE = 'Фамилия;Имя;Группа\nИванов;Иван;ДВС-1\nПётр "Первый";Анна;ДВС-1\n'
 
@@ -181,6 +182,16 @@ def test_a_sheet_of_marks_of_the_same_people_is_no_other_group(tmp_path):
     marks = [("Студент", "Оценка"), ("Петров П.", 5), ("Иванов И.", 4)]
     found = read_roster(book(tmp_path, [("Журнал",)], [HEAD, IVANOV, PETROV], marks))
     assert [student.surname for student in found] == ["Иванов", "Петров"]
+
+
+def test_a_work_book_is_no_list(tmp_path):
+    made = Workbook()
+    made.active.title = CONTENTS_SHEET
+    made.active.append(["Студент", "Иванов"])
+    made.create_sheet(INPUT_SHEET).append(["Студент", "Петров"])
+    made.save(tmp_path / "работа.xlsx")
+    with pytest.raises(InputError, match="это рабочая книга, а не список группы"):
+        read_roster(tmp_path / "работа.xlsx")
 
 
 def test_a_book_that_no_program_wrote_is_refused(tmp_path):

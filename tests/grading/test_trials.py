@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
+from reports.grading.judging.copied import known_numbers
 from reports.grading.judging.trials import trials_of
 from tests.grading.classroom import assignment, register
 
@@ -20,3 +23,12 @@ def test_the_two_that_decide_are_far_from_each_other(seed: int) -> None:
             low, high = 0.95 * low, 1.05 * high
         assert low < second.inputs[name] < high
         assert abs(first.inputs[name] - second.inputs[name]) >= 0.249 * (high - low), name
+
+
+def test_a_speed_is_known_in_thousands_but_not_where_it_may_be_anything() -> None:
+    fields, trials = assignment().model.fields, trials_of(assignment(), register().books, "1")
+    speed = replace(fields["regime_speed_rpm"], value=4250)
+    known = known_numbers({**fields, speed.name: speed}, trials)
+    assert known[4.25] == (speed.name, 1e-3)
+    round_speed = replace(speed, value=4000)
+    assert 4.0 not in known_numbers({**fields, speed.name: round_speed}, trials)

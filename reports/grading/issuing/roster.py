@@ -8,6 +8,7 @@ from pathlib import Path
 
 from reports.grading.issuing.listing import MAX_FIELD, Line, Listing, listings, refused
 from reports.shared.errors import InputError, Problem
+from reports.workbook.layout import CONTENTS_SHEET, INPUT_SHEET
 
 MAX_STUDENTS = 2000
 _TITLES = 20  # lines above the head: what the list is, of which year
@@ -51,6 +52,8 @@ def read_roster(path: Path) -> list[Student]:
         InputError: everything that is wrong with it.
     """
     found = listings(path)
+    if {CONTENTS_SHEET, INPUT_SHEET} <= {listing.title for listing in found}:
+        raise refused(path, "это рабочая книга, а не список группы", "укажите файл списка")
     if not any(listing.lines for listing in found):
         raise refused(path, "список пуст", "нужны столбцы: Фамилия;Имя;Группа")
     lists = [made for listing in found if (made := _headed(listing)) is not None]

@@ -18,10 +18,12 @@ from reports.grading.judging.judgement import Judgement
 from reports.grading.judging.rewriting import (
     SIGNS,
     Flipped,
+    OtherExponent,
     Renamed,
     WithoutFactor,
     WithoutNumber,
     WithoutPower,
+    WithoutPowers,
     numbers,
     summands,
     without_radians,
@@ -87,6 +89,8 @@ class Causes:
         moved = self._moved_reference(item)
         if moved:
             return moved
+        if _is_place(item):
+            return ""  # 2 for 4 may come of anything
         if item.is_column and np.unique(finite).size < _VARIED:
             return "все значения равны нулю" if not finite.any() else ""
         if judgement.coarse:
@@ -193,6 +197,10 @@ class Causes:
                 else f"потеряно число {short(value)}"
             )  # fmt: skip
             yield words, self._rewritten(item, run, WithoutNumber(value).visit)
+        yield "скобка не возведена в степень", self._rewritten(item, run, WithoutPowers().visit)
+        for more, words in ((True, "больше"), (False, "меньше")):
+            made = self._rewritten(item, run, OtherExponent(more=more).visit)
+            yield f"показатель степени на единицу {words}", made
 
     def _inputs(self, item: Item, run: Evaluation) -> Iterator[tuple[str, Array | None]]:
         """An input of the formula taken for its result."""
@@ -268,6 +276,7 @@ class Causes:
                 # A nought is no value of another quantity that happens to be one.
                 if not isinstance(value, str) and round(value, item.quantity.digits.decimals):
                     yield f"это значение величины {scalar}", np.array([float(value)])
+            yield from self._largest(item, run)
             return
         model = self.student.assignment.model
         own = model.tables[item.block]
@@ -288,6 +297,25 @@ class Causes:
                 value = run.value(node)
                 if not isinstance(value, str):
                     yield words, np.asarray(value, dtype=float)[rows]
+
+    def _largest(self, item: Item, run: Evaluation) -> Iterator[tuple[str, Array | None]]:
+        """The largest of a column, whose rows may be on either side of the largest of all."""
+        right = self._values(item, run)
+        if not item.quantity.unit:
+            return
+        for table in self.student.assignment.model.tables.values():
+            for column in table.columns:
+                if column.expr is None or column.quantity.unit != item.quantity.unit:
+                    continue
+                value = run.value(f"{table.id}.{column.key}")
+                if isinstance(value, str) or not np.isfinite(value).any():
+                    continue
+                largest = np.nanmax(np.abs(value), keepdims=True)
+                where = table.number or f"«{table.title}»"
+                words = f"это наибольшее из строк таблицы {where}, {column.quantity.symbol}"
+                if right is not None and (np.abs(right) > largest).all():
+                    words += ": между ними есть и большее"
+                yield words, largest if round(float(largest[0]), 6) else None
 
     def _neighbours(self, item: Item) -> Iterator[tuple[str, str]]:
         for other in self.student.assignment.items:
@@ -333,6 +361,12 @@ class Causes:
                 yield f"λ из варианта {other.number}: {short(lam, 4)}", self._values(item, run)
             words = f"исходные данные варианта {other.number}, а не вашего"
             yield words, self._values(item, theirs)
+
+
+def _is_place(item: Item) -> bool:
+    """Whether a result is the number of a journal, a mass, a cylinder."""
+    has_parts = item.quantity.unit or item.quantity.digits.decimals
+    return len(item.nodes) == 1 and not item.is_column and not has_parts
 
 
 def _resolver(node: str, run: Evaluation) -> Callable[[str], Any]:

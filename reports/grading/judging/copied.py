@@ -9,12 +9,13 @@ from reports.inputs.fields import Field
 from reports.inputs.units import MPA
 
 _METRES = 1e-3
-# In what else a student may write the input data down: cm, g, kPa, bar, Pa, turns a second, W.
+# In what else a student may write the input data down: cm, g, kPa, bar, Pa, thousands of turns and
+# turns a second, W.
 _OTHER_UNITS = {
     "мм": (_METRES, 0.1),
     "кг": (1e3,),
     MPA.label: (1e3, 10.0, MPA.times),
-    "мин⁻¹": (1 / 60,),
+    "мин⁻¹": (1e-3, 1 / 60),
     "кВт": (1e3,),
 }
 
@@ -31,7 +32,7 @@ def known_numbers(
             value, unit = float(fields[name].value), fields[name].unit
             for factor in (1.0,) if own else _OTHER_UNITS.get(unit, ()):
                 number = float(f"{value * factor:.12g}")
-                sure = factor == _METRES or (own and (bool(unit) or name in drawn))
+                sure = (unit, factor) == ("мм", _METRES) or (own and (bool(unit) or name in drawn))
                 if sure or number != float(f"{number:.1g}"):
                     wanted[number] = (name, factor)  # 1 or 100 may be anything
     return wanted

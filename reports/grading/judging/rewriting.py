@@ -81,6 +81,35 @@ class WithoutPower(ast.NodeTransformer):
         return node.left if isinstance(node.op, ast.Pow) and named else node
 
 
+class WithoutPowers(ast.NodeTransformer):
+    """Takes the power of a number from what stands in brackets."""
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        """The bracket alone."""
+        self.generic_visit(node)
+        squared = isinstance(node.op, ast.Pow) and isinstance(node.right, ast.Constant)
+        return node.left if squared and isinstance(node.left, ast.BinOp) else node
+
+
+class OtherExponent(ast.NodeTransformer):
+    """Takes n for n − 1 in an exponent, or n − 1 for n."""
+
+    def __init__(self, *, more: bool) -> None:
+        self.more = more
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        """The other exponent."""
+        self.generic_visit(node)
+        if not isinstance(node.op, ast.Pow):
+            return node
+        less_one = isinstance(node.right, ast.BinOp) and ast.unparse(node.right).endswith(" - 1")
+        if self.more and less_one and isinstance(node.right, ast.BinOp):
+            node.right = node.right.left
+        elif not self.more and isinstance(node.right, ast.Name):
+            node.right = ast.BinOp(node.right, ast.Sub(), ast.Constant(1))
+        return node
+
+
 class WithoutNumber(ast.NodeTransformer):
     """Leaves a factor or divisor that is a number out."""
 

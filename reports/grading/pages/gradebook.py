@@ -49,7 +49,7 @@ def moodle_csv(rows: Sequence[dict[str, Any]]) -> str:
         result = row["result"]
         if row["number"] is None or result is None:
             continue
-        participant = f"Participant {result.moodle_id}" if result.moodle_id else ""
+        participant = f"Participant {row['moodle_id']}" if row["moodle_id"] else ""
         # No grade where a person has to look first; whom he suspects of what students do not read.
         grade = "" if row["points"] is None or row["manual"] else f"{row['points']:g}"
         texts = [participant, row["student"], row["email"], row["id"]]

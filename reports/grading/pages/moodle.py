@@ -15,12 +15,13 @@ import html
 import io
 import re
 import zipfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from reports.exports.numbers import neutralised
+from reports.grading.pages.summary import HELD
 from reports.shared.errors import InputError, Problem
 from reports.shared.files import reason
 
@@ -40,6 +41,7 @@ _HEADS = {
     "name": ("full name", "полное имя", "фамилия и имя", "имя / фамилия", "фио"),
 }  # fmt: skip
 _NO = ("no", "нет")
+_Thing = TypeVar("_Thing")
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,14 +111,9 @@ def filled(text: str, rows: Sequence[dict[str, Any]], maximum: float, source: st
     lines, at, delimiter = _parsed(text, source)
     russian = lines[0][at["grade"]].strip().casefold() == "оценка"
     graded, left = 0, []
-    by_key = _by_key(rows)
-    for line in lines[1:]:
-        if len(line) <= max(at.values()):
-            continue
-        row = next((by_key[key] for key in _keys(line, at) if key in by_key), None)
+    whole = [line for line in lines[1:] if len(line) > max(at.values())]
+    for line, row in _pairs(whole, at, rows):
         who = line[at["name"]] if "name" in at else line[at["id"]]
-        if row is None:
-            continue
         if row["points"] is None or row["manual"]:
             left.append(f"{who}: {row['status']}")
             continue
@@ -148,29 +145,49 @@ def _columns(head: Sequence[str]) -> dict[str, int]:
     return found
 
 
-def _by_key(rows: Sequence[dict[str, Any]]) -> dict[str, dict[str, Any]]:
-    """Rows by all that a line of Moodle's may name; what two rows share names none."""
-    found: dict[str, dict[str, Any] | None] = {}
-    for row in rows:
-        if row["number"] is None:
-            continue
-        moodle = row["result"].moodle_id if row["result"] else ""
-        keys = (f"id {moodle}" if moodle else "", f"mail {row['email'].casefold()}",
-                f"name {_words(row['student'])}")  # fmt: skip
-        for key in keys:
-            if key and not key.endswith(" "):
-                found[key] = None if key in found else row
-    return {key: row for key, row in found.items() if row is not None}
+def _pairs(
+    lines: Sequence[list[str]], at: Mapping[str, int], rows: Sequence[dict[str, Any]]
+) -> Iterator[tuple[list[str], dict[str, Any]]]:
+    """Lines of Moodle's with the rows of their participants: by number, else by mail, by name.
+
+    Nobody's grade goes to two: what several lines or rows share tells none of them, and whose
+    number the worksheet knows is not looked for under a namesake's.
+    """
+    free = [row for row in rows if row["number"] is not None]
+    numbers = {_of_line(line, at)["id"] for line in lines}
+    numbered = any(row["moodle_id"] in numbers for row in free if row["moodle_id"])
+    found: dict[int, dict[str, Any]] = {}
+    for kind in ("id", "mail", "name"):
+        if kind != "id" and numbered:
+            free = [row for row in free if not row["moodle_id"]]
+        by_row = _unique((_of_row(row)[kind], row) for row in free)
+        left = [line for line in lines if id(line) not in found]
+        for word, line in _unique((_of_line(line, at)[kind], line) for line in left).items():
+            if word in by_row:
+                found[id(line)] = by_row[word]
+                free = [row for row in free if row is not by_row[word]]
+    return ((line, found[id(line)]) for line in lines if id(line) in found)
 
 
-def _keys(line: Sequence[str], at: Mapping[str, int]) -> Iterator[str]:
+def _unique(things: Iterable[tuple[str, _Thing]]) -> dict[str, _Thing]:
+    """Things by a word that no other has."""
+    found: dict[str, list[_Thing]] = {}
+    for word, thing in things:
+        found.setdefault(word, []).append(thing)
+    return {word: same[0] for word, same in found.items() if word and len(same) == 1}
+
+
+def _of_row(row: Mapping[str, Any]) -> dict[str, str]:
+    return {"id": row["moodle_id"], "mail": row["email"].casefold(), "name": _words(row["student"])}
+
+
+def _of_line(line: Sequence[str], at: Mapping[str, int]) -> dict[str, str]:
     number = re.search(r"(\d+)\s*$", line[at["id"]])
-    if number:
-        yield f"id {number[1]}"
-    if "email" in at and line[at["email"]].strip():
-        yield f"mail {line[at['email']].strip().casefold()}"
-    if "name" in at:
-        yield f"name {_words(line[at['name']])}"
+    return {
+        "id": number[1] if number else "",
+        "mail": line[at["email"]].strip().casefold() if "email" in at else "",
+        "name": _words(line[at["name"]]) if "name" in at else "",
+    }
 
 
 def _words(name: str) -> str:
@@ -191,11 +208,11 @@ def feedback_zip(rows: Sequence[dict[str, Any]], pages: Path) -> bytes:
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
         for row in rows:
-            result = row["result"]
-            if not result or not result.moodle_id or row["number"] is None or not row["page"]:
+            # What is held may be another's: its points and suspicions are no student's to read.
+            if not row["moodle_id"] or not row["page"] or row["status"] == HELD:
                 continue
             name = row["student"].replace("_", " ").replace("/", " ")
-            folder = f"{name}_{result.moodle_id}_assignsubmission_file_"
+            folder = f"{name}_{row['moodle_id']}_assignsubmission_file_"
             data = (pages / row["page"]).read_bytes()
             info = zipfile.ZipInfo(f"{folder}/{FEEDBACK}")  # without a date: the same every time
             archive.writestr(info, data, zipfile.ZIP_DEFLATED)

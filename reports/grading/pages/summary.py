@@ -103,6 +103,7 @@ def table_rows(register: Register, results: Sequence[Work]) -> list[dict[str, An
                 "group": book.student.group,
                 "id": book.student.number,
                 "email": book.student.email,
+                "moodle_id": seen.moodle_id if seen and not foreign else "",
                 "file": seen.file if seen else "",
                 "status": HELD if doubts else _status(result, unread),
                 "points": None if doubts else points,
@@ -119,8 +120,9 @@ def table_rows(register: Register, results: Sequence[Work]) -> list[dict[str, An
             rows.append(
                 {
                     "number": None, "student": f"? ({result.file})", "group": "", "id": "",
-                    "email": "", "file": result.file, "status": _status(result), "points": None,
-                    "provisional": None, "result": result, "page": result.page,
+                    "email": "", "moodle_id": "", "file": result.file,
+                    "status": _status(result), "points": None, "provisional": None,
+                    "result": result, "page": result.page,
                     "manual": True, "remark": "; ".join(result.manual), "decision": None,
                 }
             )  # fmt: skip

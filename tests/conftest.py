@@ -89,6 +89,7 @@ SLOW = (
     "tests/grading/test_real_class.py",
     "tests/grading/test_selfcheck.py",
     "tests/grading/test_similarity.py::test_a_class_of_a_thousand",
+    "tests/grading/test_typed.py::test_a_number_as_a_text_is_worth_a_number[.",
     "tests/house/test_house_bench.py::test_the_other",
     "tests/house/test_house_cover.py::test_nothing_is_left_out",
     "tests/house/test_house_readmes.py::test_the_workbook",
@@ -133,6 +134,7 @@ SLOW = (
     "tests/workbook/test_golden.py::test_every_part_is_the_stored_one[offset",
     "tests/workbook/test_golden.py::test_saved_by_libreoffice",
     "tests/workbook/test_motion.py::test_libreoffice",
+    "tests/workbook/test_places.py::test_headers_of_twelve",
     "tests/workbook/test_print.py::test_the_textbooks",
     "tests/workbook/test_read_back.py::test_a_changed_unit",
     "tests/workbook/test_read_back.py::test_a_formula_in",
@@ -142,6 +144,7 @@ SLOW = (
     "tests/workbook/test_read_back.py::test_what_check_refuses",
     "tests/workbook/test_schema.py",
     "tests/workbook/test_shared_form.py::test_our_book",
+    "tests/workbook/test_wrong_inputs.py::test_points_out",
 )
 # Files of which the first test alone is quick: the others need the same costly things again.
 FIRST_ALONE = (

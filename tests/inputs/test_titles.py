@@ -3,32 +3,25 @@
 from __future__ import annotations
 
 import ast
+import importlib
 import inspect
+import pkgutil
 from pathlib import Path
 from types import ModuleType
 
 import pytest
 
-from kshm.nomenclature import (
-    balance,
-    bearings,
-    chapters,
-    cycle,
-    dizdn_listing,
-    inertia,
-    layouts,
-    series,
-    textbook,
-    torque_orders,
-    torsion,
-)
+from kshm import nomenclature
+from kshm.nomenclature import dizdn_listing
 from kshm.nomenclature.quantity import UNITS
 from reports.inputs import sections
 from reports.inputs.units import MPA
 
-SUBJECTS = (balance, bearings, chapters, cycle, inertia, layouts, series, textbook, torque_orders,
-            torsion)  # fmt: skip
-TITLES = {row[4] for subject in SUBJECTS for row in subject.ROWS if row[4]}
+SUBJECTS = [
+    importlib.import_module(f"{nomenclature.__name__}.{found.name}")
+    for found in pkgutil.iter_modules(nomenclature.__path__)
+]
+TITLES = {row[4] for subject in SUBJECTS for row in getattr(subject, "ROWS", ()) if row[4]}
 # Of other things: the pressure ratio of the compressor, a place on the shaft that may be chosen.
 ALIKE = {"степень повышения давления", "шатунная шейка"}
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
+from types import NoneType
 
 import formualizer
 import openpyxl
@@ -68,9 +69,7 @@ def answers(name: str) -> Iterator[tuple[Field, float | str | None, str, int, bo
     made, data = model(name), book(name)
     layout = Layout.of(made)
     engine = formualizer.load_workbook_bytes(stripped(data)[0])
-    cells = [
-        (sheet, *row_and_column(at)) for sheet, found in formula_cells(data).items() for at in found
-    ]
+    ranges = [formula_range(sheet, found) for sheet, found in formula_cells(data).items() if found]
     reds = red_rows(data)
     known = set() if name == NAME else set(model(NAME).fields)
     for item in (item for item in made.inputs if item.name not in known):
@@ -78,15 +77,26 @@ def answers(name: str) -> Iterator[tuple[Field, float | str | None, str, int, bo
         for value in WRONG:
             engine.set_value(place.sheet, place.row, place.column, value)
             engine.evaluate_all()
-            errors = sum(is_error(engine.get_value(*cell)) for cell in cells)
+            errors = sum(errors_in(engine, cells) for cells in ranges)
             red = engine.get_value(INPUT_SHEET, place.row, reds) == 1
             yield item, value, verdict(engine), errors, red
         engine.set_value(place.sheet, place.row, place.column, shown(item))
 
 
-def is_error(value: object) -> bool:
+def formula_range(sheet: str, found: Collection[str]) -> formualizer.RangeAddress:
+    """The smallest range with all formulas of a sheet."""
+    rows, columns = zip(*map(row_and_column, found), strict=True)
+    return formualizer.RangeAddress(sheet, min(rows), min(columns), max(rows), max(columns))
+
+
+def errors_in(engine: formualizer.Workbook, cells: formualizer.RangeAddress) -> int:
     # Nearly all values are numbers, of which no text need be made.
-    return type(value) is not float and str(value).startswith(("#", "{"))
+    return sum(
+        type(value) is not float and str(value).startswith(("#", "{"))
+        for row in engine.sheet(cells.sheet).get_values(cells)
+        if not {type(value) for value in row} <= {float, NoneType}
+        for value in row
+    )
 
 
 def red_rows(data: bytes) -> int:

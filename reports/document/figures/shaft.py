@@ -123,9 +123,7 @@ def _parts(start: float, length: float, period: float) -> list[tuple[float, floa
     return [(start, period), (0.0, end - period)]
 
 
-def crank_scheme(
-    throw_angles: Sequence[float], *, split: float = 0.0, width: float = 150.0
-) -> str:
+def crank_scheme(throw_angles: Sequence[float], *, split: float = 0.0, width: float = 150.0) -> str:
     """Throws of the shaft from the side and from the nose, as SVG.
 
     Args:

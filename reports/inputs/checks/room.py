@@ -20,8 +20,8 @@ def check_room(model: InputFile) -> Iterator[Finding]:
         if tight:
             (path, length, room), more = tight[0], len(tight) - 1
             what = (
-                f"шейка длиной {number_text(round(length, 2))} мм не помещается в колено: по плечам "
-                f"{arms} для неё {number_text(round(room, 2))} мм"
+                f"шейка длиной {number_text(round(length, 2))} мм не помещается в колено: "
+                f"по плечам {arms} для неё {number_text(round(room, 2))} мм"
             )
             alike = f"; в списке таких ещё {more}" if more else ""
             yield Finding(path, what + alike, "проверьте длину шейки и плечи колена", warning=True)

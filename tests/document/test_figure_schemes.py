@@ -1,5 +1,6 @@
 """Schemes of the mechanism, of the shaft and of the engine."""
 
+import math
 import re
 
 import pytest
@@ -11,6 +12,25 @@ from tests.document.figure_samples import FIGURES, texts
 
 def test_cranks_of_one_direction_share_a_ray():
     assert "1, 4" in texts(crank_scheme([0, 180, 180, 360]))
+
+
+def test_both_halves_of_a_split_pin_are_drawn():
+    """They were drawn as one, so that the scheme showed another shaft."""
+    said = texts(crank_scheme([0, 120, 240], split=30.0))
+    assert {"1л", "1п", "3л", "3п"} <= set(said)
+    assert {"1л, 2п", "2л, 1п"} <= set(texts(crank_scheme([0, 180], split=180.0)))
+
+
+@pytest.mark.parametrize("rays", [[0, 45, 180, 225], [0, 54, 72, 270], [0, 120, 240], [45]])
+def test_the_letter_of_the_rotation_hides_no_ray(rays):
+    """At 45° always, it cut in two the second ray of eight throws or of split pins."""
+    svg = crank_scheme(rays)
+    left, top, width, height = map(float, re.findall(
+        r'<rect x="([\d.]+)" y="([\d.]+)" width="([\d.]+)" height="([\d.]+)" [^>]*>'
+        '<text font-style="italic"[^>]*>ω', svg)[0])  # fmt: skip
+    x, low = map(float, re.findall(r'd="M([\d.]+) ([\d.]+)C', svg)[-1])  # the axis, last drawn
+    turn = math.degrees(math.atan2(left + width / 2 - x, low - 2.5 - top - height / 2))
+    assert min(abs(math.remainder(turn - ray, 360)) for ray in rays) > 15
 
 
 def test_engine_shows_rows_throws_and_strokes():

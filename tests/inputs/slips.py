@@ -85,6 +85,7 @@ def random_engine(seed):
     pin, main = bore * rng.uniform(0.5, 0.65), bore * rng.uniform(0.66, 0.8)
     offsets = [round(720 * i / count, 6) for i in range(count)]
     arms = {f"l{i}_mm": bore * rng.uniform(0.12, 0.25) for i in (1, 2, 5, 6)}
+    room = 2 * min(arms["l1_mm"], arms["l6_mm"])
     web = {"mass_kg": area * 80, "counterweight_kg": area * rng.uniform(80, 250)}
     ratio = rng.uniform(14, 20) if diesel else rng.uniform(8, 11)
     rise = rng.uniform(1.3, 1.9) if diesel else rng.uniform(2.5, 4)
@@ -122,9 +123,9 @@ def random_engine(seed):
         "crankshaft": {
             "firing_offsets_deg": offsets,
             "pin_diameter_mm": pin,
-            "pin_length_mm": pin * rng.uniform(0.45, 0.8),
+            "pin_length_mm": min(pin * rng.uniform(0.45, 0.8), arms["l2_mm"] + arms["l5_mm"]),
             "main_diameter_mm": main,
-            "main_lengths_mm": [main * rng.uniform(0.35, 0.6)] * (count + 1),
+            "main_lengths_mm": [min(main * rng.uniform(0.35, 0.6), room)] * (count + 1),
             "pin_mass_kg": area * rng.uniform(70, 200),
             "webs": [dict(web) for _ in range(2 * count)],
             "arms": [

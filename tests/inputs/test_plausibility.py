@@ -218,3 +218,25 @@ RELATIONS = [b for b in vars(bands).values() if isinstance(b, bands.Band) and b 
 def test_no_band_holds_a_factor_of_ten(band):
     assert band.high < 10 * band.low or band.key == "cycle.charge_heating_k"
     assert band.source
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ([("main_lengths_mm", 0, 90.0)], "шейка длиной 90 мм не помещается в колено"),
+        ([("arms", 1, "l2_mm", 3.0), ("arms", 1, "l5_mm", 3.0)], "по плечам l2…l5 для неё 6 мм"),
+    ],
+)
+def test_what_does_not_fit_the_arms_is_told(changes, said):
+    raw = plain_sample()
+    for *path, value in changes:
+        part = raw["crankshaft"]
+        for key in path[:-1]:
+            part = part[key]
+        part[path[-1]] = value
+    assert said not in "".join(told(plain_sample()))
+    assert said in "".join(told(raw))
+
+
+def plain_sample():
+    return tomllib.loads((samples_dir() / "gots-diesel.toml").read_text("utf-8"))

@@ -25,6 +25,7 @@ _FORCES = ("C1", "C2", "C3", "C4", "C5", "C6", "C7", "C8", "C9", "C10", "C11", "
 _REACTIONS = ("length", "share", "share2", "RKCL", "RTCL", "RKCP", "RTCP")
 _ARMS = tuple(f"throw1_{key}" for key in ("arm_left", "arm_rod", "arm_rod2", "arm_pin",
                                           "arm_right", "length"))  # fmt: skip
+_HALVES = "; половины шеек: л — левого ряда, п — правого"
 _SUM_DIGITS = 2
 _SUM_COLUMNS = 7  # the most journals in one table of sums
 # Columns of a table of loads: key of the scalar, symbol, unit.
@@ -117,8 +118,12 @@ def journals(chapter: Chapter) -> Markup:
     return chapter.page(
         "journals",
         scheme=Figure(
-            partial(crank_scheme, chapter.input.crankshaft.throw_angles_deg),
-            "Схема коленчатого вала: вид сбоку и с носка",
+            partial(
+                crank_scheme,
+                chapter.input.crankshaft.throw_angles_deg,
+                split=chapter.input.crankshaft.split_pin_deg or 0.0,
+            ),
+            "Схема коленчатого вала: вид сбоку и с носка" + _HALVES * chapter.shape.split,
         ),
         throws=throws,
         arms=[name for name in _ARMS if terms.has(name)],

@@ -82,6 +82,7 @@ def running(chapter: Chapter) -> Markup:
     mains, worst = facts.worst_running(terms, count)
     if not chapter.whole:
         main, pins = [f"fig56_{mains[0]}"], [f"fig57_{worst[0]}"]
+    digits = terms.quantity("dM_pin1").digits  # as in the table of the ranges
     return chapter.page(
         "running",
         shown=[*_figures(main), *_figures(pins)],
@@ -89,7 +90,7 @@ def running(chapter: Chapter) -> Markup:
         ranges=TablePlan(partial(_ranges, terms, count), "Размах набегающих моментов", keep=True),
         last=count + 1,
         count=count,
-        gap=fixed(gap, 1) if gap > 0.05 else "",
+        gap=of_digits(gap, digits) if gap > 0.5 * 10**-digits.decimals else "",
         beside=not (chapter.shape.single_rods or chapter.shape.articulated),
         mains=mains,
         pins=worst,

@@ -29,6 +29,7 @@ _MOTION = (
     r"\left(-\omega^2 J + i\omega b + c\,(1 + i\eta)\right)\theta_{\nu} = M_{\nu}, \qquad "
     r"\omega = \nu\,\Omega"
 )
+_DIGITS = 3  # of an energy, which is 4896 J for a ship's engine and 0.0012 J for a model's
 _NEAR = 0.02  # of a stress: a difference that changes no conclusion
 _ALIKE = 0.5  # per cent between first frequencies: the formula of stiffness does not tell in them
 _SURE = 4  # digits of a frequency that formulas find some per cent apart
@@ -104,6 +105,7 @@ def torsion(chapter: Chapter) -> Markup:
         over=bare.stress > allowed, over_damped=damped.stress > allowed,
         over_other=other.stress > allowed,
         helps=damped.stress < (1 - _NEAR) * bare.stress,
+        harms=damped.stress > (1 + _NEAR) * bare.stress,
         flywheels=TablePlan(partial(_flywheels, terms, bare, other), "Два маховика", keep=True),
         change=terms.value("tor_f1_change"),
         change_text=with_unit(fixed(abs(terms.value("tor_f1_change")), 1), "%"),
@@ -270,9 +272,7 @@ def _energy(terms: Terms) -> dict[str, Markup]:
     """Energy of a cycle at the speed of the greatest stress."""
     place = int(terms.column("torsion_response.tor_tau_MPa").argmax())
     columns = {key: f"torsion_response.tor_{key}_J" for key in ("work", "lost")}
-    # A sentence has two decimals less than the sheet: fewer still for a large engine.
-    digits = max(0, terms.quantity(columns["work"]).digits.decimals - 2)
     return {
-        key: with_unit(fixed(float(terms.column(name)[place]), digits), "Дж")
+        key: with_unit(numbers.significant(float(terms.column(name)[place]), _DIGITS), "Дж")
         for key, name in columns.items()
     }

@@ -85,13 +85,20 @@ class Pen:
         self.page.text(place, text, size, halo=halo, layer=self.layer + 3)
 
     def throws(
-        self, centre: Point, radius: float, angles: Sequence[float], size: float, *, lean: float = 0
+        self,
+        centre: Point,
+        radius: float,
+        angles: Sequence[float],
+        size: float,
+        *,
+        lean: float = 0,
+        names: Sequence[str] = (),
     ) -> None:
-        """Cranks from the nose [deg]: a thick ray for each direction, its numbers at the end."""
+        """Cranks from the nose [deg]: a thick ray for each direction, its names at the end."""
         self.circle(centre, radius, width=HAIR)
-        for angle, names in by_direction(angles):
+        for angle, members in by_direction(angles, names):
             ray = math.radians(angle + lean)
-            end, name = polar(centre, radius, ray), ", ".join(names)
+            end, name = polar(centre, radius, ray), ", ".join(members)
             self.line([centre, end], THICK)
             self.circle(end, 3.1, fill="#ffffff", width=1.2)
             wide = text_size(name, size)[0] / 2
@@ -128,8 +135,10 @@ def shifted(point: Point, along: Point, distance: float) -> Point:
     return (point[0] + along[0] * distance, point[1] + along[1] * distance)
 
 
-def by_direction(angles: Sequence[float]) -> Iterator[tuple[float, list[str]]]:
-    """Each direction [deg] with the numbers of those that share it."""
-    numbered = sorted((round(angle % 360, 6) % 360, n) for n, angle in enumerate(angles, 1))
+def by_direction(
+    angles: Sequence[float], names: Sequence[str] = ()
+) -> Iterator[tuple[float, list[str]]]:
+    """Each direction [deg] with the names, otherwise the numbers, of those that share it."""
+    numbered = sorted((round(angle % 360, 6) % 360, n) for n, angle in enumerate(angles))
     for angle, members in itertools.groupby(numbered, key=lambda pair: pair[0]):
-        yield angle, [str(number) for _, number in members]
+        yield angle, [names[n] if names else str(n + 1) for _, n in members]

@@ -13,6 +13,7 @@ from reports.document.figures.style import FONT_SIZE, MM, SMALL
 
 _GREY = "#e4e4e4"
 _ROW = 17.0
+_CLEAR = 20.0  # between a letter beside the axis of the shaft and a ray [deg]
 _HALF = 15.0  # of a cylinder's width
 
 
@@ -122,11 +123,12 @@ def _parts(start: float, length: float, period: float) -> list[tuple[float, floa
     return [(start, period), (0.0, end - period)]
 
 
-def crank_scheme(throw_angles: Sequence[float], *, width: float = 150.0) -> str:
+def crank_scheme(throw_angles: Sequence[float], *, split: float = 0.0, width: float = 150.0) -> str:
     """Throws of the shaft from the side and from the nose, as SVG.
 
     Args:
         throw_angles: Angle γ of each throw from the first [deg], clockwise seen from the nose.
+        split: Angle from the left half of every pin to its right half [deg], 0 for common pins.
         width: Width of the figure [mm].
 
     Raises:
@@ -140,14 +142,15 @@ def crank_scheme(throw_angles: Sequence[float], *, width: float = 150.0) -> str:
     pen = Pen(page)
     level = page.height / 2 + 4
     right = page.width - star - 34
-    _side_view(pen, (12.0, level), right - star - 42, radius, throw_angles)
-    _star_view(pen, (right, level), star, throw_angles)
+    _side_view(pen, (12.0, level), right - star - 42, radius, throw_angles, split)
+    _star_view(pen, (right, level), star, throw_angles, split)
     return page.svg()
 
 
 def _side_view(
-    pen: Pen, start: Point, length: float, radius: float, throw_angles: Sequence[float]
-) -> None:
+    pen: Pen, start: Point, length: float, radius: float, throw_angles: Sequence[float],
+    split: float,
+) -> None:  # fmt: skip
     """Broken line of the shaft: journals on the axis, pins at r·cos γ above or below it."""
     (x, y), count = start, len(throw_angles)
     pitch = (length - 16) / count
@@ -156,11 +159,13 @@ def _side_view(
     points: list[Point] = [(x, y), (x + 8 + journal / 2, y)]
     for number, angle in enumerate(throw_angles, 1):
         left = x + 8 + (number - 1) * pitch + journal / 2
-        height = y + radius * math.cos(math.radians(angle))
+        height, other = (y + radius * math.cos(math.radians(a)) for a in (angle, angle + split))
         inner = (left + web, left + pitch - journal - web)
-        points += [(left, y), (inner[0], height), (inner[1], height)]
-        points += [(left + pitch - journal, y), (left + pitch - journal / 2, y)]
         middle = (inner[0] + inner[1]) / 2
+        halves = [(middle, height), (middle, other)] if split else []
+        points += [(left, y), (inner[0], height), *halves, (inner[1], other)]
+        points += [(left + pitch - journal, y), (left + pitch - journal / 2, y)]
+        height = max(height, other, key=lambda place: abs(place - y))
         above = 10 if height >= y else -10
         pen.text((middle, height + above), str(number))
     points[-1] = (x + length, y)
@@ -172,11 +177,30 @@ def _side_view(
             pen.line([(centre - size, y + side * 4), (centre + size, y + side * 4)], 1.4)
 
 
-def _star_view(pen: Pen, centre: Point, radius: float, throw_angles: Sequence[float]) -> None:
+def _star_view(
+    pen: Pen, centre: Point, radius: float, throw_angles: Sequence[float], split: float
+) -> None:
     """Directions of the throws seen from the nose; throws of one direction share a ray."""
     for dx, dy in ((radius + 8, 0.0), (0.0, radius + 8)):
         ends = [(centre[0] - dx, centre[1] - dy), (centre[0] + dx, centre[1] + dy)]
         pen.line(ends, HAIR, CENTRE)
-    pen.throws(centre, radius, throw_angles, FONT_SIZE)
-    pen.arc(centre, radius * 0.5, math.radians(20), math.radians(70), arrow=True)
-    pen.text(polar(centre, radius * 0.5 + 9, math.radians(45)), r"$\omega$")
+    rays = list(throw_angles)
+    if split:
+        rays += [angle + split for angle in throw_angles]
+        names = [f"{n}{half}" for half in "лп" for n in range(1, len(throw_angles) + 1)]
+        pen.throws(centre, radius, rays, SMALL, names=names)
+    else:
+        pen.throws(centre, radius, rays, FONT_SIZE)
+    turn = _free_direction(rays)
+    pen.arc(centre, radius * 0.5, math.radians(turn - 25), math.radians(turn + 25), arrow=True)
+    pen.text(polar(centre, radius * 0.5 + 9, math.radians(turn)), r"$\omega$")
+
+
+def _free_direction(rays: Sequence[float]) -> float:
+    """Where a letter between the rays hides none [deg]: at 45°, else amid the widest gap."""
+    turns = sorted({round(ray % 360, 6) % 360 for ray in rays})
+    if all(abs(math.remainder(ray - 45, 360)) > _CLEAR for ray in turns):
+        return 45.0
+    gaps = [(after - ray, ray) for ray, after in itertools.pairwise([*turns, turns[0] + 360])]
+    width, start = max(gaps)
+    return start + width / 2

@@ -18,6 +18,8 @@ from reports.shared.russian import MINUS, NBSP, fixed, mantissa, written
 def of_digits(value: float, digits: Digits) -> str:
     """A value with the digits of its quantity, a power of ten as HTML."""
     if digits.kind == "scientific":
+        if value == 0:  # the free end of a shaft has no stiffness: no digits are known of it
+            return "0"
         text, exponent = mantissa(value, digits.decimals)
         return Markup("{}·10<sup>{}</sup>").format(text, fixed(exponent, 0)) if exponent else text
     return fixed(value, digits.decimals) if digits.hides == "" else written(value, digits)
@@ -25,7 +27,7 @@ def of_digits(value: float, digits: Digits) -> str:
 
 def of_digits_tex(value: float, digits: Digits) -> str:
     """TeX of :func:`of_digits`."""
-    if digits.kind == "scientific":
+    if digits.kind == "scientific" and value:
         text, exponent = mantissa(value, digits.decimals)
         return to_tex(text) + (rf"\cdot 10^{{{exponent}}}" if exponent else "")
     return to_tex(of_digits(value, digits))

@@ -14,6 +14,7 @@ from pydantic import BaseModel
 
 from reports.inputs.checks import bands
 from reports.inputs.checks.bands import BANDS, Band
+from reports.inputs.checks.room import check_room
 from reports.inputs.checks.train import train_values
 from reports.inputs.checks.volume import volume_ratio
 from reports.inputs.findings import Finding, Path
@@ -41,6 +42,7 @@ def check_plausibility(model: InputFile, sizes: Sizes) -> Iterator[Finding]:
         yield from _told(outside)
     yield from _speed(model, sizes)
     yield from _shaft(model, sizes)
+    yield from check_room(model)
     yield from _efficiency(model)
     yield from _gas(model, model.gas, ())
     if not wrong_bore:

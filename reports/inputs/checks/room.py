@@ -1,0 +1,49 @@
+"""Whether journals fit between the webs, as the arms of the throws say."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from reports.inputs.findings import Finding, Path
+from reports.inputs.sections.input_file import InputFile
+from reports.inputs.units import number_text
+
+# Fillets and rounded sizes of real shafts make journals up to 13 % longer than the arms leave.
+_MOST_OVER = 1.25
+Fitted = tuple[Path, float, float]  # place in the file, length, room for it [mm]
+
+
+def check_room(model: InputFile) -> Iterator[Finding]:
+    """Yield a warning where a length and the arms of the throws contradict each other."""
+    for entries, arms in ((_mains(model), "l1, l6"), (_pins(model), "l2…l5")):
+        tight = [entry for entry in entries if entry[1] > _MOST_OVER * entry[2]]
+        if tight:
+            (path, length, room), more = tight[0], len(tight) - 1
+            what = (
+                f"шейка длиной {number_text(round(length, 2))} мм не помещается в колено: "
+                f"по плечам {arms} для неё {number_text(round(room, 2))} мм"
+            )
+            alike = f"; в списке таких ещё {more}" if more else ""
+            yield Finding(path, what + alike, "проверьте длину шейки и плечи колена", warning=True)
+
+
+def _mains(model: InputFile) -> Iterator[Fitted]:
+    shaft = model.crankshaft
+    lefts = [arm.l6_mm for arm in shaft.arms]
+    rights = [arm.l1_mm for arm in shaft.arms]
+    # Of an end journal only the half within the shaft is in the arms.
+    halves = zip([rights[0], *lefts], [*rights, lefts[-1]], strict=True)
+    for index, (length, (left, right)) in enumerate(
+        zip(shaft.main_lengths_mm, halves, strict=True)
+    ):
+        yield ("crankshaft", "main_lengths_mm", index), length, left + right
+
+
+def _pins(model: InputFile) -> Iterator[Fitted]:
+    shaft = model.crankshaft
+    for index, arm in enumerate(shaft.arms):
+        room = arm.l2_mm + arm.l3_mm + arm.l4_mm + arm.l5_mm
+        if shaft.pin_lengths_mm:
+            yield ("crankshaft", "pin_lengths_mm", index), shaft.pin_lengths_mm[index], room
+        elif shaft.pin_length_mm is not None:
+            yield ("crankshaft", "pin_length_mm"), shaft.pin_length_mm, room

@@ -11,6 +11,7 @@ from reports.grading.judging.rewriting import (
     OtherExponent,
     OtherRatio,
     WithoutPowers,
+    without_summand,
 )
 
 
@@ -35,6 +36,13 @@ def test_exponents_are_one_more_or_less_and_brackets_lose_theirs() -> None:
     assert rewritten(OtherExponent(more=True)) == "a ** n + b ** n + (c - d) ** 2"
     assert rewritten(OtherExponent(more=False)) == "a ** (n - 1) + b ** (n - 1) + (c - d) ** 2"
     assert rewritten(WithoutPowers()) == "a ** n + b ** (n - 1) + (c - d)"
+
+
+def test_a_summand_is_left_out_where_there_is_one() -> None:
+    """Formulas of one item may have more of them or fewer."""
+    found = [ast.unparse(without_summand(1)(ast.parse(text, mode="eval").body))
+             for text in ("a - b + c", "a")]  # fmt: skip
+    assert found == ["a - 0 + c", "a"]
 
 
 @pytest.mark.parametrize(

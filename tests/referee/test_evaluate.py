@@ -9,9 +9,10 @@ import zipfile
 import numpy as np
 import pytest
 
-from reports.recalculation.bench import Bench, Cells, pinned
+from reports.recalculation.bench import Bench, Cells, pinned, unrounded
 from reports.recalculation.evaluate import Engine
-from reports.recalculation.language import UnknownFormula
+from reports.recalculation.formulas import formula_of
+from reports.recalculation.language import UnknownFormula, pattern, render
 from reports.recalculation.read import read_grid
 from reports.workbook.caches import sheet_parts
 from tests.referee.books import engine_of
@@ -39,6 +40,12 @@ def test_a_grid_gives_what_the_whole_workbook_gives(name):
                 assert own == pytest.approx(value, rel=1e-9, abs=1e-12), (sheet, cell)
             compared += 1
     assert compared > 3000
+
+
+def test_what_is_compared_stays_rounded_where_roundings_are_taken_away():
+    text = "ROUND(IF(ROUND(A1-B1,9)>=C1,ROUND(A1,2),IF(B1<ROUND(A1,1),ROUND(B1,3),D1)),2)"
+    found = render(unrounded(formula_of(pattern(text, 1, 3))).pattern, 1, 3)
+    assert found == "=(IF(ROUND(A1-B1,9.0)>=C1,(A1),IF(B1<ROUND(A1,1.0),(B1),D1)))"
 
 
 def test_cached_values_are_not_read():

@@ -47,8 +47,14 @@ def numbers(tree: ast.expr) -> list[float]:
 
 
 def without_summand(number: int) -> Callable[[ast.expr], ast.expr]:
-    """Leaves one summand of the whole sum out: nought stands in its place."""
-    return lambda tree: _replaced(tree, summands(tree)[number], ast.Constant(0))
+    """Leaves one summand of the whole sum out, where there is one: nought stands in its place."""
+
+    def changed(tree: ast.expr) -> ast.expr:
+        for wanted in summands(tree)[number : number + 1]:
+            return _replaced(tree, wanted, ast.Constant(0))
+        return tree
+
+    return changed
 
 
 def _replaced(tree: ast.expr, wanted: ast.expr, by: ast.expr) -> ast.expr:

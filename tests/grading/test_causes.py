@@ -61,6 +61,8 @@ V1, S1, S, V, J1 = (f"P3_1.{key}" for key in ("v1_m_s", "s1_mm", "s_mm", "v_m_s"
         (V, lambda v: 2 * right(V1) - v, "знак слагаемого"),
         ("P4_1.beta_rad", lambda v: v * 2, "вдвое больше правильного"),
         ("geometry.V_h", lambda v: v * 10, "в 10 раз"),
+        ("geometry.V_h", lambda v: v * 0, "получен нуль"),
+        (V1, lambda v: v * 0, "все значения равны нулю"),
         ("geometry.V_h", lambda v: right("geometry.V_c"), "это значение величины"),
         ("geometry.v_max", lambda v: right(V).max(keepdims=True), "П3.1, vп: между ними есть"),
     ],

@@ -90,11 +90,12 @@ class Causes:
     def _common(self, judgement: Judgement) -> str:
         """A cause that all values have in common."""
         finite = judgement.values[np.isfinite(judgement.values)]
-        if judgement.item.is_column and np.unique(finite).size < _VARIED:
-            return "все значения равны нулю" if not finite.any() else ""
+        if not finite.any():  # anything small enough is nought
+            return "все значения равны нулю" if len(judgement.values) > 1 else "получен нуль"
         if judgement.coarse:
             return "округлено грубее, чем печатает книга"
-        return self._explained(judgement)
+        few = judgement.item.is_column and np.unique(finite).size < _VARIED
+        return "" if few else self._explained(judgement)
 
     def _explained(self, judgement: Judgement, rows: Sequence[int] = ()) -> str:
         """The first usual mistake that gives the values, or those of some rows."""

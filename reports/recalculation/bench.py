@@ -169,7 +169,10 @@ def rounds(formula: Formula) -> bool:
 
 @lru_cache(maxsize=20_000)
 def unrounded(formula: Formula) -> Formula:
-    """A formula without its ROUND, ROUNDUP and ROUNDDOWN, and with all digits of π."""
+    """A formula without its ROUND, ROUNDUP and ROUNDDOWN, and with all digits of π.
+
+    What is compared stays rounded: it would pick another case by its last digit.
+    """
     if not rounds(formula):
         return formula
     tokens = [
@@ -180,7 +183,7 @@ def unrounded(formula: Formula) -> Formula:
     while at < len(tokens) - 1:
         if tokens[at][0] == "name" and tokens[at][1].upper() in ROUNDINGS:
             end, comma = _arguments(tokens, at + 1)
-            if end and comma:
+            if end and comma and not _is_compared(tokens, at, end):
                 tokens[at : end + 1] = [*tokens[at + 1 : comma], ("op", ")")]
                 continue
         at += 1
@@ -205,6 +208,13 @@ def unrounded_grid(grid: Grid) -> Grid:
     return Grid(sheets, grid.names, grid.areas)
 
 
+def _is_compared(tokens: Sequence[tuple[str, str]], at: int, end: int) -> bool:
+    """Whether what stands from ``at`` to ``end`` is compared: its rounding only picks a case."""
+    beside = (*tokens[max(at - 1, 0) : at], *tokens[end + 1 : end + 2])
+    return any(token in _COMPARISONS for token in beside)
+
+
+_COMPARISONS = frozenset(("op", sign) for sign in ("=", "<>", "<", ">", "<=", ">="))
 ROUNDINGS = frozenset(("ROUND", "ROUNDUP", "ROUNDDOWN"))
 # What people type in for π, for degrees in radians, for revolutions in radians, and in
 # M = 9550·N/n, kW and rev/min.

@@ -21,14 +21,15 @@ from reports.recalculation.language import (
 
 # Functions of values only: nothing volatile, nothing that builds an address or leaves the book.
 _ALLOWED = """
-ABS ACOS ACOSH AND ASIN ASINH ATAN ATAN2 ATANH AVEDEV AVERAGE AVERAGEA AVERAGEIF AVERAGEIFS CEILING
-CHOOSE COLUMN COLUMNS COMBIN CONCATENATE COS COSH COUNT COUNTA COUNTBLANK COUNTIF COUNTIFS DEGREES
-EVEN EXP FACT FALSE FLOOR GCD GEOMEAN HARMEAN HLOOKUP IF IFERROR IFNA IFS INDEX INT INTERCEPT
-ISBLANK ISERR ISERROR ISEVEN ISLOGICAL ISNA ISNONTEXT ISNUMBER ISODD ISTEXT LARGE LCM LEFT LEN LET
-LN LOG LOG10 LOOKUP MATCH MAX MAXIFS MEDIAN MID MIN MINIFS MOD MROUND N NA NOT ODD OR PI POWER
-PRODUCT QUOTIENT RADIANS RANK RIGHT ROUND ROUNDDOWN ROUNDUP ROW ROWS SIGN SIN SINH SLOPE SMALL SQRT
-STDEV STDEV.P STDEV.S STDEVP SUM SUMIF SUMIFS SUMPRODUCT SUMSQ SUMX2MY2 SUMX2PY2 SUMXMY2 SWITCH T
-TAN TANH TRIM TRUE TRUNC VAR VAR.P VAR.S VARP VLOOKUP XLOOKUP XOR
+ABS ACOS ACOSH ACOT AND ASIN ASINH ATAN ATAN2 ATANH AVEDEV AVERAGE AVERAGEA AVERAGEIF AVERAGEIFS
+CEILING CEILING.MATH CHOOSE COLUMN COLUMNS COMBIN CONCATENATE CONVERT COS COSH COT COUNT COUNTA
+COUNTBLANK COUNTIF COUNTIFS CSC DEGREES DEVSQ EVEN EXP FACT FALSE FLOOR FLOOR.MATH FORECAST
+FORECAST.LINEAR GCD GEOMEAN HARMEAN HLOOKUP IF IFERROR IFNA IFS INDEX INT INTERCEPT ISBLANK ISERR
+ISERROR ISEVEN ISLOGICAL ISNA ISNONTEXT ISNUMBER ISODD ISTEXT LARGE LCM LEFT LEN LET LN LOG LOG10
+LOOKUP MATCH MAX MAXA MAXIFS MEDIAN MID MIN MINA MINIFS MOD MROUND N NA NOT ODD OR PI POWER PRODUCT
+QUOTIENT RADIANS RANK RANK.EQ RIGHT ROUND ROUNDDOWN ROUNDUP ROW ROWS SEC SERIESSUM SIGN SIN SINH
+SLOPE SMALL SQRT SQRTPI STDEV STDEV.P STDEV.S STDEVP SUBTOTAL SUM SUMIF SUMIFS SUMPRODUCT SUMSQ
+SUMX2MY2 SUMX2PY2 SUMXMY2 SWITCH T TAN TANH TRIM TRUE TRUNC VAR VAR.P VAR.S VARP VLOOKUP XLOOKUP XOR
 """
 ALLOWED = frozenset(_ALLOWED.split())
 # Where a rectangle may stand as a whole: every argument of these, some of the others.
@@ -36,15 +37,18 @@ _OF_RECTANGLES = """
 AND OR XOR AVEDEV AVERAGE AVERAGEA COUNT COUNTA COUNTBLANK GCD GEOMEAN HARMEAN LCM MAX MEDIAN MIN
 PRODUCT ROWS COLUMNS SLOPE INTERCEPT STDEV STDEV.P STDEV.S STDEVP SUM SUMSQ VAR VAR.P VAR.S VARP
 SUMIFS AVERAGEIFS COUNTIFS MINIFS MAXIFS
+DEVSQ MAXA MINA FORECAST FORECAST.LINEAR SERIESSUM SUBTOTAL
 """
 _TAKES_RANGES: dict[str, Collection[int]] = {
     **dict.fromkeys(_OF_RECTANGLES.split(), range(256)),
     "INDEX": (0,), "MATCH": (1,), "VLOOKUP": (1,), "HLOOKUP": (1,), "LOOKUP": (1, 2),
     "XLOOKUP": (1, 2), "SUMIF": (0, 2), "AVERAGEIF": (0, 2), "COUNTIF": (0,), "RANK": (1,),
-    "LARGE": (0,), "SMALL": (0,),
+    "RANK.EQ": (1,), "LARGE": (0,), "SMALL": (0,),
 }  # fmt: skip
 # Inside of these a rectangle is taken value by value.
 _TAKES_ARRAYS = frozenset(("SUMPRODUCT", "SUMX2MY2", "SUMX2PY2", "SUMXMY2"))
+_UNITS = frozenset(("mm", "cm", "m", "km", "g", "kg"))  # that the engine converts
+_TOTALS = frozenset(map(str, range(1, 12)))
 _PREFIX = re.compile(r"_XL(?:FN|WS|PM)\.")
 # Where it stands is all that these tell: in a rectangle that is not one place.
 PLACES = frozenset(("ROW", "COLUMN"))
@@ -104,8 +108,21 @@ class Formula:
         foreign = sorted(self.functions - ALLOWED)
         if foreign:
             return f"функция {foreign[0]}" if foreign[0] != _GOOGLE else GOOGLE_ARRAY
-        texts = (value[1:-1] for kind, value in self.pattern if kind == "text")
+        texts = [value[1:-1] for kind, value in self.pattern if kind == "text"]
+        if "CONVERT" in self.functions and not (len(texts) > 1 and set(texts) <= _UNITS):
+            return "функция CONVERT, единицы — только длины и массы"
+        if "SUBTOTAL" in self.functions and not self._totals_all():
+            return "функция SUBTOTAL, которая пропускает скрытые строки"
         return TEXT_NUMBER if any(map(is_doubtful, texts)) else ""
+
+    def _totals_all(self) -> bool:
+        """Whether its subtotals count hidden rows, too."""
+        found = (*self.pattern, ("", ""), ("", ""))
+        return all(
+            code[1] in _TOTALS
+            for name, code in zip(found, found[2:], strict=False)
+            if _PREFIX.sub("", name[1].upper()) == "SUBTOTAL"
+        )
 
     @cached_property
     def takes_arrays(self) -> bool:

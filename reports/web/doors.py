@@ -249,14 +249,14 @@ def shown(path: str, find: Callable[[Request], Shown], files: str = "/{file}") -
         return FileResponse(file, headers=heads, filename=file.name, content_disposition_type=how)
 
     async def taken(request: Request) -> Data:
-        place = find(request).takes.get(request.path_params["file"])
-        if place is None:
+        found = find(request)
+        if (place := found.takes.get(request.path_params["file"])) is None:
             raise HTTPException(404, "такого файла здесь не ждут")
         is_book, told = place.suffix == ".xlsx", Data()
         async with uploaded(request, MOST_BOOK if is_book else MOST_ARCHIVE, place.name) as file:
             if is_book:
                 with contextlib.suppress(HTTPException):  # a busy server turns no work away
-                    told = await ask(request, remarks, str(file))
+                    told = await ask(request, remarks, str(file), str(found.gives["book"]))
             else:
                 check_upload(file, place.suffix)
             file.replace(place)

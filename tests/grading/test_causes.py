@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -12,8 +13,9 @@ from reports.grading.judging.causes import Causes
 from reports.grading.judging.verdicts import WRONG, Judgement
 from reports.grading.reading.student import Student
 from reports.recalculation.read import read_grid
+from reports.workbook.layout import Layout
 from tests.grading import classroom
-from tests.grading.fill import filled_book
+from tests.grading.fill import filled_book, solved_formulas
 
 
 @lru_cache(maxsize=1)
@@ -31,10 +33,15 @@ def right(name: str, inputs: dict[str, float | str] | None = None) -> np.ndarray
     return np.ravel(np.asarray(run.value(item_of(name).nodes[0]), dtype=float))
 
 
-def cause(name: str, values: np.ndarray) -> str:
+def cause(
+    name: str, values: np.ndarray, rows: Sequence[int] = (), typed: Sequence[int] = ()
+) -> str:
     marker, book = classroom.marker(), classroom.book()
     causes = Causes(student(), marker.others(book.number), marker.titles(student().assignment))
-    return causes.find(Judgement(item_of(name), WRONG, right(name), np.asarray(values, float)))
+    seen = np.asarray(values, float)
+    return causes.find(
+        Judgement(item_of(name), WRONG, right(name), seen, tuple(rows), tuple(typed))
+    )
 
 
 V1, S1, S, V, J1 = (f"P3_1.{key}" for key in ("v1_m_s", "s1_mm", "s_mm", "v_m_s", "j1_m_s2"))
@@ -54,6 +61,8 @@ V1, S1, S, V, J1 = (f"P3_1.{key}" for key in ("v1_m_s", "s1_mm", "s_mm", "v_m_s"
         (V, lambda v: 2 * right(V1) - v, "знак слагаемого"),
         ("P4_1.beta_rad", lambda v: v * 2, "вдвое больше правильного"),
         ("geometry.V_h", lambda v: v * 10, "в 10 раз"),
+        ("geometry.V_h", lambda v: v * 0, "получен нуль"),
+        (V1, lambda v: v * 0, "все значения равны нулю"),
         ("geometry.V_h", lambda v: right("geometry.V_c"), "это значение величины"),
         ("geometry.v_max", lambda v: right(V).max(keepdims=True), "П3.1, vп: между ними есть"),
     ],
@@ -70,6 +79,45 @@ def test_a_cause_is_told_from_half_of_the_rows_on():
     )
     assert cause(V1, few) == ""
     assert "обратный знак" in cause(V1, enough)
+
+
+@pytest.mark.parametrize(
+    ("rows", "change", "typed", "words"),
+    [
+        ((4,), lambda v: -v, (), "неверна одна строка из 13, остальные верны: обратный знак"),
+        ((4, 5), lambda v: -v, (), "неверно строк: 2 из 13, остальные верны: обратный знак"),
+        ((4,), lambda v: np.roll(v, -1), (), "остальные верны: значения сдвинуты на одну"),
+        ((4,), lambda v: v * 1.1, (), "остальные верны: сравните формулу с соседними"),
+        ((0,), lambda v: v * 1.1, (), "остальные верны: сравните формулу с соседними"),
+        ((4,), lambda v: v * 1.1, (4,), "остальные верны: вместо формулы вписано число"),
+        # What has few digits left may come of anything.
+        ((4,), lambda v: v * 1e-5, (), "остальные верны: сравните формулу с соседними"),
+    ],
+)
+def test_a_slip_in_a_few_rows_is_told_from_a_wrong_column(rows, change, typed, words):
+    values = right(J1).copy()
+    values[list(rows)] = change(right(J1))[list(rows)]
+    assert words in cause(J1, values, rows, typed)
+
+
+def test_many_wrong_rows_or_an_empty_one_are_no_slip():
+    values = right(V1) + 1.2345
+    assert cause(V1, values, range(13)) == ""
+    values[4] = np.nan
+    assert cause(V1, values, (4,)) == ""
+
+
+def test_a_mistake_upon_mistakes_is_named():
+    """The forces of the next cylinders are wrong already; then comes a sign."""
+    turned = {"P4_1.T_MPa": "=({})/1000", "P4_2.M2_Nm": "=-({})"}
+    formulas = solved_formulas(classroom.assignment(), Layout.of(classroom.assignment().model))
+    changes = {node: [text.format(str(t)[1:]) for t in formulas[node]]
+               for node, text in turned.items()}  # fmt: skip
+    data = filled_book(classroom.handout(), classroom.assignment(), changes)
+    lines = classroom.marks(data)["items"]
+    told = {line["id"]: line["cause"] for line in lines if line["verdict"] == "wrong"}
+    assert told["P4_2.M2_Nm"] == "обратный знак"
+    assert told.keys() == turned.keys()
 
 
 def test_degrees_in_a_sine_are_named():

@@ -84,6 +84,21 @@ def test_a_name_that_contradicts_the_identifier_is_a_doubt():
     assert owner(cell=tickets()[0], moodle=books[0].student.full).doubts == ()
 
 
+@pytest.mark.parametrize("before", ["", "Команда 1-", "Группа по умолчанию-"])  # of a team's zip
+def test_the_name_of_a_file_is_not_that_of_who_hands_it_in(before):
+    """A book of another's that keeps its name is still handed in by the participant."""
+    mine, other = classroom.register().books[:2]
+    handed = f"{before}{other.student.full}"
+    match = owner(key=f"{handed}_7_assignsubmission_file_/{mine.file}", cell=mine.ticket,
+                  moodle=handed)  # fmt: skip
+    assert match.book is mine
+    assert match.submitter == other.number
+    assert "файл сдал(а)" in match.doubts[0]
+    own = owner(key=f"{handed}_7_assignsubmission_file_/{other.file}", cell=other.ticket,
+                moodle=handed)  # fmt: skip
+    assert (own.book, own.doubts) == (other, ())
+
+
 def test_without_an_identifier_the_only_fitting_name_decides():
     books = classroom.register().books
     for key in (f"группа/{books[1].folder}/кр.xlsx", f"Moja {books[1].file}", "petrov kr.xlsx"):

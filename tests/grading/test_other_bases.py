@@ -79,7 +79,7 @@ TORSION = Base(
         "tor_zeta_viscous": "=1/SQRT(({tor_mu}+1)*({tor_mu}+2)*2)",
     },
     {
-        "tor_twist1": ("=MIN({|torsion_forms.tor_shaft1_MPa})", None),  # nought: no cause
+        "tor_twist1": ("=MIN({|torsion_forms.tor_shaft1_MPa})", "получен нуль"),
         "tor_brought1": ("=SUM({|torsion_forms.tor_J_kgm2})", ""),
         "tor_f1_change": ("={tor_f1_other_hz}/{tor_f1_hz}-1", "в 100 раз"),
         "tor_mu": ("={tor_ring}/{tor_flywheel}", ""),

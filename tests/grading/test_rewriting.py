@@ -6,7 +6,13 @@ import ast
 
 import pytest
 
-from reports.grading.judging.rewriting import Flipped, OtherExponent, WithoutPowers
+from reports.grading.judging.rewriting import (
+    Flipped,
+    OtherExponent,
+    OtherRatio,
+    WithoutPowers,
+    without_summand,
+)
 
 
 @pytest.mark.parametrize(
@@ -30,3 +36,19 @@ def test_exponents_are_one_more_or_less_and_brackets_lose_theirs() -> None:
     assert rewritten(OtherExponent(more=True)) == "a ** n + b ** n + (c - d) ** 2"
     assert rewritten(OtherExponent(more=False)) == "a ** (n - 1) + b ** (n - 1) + (c - d) ** 2"
     assert rewritten(WithoutPowers()) == "a ** n + b ** (n - 1) + (c - d)"
+
+
+def test_a_summand_is_left_out_where_there_is_one() -> None:
+    """Formulas of one item may have more of them or fewer."""
+    found = [ast.unparse(without_summand(1)(ast.parse(text, mode="eval").body))
+             for text in ("a - b + c", "a")]  # fmt: skip
+    assert found == ["a - 0 + c", "a"]
+
+
+@pytest.mark.parametrize(
+    ("number", "wanted"),
+    [(None, "sin(a) / cos(sin(b))"), (0, "sin(a) / sin(cos(b))"), (2, "cos(a) / cos(cos(b))")],
+)
+def test_sine_and_cosine_are_taken_for_each_other(number: int | None, wanted: str) -> None:
+    found = OtherRatio(number).visit(ast.parse("cos(a) / sin(cos(b))", mode="eval"))
+    assert ast.unparse(found) == wanted

@@ -31,10 +31,15 @@ def told(tmp_path: Path, data: bytes) -> dict[str, str]:
 def test_what_a_page_tells_is_short_and_no_condition(tmp_path: Path) -> None:
     path = tmp_path / "книга.xlsx"
     path.write_bytes(classroom.handout())
-    lines = remarks(str(path))["remarks"]
+    issued = tmp_path / "выдана.xlsx"
+    issued.write_bytes(classroom.handout())
+    lines = remarks(str(path), str(issued))["remarks"]
     assert len(lines) == 21 and "пусто" in lines[0] and "и ещё замечаний: " in lines[-1]
+    issued.write_bytes(classroom.handout(2))
+    assert "выдана не вам" in remarks(str(path), str(issued))["remarks"][0]
+    issued.write_bytes(classroom.handout())
     path.write_bytes(workbook_bytes(classroom.assignment().model))
-    assert remarks(str(path))["remarks"] == [
+    assert remarks(str(path), str(issued))["remarks"] == [
         "в книге нет идентификатора: это не выданная рабочая книга"
     ]
 
@@ -43,10 +48,12 @@ def test_what_a_page_tells_is_short_and_no_condition(tmp_path: Path) -> None:
         book[cell.sheet].cell(cell.row, cell.column).value = None
 
     path.write_bytes(filled_book(classroom.handout(), classroom.assignment(), edit=without_speed))
-    assert len(remarks(str(path))["remarks"]) == 1  # its input is none: a person decides on it
+    assert (
+        len(remarks(str(path), str(issued))["remarks"]) == 1
+    )  # its input is none: a person decides on it
     path.write_bytes(b"MZ")
     with pytest.raises(InputError, match="это не книга"):
-        remarks(str(path))
+        remarks(str(path), str(issued))
 
 
 def spoilt(book: Workbook, layout: Layout) -> None:

@@ -9,9 +9,10 @@ import zipfile
 import numpy as np
 import pytest
 
-from reports.recalculation.bench import Bench, Cells, pinned
+from reports.recalculation.bench import Bench, Cells, pinned, unrounded
 from reports.recalculation.evaluate import Engine
-from reports.recalculation.language import UnknownFormula
+from reports.recalculation.formulas import formula_of
+from reports.recalculation.language import UnknownFormula, pattern, render
 from reports.recalculation.read import read_grid
 from reports.workbook.caches import sheet_parts
 from tests.referee.books import engine_of
@@ -39,6 +40,50 @@ def test_a_grid_gives_what_the_whole_workbook_gives(name):
                 assert own == pytest.approx(value, rel=1e-9, abs=1e-12), (sheet, cell)
             compared += 1
     assert compared > 3000
+
+
+def test_what_is_compared_stays_rounded_where_roundings_are_taken_away():
+    text = "ROUND(IF(ROUND(A1-B1,9)>=C1,ROUND(A1,2),IF(B1<ROUND(A1,1),ROUND(B1,3),D1)),2)"
+    found = render(unrounded(formula_of(pattern(text, 1, 3))).pattern, 1, 3)
+    assert found == "=(IF(ROUND(A1-B1,9.0)>=C1,(A1),IF(B1<ROUND(A1,1.0),(B1),D1)))"
+
+
+# As LibreOffice 7.4 calculates them.
+SELDOM = {
+    "ACOT(A3)": 2.8563352406082534, "COT(A1)": 0.332273417254529, "SEC(A3)": -1.0371351588584488,
+    "CSC(A3)": 3.7707938654716204, "SQRTPI(A1)": 1.98166364880301, "CEILING.MATH(A3,0.5)": -3.0,
+    "FLOOR.MATH(A3,0.5)": -3.5, "DEVSQ(A1:A7)": 33.64432, "MAXA(A1:A7)": 4.5, "MINA(A1:A7)": -3.41,
+    "FORECAST(A2,A1:A5,B1:B5)": 1.02229, "FORECAST.LINEAR(2.5,A1:A5,B1:B5)": 1.0375,
+    "SERIESSUM(A3,1,2,B1:B3)": -1465.9396613103, "RANK.EQ(A3,A1:A5,1)": 1.0,
+    "SUBTOTAL(9,A1:A7)": 5.48, "SUBTOTAL(1,A1:A2,A4:A5)": 2.2225, "SUBTOTAL(11,A1:A5)": 6.728864,
+    "SUBTOTAL(9,C1:C5)": 17.78, 'CONVERT(A1,"mm","m")': 0.00125, 'CONVERT(A3,"kg","g")': -3410.0,
+}  # fmt: skip
+
+
+def test_functions_that_people_seldom_need_are_calculated():
+    numbers = [1.25, 2.37, -3.41, 4.5, 0.77]
+    cells = {f"A{row}": value for row, value in enumerate(numbers, 1)} | {"A7": "слово"}
+    cells |= {f"B{row}": row for row in range(1, 6)}
+    cells |= {f"C{row}": f"=A{row}*2" for row in range(1, 6)} | {"C3": "=SUBTOTAL(9,A1:A2)"}
+    cells |= {f"E{row}": f"={text}" for row, text in enumerate(SELDOM, 1)}
+    engine = engine_of(cells)
+    found = {text: engine.shown("Sheet", 5, row) for row, text in enumerate(SELDOM, 1)}
+    assert found == pytest.approx(SELDOM, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        'CONVERT(A1,"kPa","Pa")',
+        'CONVERT(A1,B1,"m")',
+        'CONVERT(A1,"MM","m")',
+        "SUBTOTAL(109,A1:A3)",
+        "SUBTOTAL(A1,A1:A3)",
+    ],
+)
+def test_what_the_engine_would_get_wrong_in_them_is_unknown(text):
+    with pytest.raises(UnknownFormula):
+        engine_of({"A1": 9, "C1": f"={text}"}).shown("Sheet", 3, 1)
 
 
 def test_cached_values_are_not_read():

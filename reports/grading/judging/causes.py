@@ -9,16 +9,18 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from reports.formula.numeric import evaluate_tree
 from reports.formula.parse import names, parse
 from reports.grading.issuing.assignment import Item
-from reports.grading.judging.judgement import Judgement
+from reports.grading.judging.judgement import Array, Judgement
+from reports.grading.judging.response import Response
 from reports.grading.judging.rewriting import (
+    MIXED,
     SIGNS,
     Flipped,
     OtherExponent,
+    OtherRatio,
     Renamed,
     WithoutFactor,
     WithoutNumber,
@@ -29,34 +31,20 @@ from reports.grading.judging.rewriting import (
     without_radians,
     without_summand,
 )
+from reports.grading.judging.rows import moved, row_indices, slips, told
 from reports.grading.judging.tolerances import close, tolerance
 from reports.grading.reading.student import Student, known_values
 from reports.inputs.sections.input_file import METHODS
 from reports.shared.russian import fixed, short
-from reports.spec.blocks import TableSpec
 from reports.spec.evaluation import Evaluation
 from reports.spec.graph import node_of
-
-Array = NDArray[np.float64]
 
 _FACTORS = (10.0, 100.0, 1000.0, 1e4, 1e5, 1e6, 1e9)
 
 _OTHERS = 200  # variants that are tried
 _PI = re.compile(r"\bpi\b")
+_CLEAR = 50  # tolerances that a number has at least which tells its cause alone
 _VARIED = 4  # different values of a column that tells anything
-
-# Quantities that are taken for each other.
-_MIXED = (
-    ("r_crank", "S_stroke", "ход поршня S вместо радиуса кривошипа r"),
-    ("S_stroke", "r_crank", "радиус кривошипа r вместо хода поршня S"),
-    ("r_crank", "L_rod", "длина шатуна L вместо радиуса кривошипа r"),
-    ("L_rod", "r_crank", "радиус кривошипа r вместо длины шатуна L"),
-    ("omega", "regime_speed_rpm", "частота вращения n в мин⁻¹ вместо угловой скорости ω"),
-    ("m_j", "m_2", "масса m2 вместо mj"),
-    ("m_2", "m_j", "масса mj вместо m2"),
-    ("F_piston", "geometry_bore_mm", "диаметр цилиндра вместо площади поршня"),
-    ("geometry_bore_mm", "S_stroke", "ход поршня S вместо диаметра цилиндра"),
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,9 +64,11 @@ class Causes:
         others: Sequence[OtherVariant],
         titles: dict[str, str],
         whole: dict[int, Evaluation] | None = None,
+        response: Response | None = None,
     ) -> None:
         self.student, self.others, self.titles = student, others, titles
         self.whole = {} if whole is None else whole  # other variants, the same for a class
+        self.response = response
 
     def find(self, judgement: Judgement) -> str:
         """The cause in words, empty where none fits."""
@@ -86,25 +76,50 @@ class Causes:
         finite = values[np.isfinite(values)]
         if not finite.size:
             return ""
-        moved = self._moved_reference(item)
-        if moved:
-            return moved
+        shifted = self._moved_reference(item)
+        if shifted:
+            return shifted
         if _is_place(item):
             return ""  # 2 for 4 may come of anything
-        if item.is_column and np.unique(finite).size < _VARIED:
-            return "все значения равны нулю" if not finite.any() else ""
+        found = self._common(judgement)
+        allowed = tolerance(item, judgement.expected, self.student)
+        good = close(item, judgement.values, judgement.expected, allowed)
+        rows = [] if found or judgement.coarse else slips(judgement, good)
+        return told(judgement, rows, self._explained(judgement, rows)) if rows else found
+
+    def _common(self, judgement: Judgement) -> str:
+        """A cause that all values have in common."""
+        finite = judgement.values[np.isfinite(judgement.values)]
+        if not finite.any():  # anything small enough is nought
+            return "все значения равны нулю" if len(judgement.values) > 1 else "получен нуль"
         if judgement.coarse:
             return "округлено грубее, чем печатает книга"
+        few = judgement.item.is_column and np.unique(finite).size < _VARIED
+        return "" if few else self._explained(judgement)
+
+    def _explained(self, judgement: Judgement, rows: Sequence[int] = ()) -> str:
+        """The first usual mistake that gives the values, or those of some rows."""
+        item, values = judgement.item, judgement.values
         known = self._known(judgement)
-        bases = [known, {}] if known else [{}]
-        for known in bases:
-            run = self.student.expected.fork(known)
-            right = self._values(item, run)
-            if right is None:
-                continue
-            for words, attempt in self._attempts(item, run, right, values):
-                if attempt is not None and self._fits(item, values, attempt, right):
-                    return words
+        for base in [known, {}] if known else [{}]:
+            found = self._first(item, values, self.student.expected.fork(base), rows)
+            if found:
+                return found
+        # Mistakes before this one, in what the program calculates from them too: its formula is
+        # looked at without them.
+        alone = self.response.alone(item) if self.response is not None else None
+        if alone is None or np.allclose(alone, values, equal_nan=True):
+            return ""
+        return self._first(item, alone, self.student.expected, rows)
+
+    def _first(self, item: Item, values: Array, run: Evaluation, rows: Sequence[int]) -> str:
+        right = self._values(item, run)
+        if right is None:
+            return ""
+        beyond = np.full(len(values), np.nan) if rows else values  # no row explains itself
+        for words, attempt in self._attempts(item, run, right, beyond):
+            if attempt is not None and self._fits(item, values, attempt, right, rows):
+                return words
         return ""
 
     def _known(self, judgement: Judgement) -> dict[str, object]:
@@ -119,11 +134,18 @@ class Causes:
             return False
         return not np.allclose(np.asarray(value, dtype=float), right, rtol=1e-9, equal_nan=True)
 
-    def _fits(self, item: Item, values: Array, attempt: Array, right: Array) -> bool:
+    def _fits(
+        self, item: Item, values: Array, attempt: Array, right: Array, rows: Sequence[int]
+    ) -> bool:
         """Whether an attempt explains the values, and differs from what is right."""
         if attempt.shape != values.shape or not np.isfinite(attempt).any():
             return False
         allowed = tolerance(item, attempt, self.student)
+        if rows:
+            at = np.asarray(rows)
+            values, attempt, right = values[at], attempt[at], right[at]
+            if (np.abs(values) < _CLEAR * allowed).any():
+                return False  # so few digits may come of anything
         there = np.isfinite(values)
         if there.sum() < max(1, len(values) // 2):
             return False
@@ -146,8 +168,8 @@ class Causes:
         if any(_PI.search(self.student.assignment.graph.expression(n) or "") for n in item.nodes):
             yield "π взято как 3,14", right * (3.14 / np.pi)
         if len(right) > 3 and item.is_column:
-            yield "значения сдвинуты на одну строку вниз", _shifted(right, values, 1)
-            yield "значения сдвинуты на одну строку вверх", _shifted(right, values, -1)
+            yield "значения сдвинуты на одну строку вниз", moved(right, values, 1)
+            yield "значения сдвинуты на одну строку вверх", moved(right, values, -1)
         yield from self._columns(item, run)
         yield from self._methods(item)
         yield from self._variants(item)
@@ -162,8 +184,11 @@ class Causes:
 
     def _changed_formulas(self, item: Item, run: Evaluation) -> Iterator[tuple[str, Array | None]]:
         yield "градусы вместо радиан в sin, cos", self._rewritten(item, run, without_radians)
+        for place in (None, 0, 1, 2):
+            made = self._rewritten(item, run, OtherRatio(place).visit)
+            yield "sin и cos взяты друг вместо друга", made
         yield from self._shorter(item, run)
-        for wrong_for, taken, words in _MIXED:
+        for wrong_for, taken, words in MIXED:
             uses = any(wrong_for in self._names(node) for node in item.nodes)
             known = self.student.assignment.model
             if uses and (taken in known.scalars or taken in known.fields):
@@ -282,7 +307,7 @@ class Causes:
         own = model.tables[item.block]
         tables = [own, *(table for table in model.tables.values() if table is not own)]
         for table in tables:
-            rows = _row_indices(own, table)
+            rows = row_indices(own, table)
             if rows is None:
                 continue
             for column in table.columns:
@@ -373,20 +398,3 @@ def _resolver(node: str, run: Evaluation) -> Callable[[str], Any]:
     """Values of the names in a node's formula."""
     table = node.split(".", maxsplit=1)[0] if "." in node else ""
     return lambda name: run.value(node_of(name, table, run.model))
-
-
-def _shifted(right: Array, values: Array, by: int) -> Array:
-    """Right values moved by a row; the row without a right value is the student's own."""
-    moved = np.roll(right, by)
-    moved[0 if by > 0 else -1] = values[0 if by > 0 else -1]
-    return moved
-
-
-def _row_indices(own: TableSpec, other: TableSpec) -> NDArray[np.intp] | None:
-    """For each row of a table the row of another table with the same angle."""
-    if own.rows == other.rows:
-        return np.arange(len(own.rows))
-    places = {angle: i for i, angle in enumerate(other.rows)}
-    if any(angle not in places for angle in own.rows):
-        return None
-    return np.array([places[angle] for angle in own.rows])

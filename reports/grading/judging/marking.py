@@ -160,9 +160,8 @@ class Marker:
             text += ", ".join(tampered[:4])
             result["doubts"].append(text)
             result["manual"].append(text)
-        causes = Causes(
-            student, self.others(book.number), self.titles(assignment), self._whole(assignment)
-        )
+        others, titles = self.others(book.number), self.titles(assignment)
+        causes = Causes(student, others, titles, self._whole(assignment), response)
         items = [feedback_line(student, judgement, causes, assignment) for judgement in judgements]
         result |= {
             "status": "graded",

@@ -100,17 +100,20 @@ class Response:
     def _with_helpers(self, node: str) -> list[Run]:
         return [*self.student.runs(node), *self.student.helpers(node)]
 
-    def _run(self, nodes: Sequence[str], *, rounded: bool) -> dict[str, list[Array] | str]:
-        if not nodes or not self.trials:
+    def _run(
+        self, nodes: Sequence[str], *, rounded: bool, own: Trial | None = None
+    ) -> dict[str, list[Array] | str]:
+        trials = self.trials if own is None else (own,)
+        if not nodes or not trials:
             return {node: [] for node in nodes}
         student = self.student
-        first = pinned(student.grid, self.cells(self.trials[0], everything=True))
+        first = pinned(student.grid, self.cells(trials[0], everything=True))
         if not rounded:
             first = unrounded_grid(pinned(first, self._full_constants))
         bench = Bench(first, {node: student.runs(node) for node in nodes}, rounded=rounded)
         found: dict[str, list[Array] | str] = {node: [] for node in nodes}
-        for trial in self.trials:
-            if trial is not self.trials[0]:
+        for trial in trials:
+            if trial is not trials[0]:
                 bench.put(self.cells(trial, everything=False))
             for node in nodes:
                 values = found[node]
@@ -141,6 +144,18 @@ class Response:
                 right = changed[node]
             made += student.cells_of(node, right)
         return made
+
+    def alone(self, item: Item) -> Array | None:
+        """What the formulas of an item give where all that they refer to is right.
+
+        So a mistake is told apart from those that were made before it.
+        """
+        if not all(self.student.runs(node) for node in item.nodes):
+            return None
+        own = Trial({}, self.student.expected, decides=True)
+        made = self._run(item.nodes, rounded=True, own=own)
+        parts = [values[0] for values in made.values() if not isinstance(values, str)]
+        return np.concatenate(parts) if len(parts) == len(item.nodes) else None
 
     def whole(self) -> Iterator[list[Cells]]:
         """What the book was issued with, of each trial: all else it calculates itself."""

@@ -4,6 +4,20 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable
+from typing import ClassVar
+
+# Quantities that are taken for each other.
+MIXED = (
+    ("r_crank", "S_stroke", "ход поршня S вместо радиуса кривошипа r"),
+    ("S_stroke", "r_crank", "радиус кривошипа r вместо хода поршня S"),
+    ("r_crank", "L_rod", "длина шатуна L вместо радиуса кривошипа r"),
+    ("L_rod", "r_crank", "радиус кривошипа r вместо длины шатуна L"),
+    ("omega", "regime_speed_rpm", "частота вращения n в мин⁻¹ вместо угловой скорости ω"),
+    ("m_j", "m_2", "масса m2 вместо mj"),
+    ("m_2", "m_j", "масса mj вместо m2"),
+    ("F_piston", "geometry_bore_mm", "диаметр цилиндра вместо площади поршня"),
+    ("geometry_bore_mm", "S_stroke", "ход поршня S вместо диаметра цилиндра"),
+)
 
 
 def summands(tree: ast.expr) -> list[ast.expr]:
@@ -33,8 +47,14 @@ def numbers(tree: ast.expr) -> list[float]:
 
 
 def without_summand(number: int) -> Callable[[ast.expr], ast.expr]:
-    """Leaves one summand of the whole sum out: nought stands in its place."""
-    return lambda tree: _replaced(tree, summands(tree)[number], ast.Constant(0))
+    """Leaves one summand of the whole sum out, where there is one: nought stands in its place."""
+
+    def changed(tree: ast.expr) -> ast.expr:
+        for wanted in summands(tree)[number : number + 1]:
+            return _replaced(tree, wanted, ast.Constant(0))
+        return tree
+
+    return changed
 
 
 def _replaced(tree: ast.expr, wanted: ast.expr, by: ast.expr) -> ast.expr:
@@ -133,6 +153,24 @@ def without_radians(tree: ast.expr) -> ast.expr:
     result = NoRadians().visit(tree)
     assert isinstance(result, ast.expr)
     return result
+
+
+class OtherRatio(ast.NodeTransformer):
+    """Takes the sine for the cosine and the cosine for the sine, in one place or in all."""
+
+    _OTHER: ClassVar = {"sin": "cos", "cos": "sin"}
+
+    def __init__(self, number: int | None) -> None:
+        self.number, self.seen = number, -1
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        """The other ratio of the same angle."""
+        self.generic_visit(node)
+        if isinstance(node.func, ast.Name) and node.func.id in self._OTHER:
+            self.seen += 1
+            if self.number in (None, self.seen):
+                node.func = ast.Name(self._OTHER[node.func.id], ast.Load())
+        return node
 
 
 class NoRadians(ast.NodeTransformer):

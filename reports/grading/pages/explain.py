@@ -59,12 +59,14 @@ def explain(
     marker = Marker(register)
     student = marker.student(match.book, grid, package)
     item = _find_item(student, target)
-    judgements = judge_all(student, marker.response(student))
+    response = marker.response(student)
+    judgements = judge_all(student, response)
     judgement = next(j for j in judgements if j.item is item)
     yield f"Студент: {match.book.student.full}, вариант {match.book.number}"
     yield "Основание: " + "; ".join(match.evidence)
     others = marker.others(match.book.number)
-    causes = Causes(student, others, marker.titles(student.assignment))
+    titles = marker.titles(student.assignment)
+    causes = Causes(student, others, titles, response=response)
     yield from _about(student, item, judgement, causes)
 
 

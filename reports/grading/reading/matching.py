@@ -127,20 +127,21 @@ def _by_name(register: Register, submission: Submission) -> tuple[list[Issued], 
 
     More than one are those that the name does not tell apart.
     """
-    for text, where in (
-        (submission.moodle_name, "имя участника Moodle"),
-        (submission.key, "имя файла"),
-    ):
-        words = _words(text)
-        if not words:
-            continue
-        hits = [book for book in register.books if book.folder in submission.key.split("/")]
-        hits = hits or [book for book in register.books if _file_stem(book) in submission.key]
-        hits = hits or _standing_in(words, [(book, _names(book)) for book in register.books])
-        hits = hits or _standing_in(words, [(book, _surname(book)) for book in register.books])
-        if hits:
-            return hits, f"{where}: «{text[:120]}»"
-    return [], ""
+    of_file = [book for book in register.books if book.folder in submission.key.split("/")]
+    of_file = of_file or [book for book in register.books if _file_stem(book) in submission.key]
+    hits = _named(register, submission.moodle_name)
+    if hits:  # a participant may hand in a file of another's; of namesakes its name tells which
+        of_name = [book for book in hits if book in of_file]
+        return of_name or hits, f"имя участника Moodle: «{submission.moodle_name[:120]}»"
+    hits = of_file or _named(register, submission.key)
+    return hits, f"имя файла: «{submission.key[:120]}»" if hits else ""
+
+
+def _named(register: Register, text: str) -> list[Issued]:
+    """Those whose names stand in a text, or else their surnames."""
+    words = _words(text)
+    hits = _standing_in(words, [(book, _names(book)) for book in register.books])
+    return hits or _standing_in(words, [(book, _surname(book)) for book in register.books])
 
 
 def _file_stem(book: Issued) -> str:

@@ -93,8 +93,10 @@ def findings(path: Path) -> list[Finding]:
     return found
 
 
-def remarks(path: str) -> dict[str, list[str]]:
+def remarks(path: str, issued: str) -> dict[str, list[str]]:
     """What is told of a book that is handed in; it may be handed in whatever is told.
+
+    ``issued`` is the student's own empty book.
 
     Raises:
         InputError: no program reads it.
@@ -108,7 +110,14 @@ def remarks(path: str) -> dict[str, list[str]]:
     except InputError as error:
         lines = error.lines()
     more = [f"и ещё замечаний: {len(lines) - _TOLD}"] if len(lines) > _TOLD else []
+    ticket, own = _ticket(book), _ticket(Path(issued))
+    if ticket and own and ticket != own:
+        lines.insert(0, "эта книга выдана не вам: скачайте свою и сдайте её")
     return {"remarks": lines[:_TOLD] + more}
+
+
+def _ticket(book: Path) -> str:
+    return own_properties(Package(check_package(book))).get(TICKET_NAME, "")
 
 
 def _assignment(model: Model, package: Package) -> Assignment:

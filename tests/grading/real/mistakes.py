@@ -99,7 +99,7 @@ MISTAKES = (
     one("sine for tangent", "P4_1.N_MPa", "=D{r}*SIN(J{r})"),
     one("times for over", "P4_1.S_MPa", "=D{r}*COS(J{r})"),
     one("cosine for sine", "P4_1.T_MPa", "=D{r}*COS(A{r}*PI()/180+J{r})/COS(J{r})",
-        cause="соседнего столбца"),
+        cause="sin и cos взяты друг вместо друга"),
     one("radius forgotten", "P4_1.M_Nm", "=G{r}*10^6*F_piston", cause="пропущен множитель r"),
     one("not shifted", "P4_2.M2_Nm", "='П4.1'!I{r}", cause="соседнего столбца"),
     one("shifted back", "P4_2.M2_Nm",

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from functools import lru_cache
 
 from openpyxl import Workbook, load_workbook
 
@@ -11,7 +12,7 @@ from reports.formula.excel import compile_formula
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.handout import fill_cells
 from reports.spec.blocks import TableSpec
-from reports.workbook.layout import FIRST_ROW, Layout, RowReferences, at_row
+from reports.workbook.layout import Layout, RowReferences, at_row
 from tests.referee.changes import without_charts
 
 Formula = str | float | None
@@ -50,21 +51,43 @@ def filled_book(
     The charts of the handout are half of the time; with them it is as a student's program has it.
     """
     layout = Layout.of(assignment.model)
-    if isinstance(handout, bytes):
-        book = load_workbook(io.BytesIO(handout if charts else without_charts(handout)))
-    else:
-        book = handout
     formulas = {**solved_formulas(assignment, layout), **(changes or {})}
-    for block in assignment.fill:
-        sheet = book[block.sheet]
-        for node, cells in fill_cells(block, layout).items():
-            for cell, text in zip(cells, formulas[node], strict=True):
-                sheet.cell(cell.row, cell.column).value = text
+    texts = tuple(
+        ((block.sheet, cell.row, cell.column), text)
+        for block in assignment.fill
+        for node, cells in fill_cells(block, layout).items()
+        for cell, text in zip(cells, formulas[node], strict=True)
+    )
+    if isinstance(handout, bytes) and edit is None and not charts:
+        return _saved_with(handout, texts)
+    book = handout
+    if isinstance(book, bytes):
+        book = load_workbook(io.BytesIO(book if charts else without_charts(book)))
+    _write(book, texts)
     if edit is not None:
         edit(book, layout)
+    return _saved(book)
+
+
+def _write(book: Workbook, texts: Iterable[tuple[tuple[str, int, int], Formula]]) -> None:
+    for (sheet, row, column), text in texts:
+        book[sheet].cell(row, column).value = text
+
+
+def _saved(book: Workbook) -> bytes:
     stream = io.BytesIO()
     book.save(stream)
     return stream.getvalue()
 
 
-assert FIRST_ROW
+# Many tests fill the same work-book, many of them in the same way.
+@lru_cache(maxsize=8)
+def _saved_with(handout: bytes, texts: tuple[tuple[tuple[str, int, int], Formula], ...]) -> bytes:
+    book = _opened(handout)
+    _write(book, texts)  # every cell to fill in, so that nothing of the last filling is left
+    return _saved(book)
+
+
+@lru_cache(maxsize=2)
+def _opened(handout: bytes) -> Workbook:
+    return load_workbook(io.BytesIO(without_charts(handout)))

@@ -133,14 +133,19 @@ def test_a_doubtful_work_is_accepted_by_a_person(tmp_path):
     assert not rows[2]["manual"]
 
 
+def saved_again(book: Workbook, _: object) -> None:
+    """The same formulas in another file."""
+    book.properties.title = "Ещё раз"
+
+
 @pytest.mark.parametrize("word", ["+", "0"])
 def test_a_decision_is_about_the_file_that_was_looked_at(tmp_path, word):
     """Who was accepted, or failed, does not settle it by handing in another file."""
     where, out = submitted(tmp_path / "in"), tmp_path / "out"
     decided = run(where, out, ("2", "всё", word, ""))[2]["points"]
     earlier = (where / "2.xlsx").read_bytes()
-    for data in (filled_book(classroom.handout(2), classroom.assignment(2), UNKNOWN),
-                 filled_book(classroom.handout(2), classroom.assignment(2))):  # fmt: skip
+    for changes in (UNKNOWN, None):
+        data = filled_book(classroom.handout(2), classroom.assignment(2), changes, saved_again)
         (where / "2.xlsx").write_bytes(data)
         assert data != earlier
         for rows in (run(where, out), run(where, out)):  # the gradebook of the first has a «+»

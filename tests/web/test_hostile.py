@@ -331,7 +331,9 @@ def test_a_busy_server_turns_no_work_away(
 
     monkeypatch.setattr(doors, "ask", asked)
     place = tmp_path / "work.xlsx"
-    routes = doors.shown("/x", lambda _: doors.Shown({}, {}, {"work": place}))
+    routes = doors.shown(
+        "/x", lambda _: doors.Shown({}, {"book": tmp_path / "issued.xlsx"}, {"work": place})
+    )
     handlers: Any = {InputError: doors.failed}
     app = Starlette(routes=routes, exception_handlers=handlers)
     app.state.settings = Settings(tmp_path)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Collection, Iterator
+from functools import lru_cache
 from types import NoneType
 
 import formualizer
@@ -25,6 +26,7 @@ from reports.workbook.verdict import ODD
 from reports.workbook.what_if import SHEET
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample, sample_names
+from tests.referee.changes import without_charts
 from tests.workbook.made import book, coarse, coarse_model, coarse_opened, coarse_values, model
 from tools.referees.cells import formula_cells, row_and_column, stripped
 
@@ -99,9 +101,10 @@ def errors_in(engine: formualizer.Workbook, cells: formualizer.RangeAddress) -> 
     )
 
 
+@lru_cache(maxsize=2)
 def red_rows(data: bytes) -> int:
     """The column by which rows of the input sheet turn red."""
-    sheet = openpyxl.load_workbook(io.BytesIO(data))[INPUT_SHEET]
+    sheet = openpyxl.load_workbook(io.BytesIO(without_charts(data)))[INPUT_SHEET]
     (column,) = {
         re.fullmatch(r"\$([A-Z]+)\d+=[12]", rule.formula[0])[1]
         for places in sheet.conditional_formatting

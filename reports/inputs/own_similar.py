@@ -9,10 +9,12 @@ from few would get a shaft that no engine has: d/D stays within its usual bounds
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import Any
 
 from reports.inputs.checks.bands import BANDS
 from reports.inputs.fields import to_mapping
+from reports.inputs.own_carried import TRAIN_LEFT, Grown, carried
 from reports.inputs.own_engine import (
     Made,
     ShaftSizes,
@@ -32,6 +34,8 @@ DIGITS = 6  # of a millimetre
 _DIESEL_RATIO = 14.0
 _OFFSETS = ("crank_offset_mm", "pin_offset_mm")
 _SIZING = ("power_kw", "stroke_bore", "size_step_mm", "rounding")
+_LEAST_BETWEEN = 1.08  # axes of neighbours over the bore: the nearest of the samples have 1.085
+_APART = ("crankshaft.main_lengths_mm", "crankshaft.arms.left_web_mm")  # what sets them apart
 _SINGLE = ("pin_diameter_mm", "pin_length_mm", "main_diameter_mm")
 
 
@@ -97,6 +101,7 @@ def alternative(
     data["crankshaft"] = shaft(layout, timing, sizes, found)
     for name in ("articulated", "variants", "checks"):
         data.pop(name, None)
+    data = carried(data, _grown(model, sizes, linear, faster))
     linear_words = f"× ({old.cylinders}/{cylinders})^⅓"
     more = f" × {number_text(round(displacement, 6))}^⅓" if displacement != 1 else ""
     notes = {
@@ -114,6 +119,8 @@ def alternative(
     ]  # fmt: skip
     if model.articulated is not None:
         head.append("Прицепные шатуны не перенесены: шатуны стоят рядом на шейке.")
+    if model.torsion is not None:
+        head.append(TRAIN_LEFT)
     return Made(data, notes, tuple(head))
 
 
@@ -153,7 +160,34 @@ def _shaft(
     notes["crankshaft.arms.left_web_mm"] = rule if thick else "обычная"
     lengths = tuple(round(value * factor, DIGITS) for value in before)
     pin, length, main = (kept[key] for key in _SINGLE)
+    rods, every = length * (2 if layout == "v" else 1), 2 if layout == "opposed" else 1
+    between = every * (min(map(sum, pairwise(lengths))) / 2 + 2 * web + rods)
+    if throws > every and between < _LEAST_BETWEEN * bore:
+        more = (_LEAST_BETWEEN * bore - every * rods) / (between - every * rods)
+        lengths, web = tuple(_up(value * more) for value in lengths), _up(web * more)
+        notes |= dict.fromkeys(_APART, _apart_words(rule, between / bore))
     return ShaftSizes(pin, length, main, lengths, web, notes)
+
+
+def _apart_words(rule: str, between: float) -> str:
+    return (
+        f"{rule} между осями цилиндров вышло бы {number_text(round(between, 3))} D; "
+        f"шейки и щёки удлинены до {number_text(_LEAST_BETWEEN)} D"
+    )
+
+
+def _grown(model: InputFile, sizes: ShaftSizes, linear: float, faster: float) -> Grown:
+    """The new shaft over the old one."""
+    old = model.crankshaft
+    before = sum(old.main_lengths_mm) / len(old.main_lengths_mm)
+    return Grown(
+        pin=sizes.pin / _one(old, "pin_diameter_mm"),
+        pin_length=sizes.pin_length / _one(old, "pin_length_mm"),
+        main=sizes.main / _one(old, "main_diameter_mm"),
+        main_length=sum(sizes.main_lengths) / len(sizes.main_lengths) / before,
+        linear=linear,
+        speed=faster,
+    )
 
 
 def _bounded(key: str, size: float, bore: float) -> float:
@@ -161,9 +195,14 @@ def _bounded(key: str, size: float, bore: float) -> float:
     for band in BANDS:
         if band.key == f"crankshaft.{key}" and not band.low <= size / bore <= band.high:
             near = band.low if size < band.low * bore else band.high
-            up = math.ceil if near == band.low else math.floor
-            return float(up(near * bore * 10**DIGITS) / 10**DIGITS)
+            edge = float(near * bore)
+            return _up(edge) if near == band.low else -_up(-edge)
     return size
+
+
+def _up(size: float) -> float:
+    """A size with its last digit rounded up [mm]."""
+    return float(math.ceil(size * 10**DIGITS) / 10**DIGITS)
 
 
 def _one(shaft_data: Any, key: str) -> float:  # noqa: ANN401

@@ -86,6 +86,8 @@ def random_engine(seed):
     offsets = [round(720 * i / count, 6) for i in range(count)]
     arms = {f"l{i}_mm": bore * rng.uniform(0.12, 0.25) for i in (1, 2, 5, 6)}
     room = 2 * min(arms["l1_mm"], arms["l6_mm"])
+    # Cylinders stand beside each other.
+    thick = max(bore * 0.2, (bore * 1.05 - sum(arms.values())) / 2)
     web = {"mass_kg": area * 80, "counterweight_kg": area * rng.uniform(80, 250)}
     ratio = rng.uniform(14, 20) if diesel else rng.uniform(8, 11)
     rise = rng.uniform(1.3, 1.9) if diesel else rng.uniform(2.5, 4)
@@ -128,9 +130,6 @@ def random_engine(seed):
             "main_lengths_mm": [min(main * rng.uniform(0.35, 0.6), room)] * (count + 1),
             "pin_mass_kg": area * rng.uniform(70, 200),
             "webs": [dict(web) for _ in range(2 * count)],
-            "arms": [
-                {**arms, "left_web_mm": bore * 0.2, "right_web_mm": bore * 0.2}
-                for _ in range(count)
-            ],
+            "arms": [{**arms, "left_web_mm": thick, "right_web_mm": thick} for _ in range(count)],
         },
     }

@@ -4,12 +4,14 @@ import itertools
 import math
 import tomllib
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kshm import solve
+from kshm.mechanics.balance import rod_places
 from kshm.mechanics.rod_masses import THROW
 from reports.cli import main
 from reports.inputs.fields import to_mapping
@@ -17,7 +19,7 @@ from reports.inputs.load import load_mapping, load_text, load_toml
 from reports.inputs.own_engine import USUAL, own_engine, table_masses
 from reports.inputs.own_file import LINE, file_text
 from reports.inputs.own_similar import alternative
-from reports.inputs.to_si.engine import engine_and_cycle
+from reports.inputs.to_si.engine import engine_and_cycle, to_engine
 from reports.inputs.units import number_text
 from reports.shared.errors import InputError
 from reports.shared.resources import samples_dir
@@ -227,6 +229,34 @@ def test_every_sample_has_an_alternative_that_passes(path):
     assert {problem.what for problem in found.warnings} <= {problem.what for problem in bare}
     masses = file_text(alternative(old.model, 6))
     assert "таблица 4: от " in masses
+
+
+def test_cylinders_of_an_alternative_stand_beside_each_other():
+    """By the rule alone twelve would overlap: journals shrink faster than the bore."""
+    for sample, apart in (("two-stroke", 0.77), ("yamz-238", None), ("cycle-petrol", 0.82)):
+        old = load_toml(samples_dir() / f"{sample}.toml").model
+        text = file_text(alternative(old, 12))
+        engine = to_engine(load_text(text, source="alt.toml").model)
+        between = np.diff(np.unique(rod_places(engine)))[:: 2 if sample == "yamz-238" else 1]
+        assert between.min() >= (1.08 if apart else 0) * engine.geometry.bore * (1 - 1e-6)
+        assert ("шейки и щёки удлинены до 1,08 D" in text) == (apart is not None)
+        assert apart is None or f"вышло бы 0,{round(apart * 100)}" in text
+
+
+def test_an_alternative_has_a_train_and_bearings_of_its_own():
+    """Throws and stiffnesses of six are not those of four; clearances follow the journals."""
+    text = file_text(alternative(load_toml(samples_dir() / "mwm-6.toml").model, 4))
+    made_ = load_text(text, source="alt.toml").model
+    assert made_.torsion.masses == ()
+    assert len(made_.torsion.peaks) == 16
+    assert "Крутильная схема прежнего вала не перенесена" in text
+    old = load_toml(samples_dir() / "d-240-bearings.toml").model
+    new = load_text(file_text(alternative(old, 10)), source="alt.toml").model
+    share = new.crankshaft.pin_diameter_mm / old.crankshaft.pin_diameter_mm
+    for key in ("pin_clearance_min_mm", "pin_clearance_max_mm", "hole_mm"):
+        before, after = (getattr(model.bearings, key) for model in (old, new))
+        assert after / before == pytest.approx(share, rel=1e-4)
+    assert new.bearings.journal_roughness_um == old.bearings.journal_roughness_um
 
 
 @pytest.mark.parametrize(("cylinders", "words"), [(1, "принято 0,95 D"), (12, "принято 0,3 D")])

@@ -10,6 +10,7 @@ from reports.inputs.checks import bands
 from reports.inputs.load import load_mapping, load_toml
 from reports.inputs.template import list_samples
 from reports.inputs.to_si.engine import engine_and_cycle
+from reports.inputs.units import number_text
 from reports.shared.resources import samples_dir
 from tests.inputs.slips import (
     FACTORS,
@@ -236,6 +237,21 @@ def test_what_does_not_fit_the_arms_is_told(changes, said):
         part[path[-1]] = value
     assert said not in "".join(told(plain_sample()))
     assert said in "".join(told(raw))
+
+
+@pytest.mark.parametrize(
+    ("name", "distance"), [("gots-diesel", 128.0), ("yamz-238", 184.0), ("vw-1600", 140.0)]
+)
+def test_cylinders_that_overlap_are_told(name, distance):
+    """Of one row: between them stand those of the other row of a V, as they may."""
+    for share, said in ((1.01, False), (0.99, True)):
+        raw = tomllib.loads((samples_dir() / f"{name}.toml").read_text("utf-8"))
+        wanted = raw["geometry"]["bore_mm"] * share
+        for arms in raw["crankshaft"]["arms"]:
+            for key in arms:
+                arms[key] *= wanted / distance
+        words = f"между их осями по плечам колен {number_text(round(wanted, 2))} мм, а диаметр"
+        assert any(words in line for line in told(raw)) == said
 
 
 def plain_sample():

@@ -14,7 +14,7 @@ from pydantic import BaseModel
 
 from reports.inputs.checks import bands
 from reports.inputs.checks.bands import BANDS, Band
-from reports.inputs.checks.room import check_room
+from reports.inputs.checks.room import check_neighbours, check_room
 from reports.inputs.checks.train import train_values
 from reports.inputs.checks.volume import volume_ratio
 from reports.inputs.findings import Finding, Path
@@ -46,6 +46,7 @@ def check_plausibility(model: InputFile, sizes: Sizes) -> Iterator[Finding]:
     yield from _efficiency(model)
     yield from _gas(model, model.gas, ())
     if not wrong_bore:
+        yield from check_neighbours(model, sizes.bore)
         yield from _power(model, model.gas, model.regime, sizes, ())
         for path, band, value in train_values(model, sizes):
             yield from _judged(path, band, value)

@@ -1,15 +1,20 @@
-"""Whether journals fit between the webs, as the arms of the throws say."""
+"""Whether journals fit between the webs and cylinders beside each other, by the arms."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from itertools import accumulate, combinations
 
+from kshm.engine.crankshaft import places
 from reports.inputs.findings import Finding, Path
 from reports.inputs.sections.input_file import InputFile
+from reports.inputs.to_si.engine import arrangement_of
 from reports.inputs.units import number_text
 
 # Fillets and rounded sizes of real shafts make journals up to 13 % longer than the arms leave.
 _MOST_OVER = 1.25
+_SAME_AXIS = 1e-6  # [rad]
 Fitted = tuple[Path, float, float]  # place in the file, length, room for it [mm]
 
 
@@ -25,6 +30,38 @@ def check_room(model: InputFile) -> Iterator[Finding]:
             )
             alike = f"; в списке таких ещё {more}" if more else ""
             yield Finding(path, what + alike, "проверьте длину шейки и плечи колена", warning=True)
+
+
+def check_neighbours(model: InputFile, bore_mm: float) -> Iterator[Finding]:
+    """Yield a warning where cylinders of one row stand nearer to each other than their bore."""
+    shaft = model.crankshaft
+    throws = [
+        places(
+            (arm.l1_mm, arm.l2_mm, arm.l3_mm, arm.l4_mm, arm.l5_mm, arm.l6_mm),
+            arm.left_web_mm,
+            arm.right_web_mm,
+        )
+        for arm in shaft.arms
+    ]
+    starts = [0.0, *accumulate(throw.length for throw in throws)]
+    cylinders = [
+        (number, one.axis, starts[one.throw] + throws[one.throw].rod_at(one.rod_place))
+        for number, one in enumerate(arrangement_of(model), start=1)
+    ]
+    beside = [
+        (abs(place - other_place), number, other)
+        for (number, axis, place), (other, other_axis, other_place) in combinations(cylinders, 2)
+        if abs(math.remainder(axis - other_axis, math.tau)) < _SAME_AXIS
+    ]
+    between, number, other = min(beside, default=(math.inf, 0, 0))
+    if between < bore_mm:
+        what = (
+            f"цилиндры {number} и {other} перекрываются: между их осями по плечам колен "
+            f"{number_text(round(between, 2))} мм, а диаметр цилиндра "
+            f"{number_text(round(bore_mm, 2))} мм"
+        )
+        hint = "проверьте плечи колен и диаметр цилиндра"
+        yield Finding(("crankshaft", "arms"), what, hint, warning=True)
 
 
 def _mains(model: InputFile) -> Iterator[Fitted]:

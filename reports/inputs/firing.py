@@ -9,11 +9,14 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from kshm.engine.arrangement import Arrangement, fan, in_row, opposed, throw_angle
 from reports.inputs.findings import Finding
 from reports.inputs.units import number_text
+
+if TYPE_CHECKING:
+    from reports.inputs.sections.input_file import InputFile
 
 _ORDER = re.compile(r"\d{1,2}(\s*[-–—,]\s*\d{1,2})*")
 _PATH = ("crankshaft", "firing_order")
@@ -41,6 +44,21 @@ def arrangement(
     split = None if split_pin_deg is None else (0.0, math.radians(split_pin_deg))
     axes = (0.0, math.radians(bank_angle_deg))
     return fan(cylinders // 2, axes, pin_angles=split, articulated=articulated)
+
+
+def arrangement_of(model: InputFile) -> Arrangement:
+    """Return the places of the cylinders of a checked input."""
+    shaft = model.crankshaft
+    places = arrangement(
+        model.engine.layout,
+        model.engine.cylinders,
+        shaft.bank_angle_deg,
+        shaft.split_pin_deg,
+        articulated=model.articulated is not None,
+    )
+    if places is None:
+        raise ValueError("the layout has no arrangement")
+    return places
 
 
 def expand(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[Finding]]:

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from kshm.engine.arrangement import Arrangement, pins, throws
+from reports.inputs.firing import arrangement_of
 from reports.inputs.sections.input_file import GeometrySection, InputFile
-from reports.inputs.to_si.engine import arrangement_of
 
 FIRING = "scheme.cyl_theta"  # the beginnings of all power strokes, side by side
 TIMING = "timing_deg"  # helper column: the angle in the cycle counted on from the piston's TDC

@@ -8,8 +8,8 @@ from itertools import accumulate, combinations
 
 from kshm.engine.crankshaft import places
 from reports.inputs.findings import Finding, Path
+from reports.inputs.firing import arrangement_of
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.to_si.engine import arrangement_of
 from reports.inputs.units import number_text
 
 # Fillets and rounded sizes of real shafts make journals up to 13 % longer than the arms leave.

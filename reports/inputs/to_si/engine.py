@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from kshm.cycle.diagram import polytropic_gas
 from kshm.cycle.run import CycleRun
-from kshm.engine.arrangement import Arrangement, ArticulatedRod, hung
+from kshm.engine.arrangement import ArticulatedRod, hung
 from kshm.engine.crankshaft import Crankshaft, EndMass, Throw, Web
 from kshm.engine.engine import Balancing, Engine, Geometry, OperatingPoint
 from kshm.engine.gas import Gas, PolytropicGas, TabulatedGas
 from kshm.nomenclature.quantity import smallness
-from reports.inputs.firing import arrangement
+from reports.inputs.firing import arrangement_of
 from reports.inputs.sections.articulated import ArticulatedSection
 from reports.inputs.sections.balance import BalanceSection
 from reports.inputs.sections.crankshaft import ArmsSection, CrankshaftSection, WebSection
@@ -93,21 +93,6 @@ def _regime(section: RegimeSection, strokes: int) -> OperatingPoint:
         indicated_power=KW.given(section.indicated_power_kw),
         fullness=float(section.fullness),
     )
-
-
-def arrangement_of(model: InputFile) -> Arrangement:
-    """Return the places of the cylinders of a checked input."""
-    shaft = model.crankshaft
-    places = arrangement(
-        model.engine.layout,
-        model.engine.cylinders,
-        shaft.bank_angle_deg,
-        shaft.split_pin_deg,
-        articulated=model.articulated is not None,
-    )
-    if places is None:
-        raise ValueError("the layout has no arrangement")
-    return places
 
 
 def _articulated(section: ArticulatedSection | None, count: int) -> tuple[ArticulatedRod, ...]:

@@ -29,3 +29,13 @@ def test_a_curve_is_named_beside_it():
 def test_unpaired_dollar_is_refused():
     with pytest.raises(ValueError, match="Непарный"):
         shown("цена $5")
+
+
+def test_names_of_two_curves_are_not_read_as_one():
+    """Side by side on one line «без гасителя» and «с гасителем» would be one text."""
+    room, size = Room((-20, 0, 220, 33)), (94, 8)  # no room above
+    left, right = (dense(np.array([[x, 30.0], [x + 100, 30.0]])) for x in (0.0, 100.0))
+    room.curves += [left, right]
+    (x, y), (other_x, other_y) = (label_curve(room, line, [], size) for line in (left, right))
+    assert y == other_y
+    assert other_x - x >= size[0] + 8

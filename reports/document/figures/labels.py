@@ -19,6 +19,7 @@ Place = tuple[float, float]
 
 
 _ASCENT, _DESCENT = 0.75, 0.25  # of the type: the least that a line takes in STIX
+_WORD = 8.0  # names of two curves side by side are not read as one [pt]
 _SCALE = 100.0  # pt at which texts are measured
 
 
@@ -73,13 +74,14 @@ class Room:
     curves: list[Points] = field(default_factory=list)
     boxes: list[Box] = field(default_factory=list)
 
-    def free(self, box: Box, *, gap: float = 1.0) -> bool:
-        """Whether a box lies inside and touches nothing."""
+    def free(self, box: Box, *, gap: float = 1.0, aside: float = 0.0) -> bool:
+        """Whether a box lies inside and touches nothing; ``aside`` keeps off texts of its line."""
         left, bottom, right, top = self.limits
         if box[0] < left or box[1] < bottom or box[2] > right or box[3] > top:
             return False
         wide = (box[0] - gap, box[1] - gap, box[2] + gap, box[3] + gap)
-        return not any(_overlap(wide, other) for other in self.boxes) and not any(
+        wider = (wide[0] - aside, wide[1], wide[2] + aside, wide[3])
+        return not any(_overlap(wider, other) for other in self.boxes) and not any(
             _hits(curve, wide) for curve in self.curves
         )
 
@@ -136,7 +138,7 @@ def label_curve(room: Room, own: Points, others: Sequence[Points], size: Place) 
         normal = (-float(tangent[index, 1]), float(tangent[index, 0]))
         for sign in (1.0, -1.0):
             box = box_at(own[index], size, (sign * normal[0], sign * normal[1]), 3.0)
-            if not room.free(box, gap=1.5):
+            if not room.free(box, gap=1.5, aside=_WORD):
                 continue
             score = min(room.clearance(box, others), 40.0) - 6 * abs(share - 0.5)
             if best is None or score > best[0]:

@@ -59,7 +59,7 @@ def chapters(model: Model) -> set[tuple]:
     """Every section of the input, every chapter of the report, every arrangement."""
     given = to_mapping(model.input)
     found = {("section", name) for name, section in given.items() if section}
-    found |= {("chapter", name) for name in chosen(model.input.report)}
+    found |= {("chapter", name) for name in chosen(model.input)}
     return found | {("engine", given["engine"].get("layout"), given["engine"].get("strokes"))}
 
 

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Literal, cast
 from markupsafe import Markup
 
 from reports.document.chapters import (
+    balance,
     bearings,
     closing,
     companions,
@@ -69,6 +70,7 @@ CHAPTERS: dict[str, Write] = {
     "journals": journals.journals,
     "bearings": bearings.bearings,
     "running": torques.running,
+    "balance": balance.balance,
     "torsion": torsion.torsion,
     "oil": oil.oil,
     "regimes": regimes.regimes,
@@ -190,7 +192,7 @@ def _with_tags(style: Style, model: Model) -> Style:
 
 def _page(model: Model, values: Values, env: Environment, further: Further) -> str:
     terms = Terms(model, values, fine_columns(model.input))
-    names = chosen(model.input.report)
+    names = chosen(model.input)
     style = cast(Style, env.globals["style"])
     draft, absent = Draft(by_chapter=style.numbering == "chapter"), Draft()
     _write(Chapter(terms, Writer(env, draft), env), names, further)
@@ -218,7 +220,7 @@ def with_figures(
     draft = Draft(by_chapter=look.numbering == "chapter")
     with overrides.told(folder):
         chapter = Chapter(Terms(model, values), Writer(env, draft), env)
-        _write(chapter, chosen(report), further)
+        _write(chapter, chosen(model.input), further)
     numbers = {name: draft.label("figure", key).number for name, key in chapter.figures.items()}
     charts = (replace(chart, number=numbers.get(chart.id, "")) for chart in model.charts)
     return replace(model, charts=tuple(charts))

@@ -187,8 +187,23 @@ def test_the_conclusion_has_no_digits_of_a_frequency_that_nobody_knows():
     assert len(said.replace(",", "")) == 4
 
 
+@pytest.mark.parametrize(
+    ("order", "irregularity", "said"),
+    [
+        ([1, 3, 2], 0.01, "массы дают момент 1-го порядка"),
+        ([1, 3, 4, 2], 0.01, "массы дают силу 2-го порядка"),
+        ([1, 5, 3, 6, 2, 4], 0.4, "массы не дают свободных сил и моментов 1-го и 2-го порядков"),
+    ],
+)
+def test_the_conclusion_tells_what_is_not_balanced(order, irregularity, said):
+    text = text_of(in_line(order, balance={"irregularity": irregularity}))
+    assert said in text
+    assert "8 Уравновешенность и ход двигателя" in text
+    assert ("0,4 не нужен" in text) == (irregularity == 0.4)
+
+
 CHAPTERS = ("kinematics", "dynamics", "torque", "crankpin", "journals", "bearings", "running",
-            "torsion", "oil", "companions", "checks")  # fmt: skip
+            "balance", "torsion", "oil", "companions", "checks")  # fmt: skip
 
 
 @pytest.mark.parametrize("chapter", CHAPTERS)
@@ -291,7 +306,7 @@ def test_one_cylinder_has_no_order_of_work():
         (["torque"], "силы и моменты, действующие в нём за рабочий цикл."),
         (["kinematics", "journals"], "движение деталей механизма и нагрузки на шейки"),
         (["torque", "running"], "силы и моменты, действующие в нём за рабочий цикл, и нагрузки"),
-        (["companions"], "уравновешенность и неравномерность хода двигателя."),
+        (["balance"], "уравновешенность и неравномерность хода двигателя."),
         (["reference"], "движение деталей механизма, силы"),
     ],
 )  # fmt: skip

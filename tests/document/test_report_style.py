@@ -7,6 +7,7 @@ import pytest
 from reports.document.page.render import render
 from reports.document.page.style import Style, read
 from reports.document.report import CHAPTERS, chosen, find_style, report_page
+from reports.inputs.load import load_text
 from reports.inputs.sections import report as sections
 from reports.shared.errors import InputError
 from tests.document.pdftools import pages_of
@@ -47,8 +48,21 @@ def test_names_of_chapters_are_stated_once():
 
 
 def test_profiles_hold_one_another():
-    held = {d: chosen(sections.Report(detail=d, year=2024)) for d in sections.DETAILS}
+    held = {d: chosen(load_text(with_detail(ONE, d), source="f").model) for d in sections.DETAILS}
     assert held["short"] < held["course"] < held["full"] == set(CHAPTERS)
+
+
+def test_who_fills_in_balancing_reads_of_it():
+    """As of torsion and of bearings; the short report ends before."""
+    for detail, more in (("short", set()), ("course", {"balance"}), ("full", set())):
+        plain, asked = (
+            chosen(load_text(with_detail(ONE, detail) + keys, source="f").model)
+            for keys in ("\n[balance]\n", "\n[balance]\nirregularity = 0.01\n")
+        )
+        assert asked - plain == more
+    picked = ONE.replace('detail = "full"', 'chapters = ["companions"]')
+    # They were one chapter under that name.
+    assert chosen(load_text(picked, source="f").model) >= {"balance", "companions"}
 
 
 @pytest.mark.usefixtures("nothing_is_drawn")

@@ -8,7 +8,7 @@ from functools import partial
 
 from markupsafe import Markup
 
-from reports.document.chapters import facts, oil, regimes, torsion
+from reports.document.chapters import balance, facts, oil, regimes, torsion
 from reports.document.chapters.chapter import BOOK, Chapter
 from reports.document.chapters.journals import least_ray
 from reports.document.chapters.profiles import chosen, told
@@ -91,9 +91,9 @@ def checks(chapter: Chapter) -> Markup:
 def _remarks(chapter: Chapter) -> list[Markup]:
     """Remarks on the input that no chapter tells itself."""
     told = [remark_on(chapter.terms.grid_errors, chapter.input)]
-    if "torsion" in chosen(chapter.input.report):
+    if "torsion" in chosen(chapter.input):
         told.append(flywheel_remark(chapter.input))
-    if "torque" in chosen(chapter.input.report):
+    if "torque" in chosen(chapter.input):
         told.append(reasons_of(chapter.input).get("power", ""))
     return [
         remark_html(_without_list(line))
@@ -193,9 +193,10 @@ def conclusion(chapter: Chapter) -> Markup:
 
 def _further(chapter: Chapter) -> list[Markup]:
     """Results of the chapters that not every report has."""
-    names = chosen(chapter.input.report)
+    names = chosen(chapter.input)
     lines = {
-        "torsion": torsion.concluded, "oil": oil.concluded, "regimes": regimes.concluded,
+        "balance": balance.concluded, "torsion": torsion.concluded, "oil": oil.concluded,
+        "regimes": regimes.concluded,
     }  # fmt: skip
     return [line for name, of in lines.items() if name in names and (line := of(chapter))]
 

@@ -26,9 +26,9 @@ _KEYWORDS = (
     ("crankpin", "шатунная шейка"),
     ("journals", "коренная шейка"),
     ("crankpin", "диаграмма износа"),
+    ("balance", "уравновешенность"),
     ("torsion", "крутильные колебания"),
     ("oil", "масляная плёнка"),
-    ("companions", "уравновешенность"),
 )
 # What the work is to find, by the chapters that tell it.
 _AIMS = (
@@ -36,13 +36,13 @@ _AIMS = (
     ({"kinematics"}, "движение деталей механизма"),
     ({"dynamics", "torque"}, "силы и моменты, действующие в нём за рабочий цикл"),
     ({"crankpin", "journals", "bearings", "running"}, "нагрузки на шейки коленчатого вала"),
+    ({"balance"}, "уравновешенность и неравномерность хода двигателя"),
     ({"torsion"}, "крутильные колебания вала"),
     ({"oil"}, "толщину масляной плёнки подшипников и запасы прочности шеек"),
-    ({"companions"}, "уравновешенность и неравномерность хода двигателя"),
 )
 _MOST_AIMS = 4  # of the first that a sentence names
 # What a further calculation finds, by the chapter that does it.
-_FURTHER = (("oil", "прочность вала"), ("oil", "подшипники"), ("companions", "маховик"))
+_FURTHER = (("oil", "прочность вала"), ("oil", "подшипники"), ("balance", "маховик"))
 _REPORT = ("title", "institution", "department", "discipline", "student", "group", "supervisor",
            "variant", "city", "head", "issued", "due")  # fmt: skip
 # The data a task is usually given by.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from typing import cast
 
 import numpy as np
@@ -105,3 +106,12 @@ def grid_table(
         shown.append([symbol_head(q.tex, q.unit_label), *cells])
     columns = [Column("Величина", 1.4), *(Column(label) for label in labels or grid.labels)]
     return table_block(columns, shown)
+
+
+def counted_table(terms: Terms, table: str, keys: Sequence[str]) -> TableBlock:
+    """A table over the orders; where none of them is a half they are whole numbers."""
+    block = angle_table(terms, table, keys)
+    ends = {str(row[0])[-2:] for row in block.rows}
+    if ends != {",0"}:
+        return block
+    return replace(block, rows=tuple((str(row[0])[:-2], *row[1:]) for row in block.rows))

@@ -26,18 +26,19 @@ CHAPTERS = {
     "journals": "коренные шейки",
     "bearings": "подшипники и изгиб вала",
     "running": "набегающие моменты",
+    "balance": "уравновешенность и маховик",
     "torsion": "крутильные колебания",
     "oil": "масляная плёнка и прочность шеек",
     "regimes": "сравнение режимов",
     "reference": "точность формул и справочные зависимости",
-    "companions": "уравновешенность, ход, гармоники",
+    "companions": "гармоники момента, точное движение поршня",
     "checks": "проверка результатов",
     "appendices": "таблицы по углу поворота",
 }
 Detail = Literal["course", "full", "short"]
 ChapterName = Literal[
     "cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "bearings", "running",
-    "torsion", "oil", "regimes", "reference", "companions", "checks", "appendices",
+    "balance", "torsion", "oil", "regimes", "reference", "companions", "checks", "appendices",
 ]  # fmt: skip
 FORMATS = {
     "xlsx": "книга Excel",

@@ -1,0 +1,261 @@
+"""Chapter on balance, reduced inertia, evenness of running and the flywheel."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+from markupsafe import Markup
+
+from kshm.chain.firing_orders import intervals, rank_firing_orders
+from reports.document.chapters import facts
+from reports.document.chapters.chapter import Chapter
+from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
+from reports.document.page.spec_tables import counted_table
+from reports.document.page.writer import TablePlan
+from reports.document.text.numbers import of_digits
+from reports.document.text.terms import Terms
+from reports.inputs.to_si.engine import to_engine
+from reports.shared.russian import MINUS, NBSP, fixed, joined, short
+
+_MOST_ORDERS = 8
+
+# A definition that no single formula of the sheets states.
+_FORMULAS = {
+    "inertia": r"I_{\mathrm{п}} = I_{\mathrm{к}} + m_{\mathrm{ш}}\dfrac{v_C^2}{\omega^2}"
+    r" + I_{\mathrm{ш}}\dfrac{\omega_{\mathrm{ш}}^2}{\omega^2}"
+    r" + m_{\mathrm{п}}\dfrac{v_{\mathrm{п}}^2}{\omega^2}",
+}
+_LISTS = {
+    "inertia": (
+        "Момент инерции и неравномерность хода",
+        ("I_crank", "rod_mass", "rod_x", "I_rod", "piston_mass", "I_max", "I_min", "I_mean",
+         "delta_I", "I_error_max", "I_engine_mean", "delta_I_engine", "W_range", "I_flywheel",
+         "delta_work", "delta_speed"),
+    ),
+    "rod": (
+        "Шатун по основным размерам",
+        ("rod_model_mass", "rod_model_centre", "rod_model_inertia"),
+    ),
+}  # fmt: skip
+_ZERO = f"0,{NBSP}{MINUS}"  # signs of a number that is printed as zero
+_DEVICES = {
+    "counterweight": "противовесов",
+    "first_shafts": "грузов валов первого порядка",
+    "second_shafts": "грузов валов второго порядка",
+}
+_ORDERS = ["order", "order_amplitude", "order_cos", "order_sin", "F_order_kN", "M_order_Nm"]
+_LEFT = ["F_left_kN", "M_left_Nm"]  # behind balance shafts
+_SHAFTS = {"first_shafts": "первого", "second_shafts": "второго"}
+_ORDERS_OF_BANKS = ["order", "order_amplitude", "F_order_kN", "F_order_min_kN", "F_order_dir_deg",
+                    "M_order_Nm", "M_order_min_Nm", "M_order_dir_deg"]  # fmt: skip
+
+
+def balance(chapter: Chapter) -> Markup:
+    """Balance by orders, firing orders, reduced inertia and flywheel."""
+    terms = chapter.terms
+    if "balance_orders" not in terms.model.tables:  # no series: an offset or articulated rods
+        return Markup("")
+    banks = terms.has("balance_orders.order_right_cos")
+    tables: dict[str, TablePlan | None] = {
+        name: chapter.scalars(caption, keys, size="dense", keep=True)
+        for name, (caption, keys) in _LISTS.items()
+    }
+    asked = asked_devices(chapter)
+    after, busy = bool(asked - {"suppression"}), asked - _idle(terms)
+    tables |= _vectors(chapter, after=after) | {
+        "devices": _devices(chapter, busy),
+        "orders": TablePlan(
+            partial(_orders, terms, banks=banks, left=bool(_SHAFTS.keys() & asked)),
+            "Свободные силы и моменты инерции по порядкам", keep=True,
+        ),
+        "firing": TablePlan(partial(_firing, chapter), "Порядки работы, лучшие первыми", keep=True),
+    }  # fmt: skip
+    return chapter.page(
+        "balance",
+        formulas=_FORMULAS,
+        tables=tables,
+        ranked="firing_orders" in terms.model.tables,
+        banks=banks,
+        moves=not _is_balanced(terms, "L"),
+        pulls=not _is_balanced(terms, "F"),
+        counterweights="counterweight" in asked,
+        shafts=[
+            (terms.num(f"balance_{key}_share"), of) for key, of in _SHAFTS.items() if key in asked
+        ],
+        idle=[of for key, of in _SHAFTS.items() if key in asked and key not in busy],
+        shafts_second="second_shafts" in busy,
+        devices=joined([word for key, word in _DEVICES.items() if key in busy] or [""]),
+        round=all(_is_round(terms, f"{letter}1_before") for letter in "FL"),
+        over_turn=_over_turn(terms, after=after),
+        flywheel=_fine_flywheel(chapter),
+        flywheel_needed=_is_flywheel_needed(terms),
+        rod_given=chapter.input.masses.rod_kg is not None,
+    )
+
+
+def concluded(chapter: Chapter) -> Markup:
+    """The chapter's results in a line of the conclusion."""
+    terms = chapter.terms
+    if "balance_orders" not in terms.model.tables:
+        return Markup("")
+    free = [
+        Markup("{} {:.0f}-го порядка {}").format(what, order, terms.val(name, order))
+        for name, what in (
+            ("balance_orders.F_order_kN", "силу"), ("balance_orders.M_order_Nm", "момент"),
+        )
+        for order in (1.0, 2.0)
+        if terms.num(name, order).strip(_ZERO)
+    ]  # fmt: skip
+    found = (
+        Markup("возвратно движущиеся массы{} дают {}").format(
+            " до уравновешивания" if asked_devices(chapter) & _DEVICES.keys() else "",
+            joined(free),
+        )
+        if free
+        else "возвратно движущиеся массы не дают свободных сил и моментов 1-го и 2-го порядков"
+    )
+    needed = _is_flywheel_needed(terms)
+    wheel = chapter.told("I_flywheel") if needed else "не нужен"
+    return Markup("{}; маховик для неравномерности хода {}{} {}").format(
+        found, terms.val("balance_irregularity"), ":" if needed else "", wheel
+    )
+
+
+def _orders(terms: Terms, *, banks: bool, left: bool) -> TableBlock:
+    """Forces and moments by orders; what is printed as zero has no direction."""
+    keys = _ORDERS_OF_BANKS if banks else [*_ORDERS, *(_LEFT if left else ())]
+    block = counted_table(terms, "balance_orders", keys)
+    directions = {keys.index(key): keys.index(key.replace("dir_deg", unit))
+                  for key, unit in (("F_order_dir_deg", "kN"), ("M_order_dir_deg", "Nm"))
+                  if key in keys}  # fmt: skip
+    rows = (
+        tuple(
+            "—" if place in directions and not row[directions[place]].strip(_ZERO) else cell
+            for place, cell in enumerate(row)
+        )
+        for row in block.rows
+    )
+    return replace(block, rows=tuple(rows))
+
+
+def asked_devices(chapter: Chapter) -> set[str]:
+    """Devices of balancing that the input itself asks for."""
+    given = chapter.input.balance
+    return {
+        name
+        for key in (
+            "counterweight_share",
+            "first_shafts_share",
+            "second_shafts_share",
+            "suppression",
+        )
+        if key in given.asked and getattr(given, key) > 0
+        for name in (key.removesuffix("_share"),)
+    }
+
+
+def _idle(terms: Terms) -> set[str]:
+    """Balance shafts whose order makes no force: what they would carry is not found here."""
+    return {
+        name
+        for order, name in enumerate(_SHAFTS, 1)
+        if not any(terms.num(f"shaft{order}{side}_moment").strip(_ZERO) for side in ("", "_back")
+                   if terms.has(f"shaft{order}{side}_moment"))
+    }  # fmt: skip
+
+
+def _is_balanced(
+    terms: Terms, letter: str, ends: Sequence[str] = ("",), sums: Sequence[str] = ("up", "right")
+) -> bool:
+    """Whether the forces (F) or the moments (L) are nothing beside those of one cylinder."""
+    unit = "kN" if letter == "F" else "Nm"
+    force = terms.value("Pj_unit_kN")
+    scale = force if letter == "F" else 1000 * force * terms.value("S_stroke")
+    names = [f"balance.{letter}{side}{end}_{unit}" for side in sums for end in ends]
+    return facts.are_nothing(terms, [name for name in names if terms.has(name)], scale)
+
+
+def _over_turn(terms: Terms, *, after: bool) -> list[str]:
+    """Diagrams over a turn that show something: after balancing, or by orders without it."""
+    if after:
+        shown = [x for x in "FL" if not _is_balanced(terms, x, ("", "_after"), ("up",))]
+        return [f"balance_{x}_after" for x in shown]
+    orders = ("1", "2", "4")
+    return [f"balance_{x}" for x in "FL" if not _is_balanced(terms, x, sums=orders)]
+
+
+def _vectors(chapter: Chapter, *, after: bool) -> dict[str, TablePlan | None]:
+    """Rotating masses and first orders of what is not balanced; after balancing if asked for."""
+    terms, keys = chapter.terms, []
+    for letter in "FL":
+        firsts = [f"{letter}1_{name}" for name in ("before", *(("after",) if after else ()))]
+        # A circle has no direction of its greatest radius.
+        of = [f"{letter}rot_bare", f"{letter}rot"]
+        for first in firsts:
+            parts = ("max", "min") if _is_round(terms, first) else ("max", "min", "deg")
+            of += [f"{first}_{part}" for part in parts]
+        if not _is_balanced(terms, letter) and any(terms.num(key).strip(_ZERO) for key in of):
+            keys += of
+    caption = "Вращающиеся массы и векторы первого порядка"
+    return {"vectors": chapter.scalars(caption, keys, size="dense", keep=True) if keys else None}
+
+
+def _is_round(terms: Terms, first: str) -> bool:
+    """Whether the vector of the first order goes round a circle, as printed."""
+    return terms.num(f"{first}_max") == terms.num(f"{first}_min")
+
+
+def _devices(chapter: Chapter, asked: set[str]) -> TablePlan | None:
+    """Masses of the counterweights and of the shafts that are asked for."""
+    keys = ["counterweight_needed", "counterweight_web"] if "counterweight" in asked else []
+    for number, name in enumerate(("first_shafts", "second_shafts"), 1):
+        if name in asked:
+            keys += [f"shaft{number}{side}_{of}" for side in ("", "_back")
+                     for of in ("moment", "mass")]  # fmt: skip
+    if not keys:
+        return None
+    return chapter.scalars("Противовесы и балансирные валы", keys, size="dense", keep=True)
+
+
+def _is_flywheel_needed(terms: Terms) -> bool:
+    """Whether the required evenness asks for a flywheel that can be printed."""
+    return bool(terms.num("I_flywheel").strip(_ZERO))
+
+
+def _fine_flywheel(chapter: Chapter) -> Markup | str:
+    """Inertia of the flywheel by the fine step where the table's own cannot carry it."""
+    off = {error.key: error for error in chapter.terms.grid_errors}
+    if not {"I_flywheel", "W_range", "delta_speed"} & off.keys():
+        return ""
+    error = off.get("I_flywheel")
+    if error is None:
+        return chapter.terms.val("I_flywheel") if _is_flywheel_needed(chapter.terms) else ""
+    return chapter.fine(error)
+
+
+def _firing(chapter: Chapter) -> TableBlock:
+    """The best firing orders with the greatest load of a main journal."""
+    columns = [
+        Column("Порядок работы", 1.7),
+        Column("Промежутки, °", 3.2),
+        Column("Неравномерность чередования", 1.9),
+        Column(symbol_head(r"\Sigma_{0{,}5}", ""), 0.9),
+        Column(symbol_head(r"R_{\mathrm{к.ш}\,\max}", "кН"), 1.4),
+    ]
+    load = chapter.terms.quantity("Rmain1_max_kN")
+    rows = [
+        (
+            "–".join(map(str, ranked.order)),
+            ", ".join(
+                short(round(gap, 2)) for gap in np.degrees(intervals(np.array(ranked.offsets)))
+            ),
+            fixed(ranked.unevenness, 3),
+            fixed(ranked.half_order if np.abs(ranked.half_order) > 1e-9 else 0.0, 3),
+            of_digits(ranked.journal_load / 1000, load.digits),
+        )
+        for ranked in rank_firing_orders(to_engine(chapter.input))[:_MOST_ORDERS]
+    ]
+    return table_block(columns, rows)

@@ -198,7 +198,7 @@ def test_the_conclusion_has_no_digits_of_a_frequency_that_nobody_knows():
 def test_the_conclusion_tells_what_is_not_balanced(order, irregularity, said):
     text = text_of(in_line(order, balance={"irregularity": irregularity}))
     assert said in text
-    assert "8 Уравновешенность и ход двигателя" in text
+    assert "Уравновешенность и ход двигателя" in text
     assert ("0,4 не нужен" in text) == (irregularity == 0.4)
 
 

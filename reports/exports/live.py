@@ -22,7 +22,7 @@ from reports.spec.blocks import Model, ScalarTable
 from reports.spec.charts import ChartSpec
 from reports.spec.evaluation import Evaluation
 from reports.tables.overview.summary import NO
-from reports.tables.overview.verdicts import reasons_of
+from reports.tables.overview.verdicts import check_value, reasons_of
 
 Data = dict[str, Any]
 _DIGITS = 8  # of the greatest number of a curve: what no screen shows
@@ -146,7 +146,7 @@ def checks(model: Model) -> Data:
              if key.startswith("check_")}  # fmt: skip
     return {
         "checks": [
-            {"key": name, "title": scalar.note, "value": float(value(f"value_{name}")),
+            {"key": name, "title": scalar.note, "value": check_value(float(value(f"value_{name}"))),
              "ok": value(f"check_{name}") != NO, "reason": reasons.get(name, "")}
             for name, scalar in names.items()
         ],

@@ -55,6 +55,10 @@ def test_the_page_fits_and_shows_the_solvers_numbers(
         return scrollWidth > clientWidth; // a unit beside the mechanism would not be seen
     })""")
     assert cut == []
+    page.evaluate("document.querySelectorAll('#summary details').forEach(d => { d.open = true; })")
+    cut = page.evaluate("""() => [...document.querySelectorAll("#results [role=region]")]
+        .filter(e => e.scrollWidth > e.clientWidth).map(e => e.ariaLabel)""")
+    assert cut == []  # nor the units of the results
     if width < 900:  # a finger is wider than a pointer
         heights = """[...document.querySelectorAll("main :is(button, select, [type=search])")]
             .map(e => e.offsetHeight).filter(height => height > 0)"""

@@ -23,7 +23,7 @@ from reports.inputs.checks.grid import remark_on
 from reports.shared.russian import NBSP, capital, fixed
 from reports.spec.shape import Shape, pin_table, rays_table, rods_table
 from reports.tables.overview.summary import NO, YES
-from reports.tables.overview.verdicts import reasons_of
+from reports.tables.overview.verdicts import check_value, reasons_of
 
 _TEXT = "— Текст : непосредственный"
 SOURCES = {
@@ -134,15 +134,13 @@ def check_keys(terms: Terms) -> list[str]:
 def failed(terms: Terms) -> list[tuple[Markup, str]]:
     """Title and value of the checks that did not pass."""
     return [
-        (titled_html(terms.model.scalars[f"check_{key}"].note), _check_value(terms, key))
+        (
+            titled_html(terms.model.scalars[f"check_{key}"].note),
+            check_value(terms.value(f"value_{key}")),
+        )
         for key in check_keys(terms)
         if terms.values.scalars[f"check_{key}"] == NO
     ]
-
-
-def _check_value(terms: Terms, key: str) -> str:
-    value = terms.value(f"value_{key}")
-    return fixed(value, 2 if abs(value) >= 1 else 4)
 
 
 def _check_table(terms: Terms, keys: list[str]) -> TableBlock:
@@ -150,7 +148,7 @@ def _check_table(terms: Terms, keys: list[str]) -> TableBlock:
     rows = [
         [
             titled_html(terms.model.scalars[f"check_{key}"].note),
-            _check_value(terms, key),
+            check_value(terms.value(f"value_{key}")),
             "да" if terms.values.scalars[f"check_{key}"] == YES else "нет",
         ]
         for key in keys

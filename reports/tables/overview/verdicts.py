@@ -38,7 +38,7 @@ def failed_checks(model: Model, values: Values) -> list[Failed]:
         Failed(
             key.removeprefix(_PREFIX),
             scalar.note,
-            _shown(float(values.scalars[f"value_{key.removeprefix(_PREFIX)}"])),
+            check_value(float(values.scalars[f"value_{key.removeprefix(_PREFIX)}"])),
             reasons.get(key.removeprefix(_PREFIX), ""),
         )
         for key, scalar in model.scalars.items()
@@ -62,5 +62,6 @@ def reasons_of(model: InputFile) -> dict[str, str]:
     return {entry.what: entry.reason for entry in accepted}
 
 
-def _shown(value: float) -> str:
+def check_value(value: float) -> str:
+    """What a check found, as it is printed."""
     return fixed(value, 2 if abs(value) >= 1 else 4)

@@ -154,7 +154,7 @@ const results = ({last, second}) => html`
       html`<button data-kind=${kind} onClick=${() => order(kind, title)}>${title}</button>`)}</p>
       <ul id="jobs" aria-live="polite">${state.jobs.map(job)}</ul></div>
     <div id="checks">${state.checks.length > 0 && table("Проверки расчёта", state.checks.map(c =>
-      row([[c.title], [printed(c.value), "n"], verdict(c)])))}</div>
+      row([[c.title], [c.value, "n"], verdict(c)])))}</div>
     ${list([...last.warnings, ...state.remarks], "warn")}
     <div id="summary">${last.results.map(({id, title, rows}) => html`
       <details key=${id} open=${/^(summary_torque|geometry)/.test(id)}><summary>${title}</summary>

@@ -96,7 +96,7 @@ class Meta:
         if self.minimum is None or self.maximum is None:
             return ""
         low = units.number_text(self.minimum)
-        return f"допустимо от {low} до {self.unit.text(self.maximum)}"
+        return f"допустимо от {low} до {self.unit.limit(self.maximum)}"
 
     def numbered(self, number: int) -> Meta:
         """Return the metadata of the list entry with this 1-based number."""

@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass
 
 from kshm.nomenclature.quantity import UNITS
-from reports.shared.russian import short
+from reports.shared.russian import power_of_ten, short
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +44,13 @@ class Unit:
 
     def text(self, value: float) -> str:
         """Return the value with its label: ``88 мм``, ``15°``, ``0.317``."""
-        number = number_text(value)
+        return self._labelled(number_text(value))
+
+    def limit(self, value: float) -> str:
+        """A limit with its label, a large power of ten as such: ``10¹² Н·м/рад``."""
+        return self._labelled(power_of_ten(value) or number_text(value))
+
+    def _labelled(self, number: str) -> str:
         if not self.label:
             return number
         return number + self.label if self is DEG else f"{number} {self.label}"

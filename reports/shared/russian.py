@@ -15,6 +15,8 @@ from kshm.nomenclature.digits import Digits
 MINUS = "\u2212"
 NBSP = "\u00a0"
 _GROUP_FROM = 5
+_ALONE = 4  # letters of a word that looks lost in a line of its own
+_ZEROS = 6  # of a round number that nobody counts any more
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -83,6 +85,19 @@ def written(value: float, digits: Digits, *, more: int = 0) -> str:
         text, exponent = mantissa(value, digits.decimals + more)
         return f"{text}·10{str(exponent).translate(_RAISED)}" if exponent else text
     return fixed(value, digits.decimals + more, group=False)
+
+
+def last_bound(text: str) -> str:
+    """The text whose last word, where it is short, does not stand alone in a line."""
+    before, space, last = text.rpartition(" ")
+    return f"{before}{NBSP}{last}" if space and len(last) <= _ALONE else text
+
+
+def power_of_ten(value: float) -> str:
+    """``10¹²`` for a power of ten whose zeros nobody counts; empty for any other number."""
+    exponent = round(math.log10(value)) if value > 0 else 0
+    known = exponent >= _ZEROS and value == 10.0**exponent
+    return f"10{str(exponent).translate(_RAISED)}" if known else ""
 
 
 def capital(text: str) -> str:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import csv
+import re
 from pathlib import Path
 
 import pytest
 import tomlkit
 
 from reports.inputs.fields import to_mapping
+from reports.shared.errors import InputError
 from reports.studies.run import sweep
 from tests.conftest import sample
 from tests.grading.chapter_class import ChapterClass, unlike_right
@@ -53,6 +55,18 @@ def test_a_wrong_modulus_is_wrong_once_and_carried_on() -> None:
     assert found.pop("safe_main.safe_W2_cm3") == "wrong"
     assert found
     assert set(found.values()) <= {"carried"}
+
+
+def test_what_a_refused_class_is_told_to_leave_out_makes_it_fit_to_issue() -> None:
+    rubric = '[work]\nfill = ["oil_*"]\n'
+    with pytest.raises(InputError, match="содержала бы ответы") as refusal:
+        _ = ChapterClass(ADDED, rubric).assignment
+    line = str(refusal.value).rpartition("work.")[2]
+    issued = ChapterClass(ADDED, rubric + line)
+    assert not {item.id for item in issued.assignment.items} & set(re.findall('"(.+?)"', line))
+    result = issued.marks()
+    assert unlike_right(result) == {}
+    assert result["points"] == pytest.approx(100)
 
 
 def test_a_study_over_the_clearance(tmp_path: Path) -> None:

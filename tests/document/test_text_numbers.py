@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from kshm.nomenclature.digits import Digits, scientific
 from reports.document.text import numbers
 from reports.formula.tex import input_symbol_tex, number_tex
-from reports.shared.russian import MINUS, NBSP, fixed, runs, surname
+from reports.shared.russian import MINUS, NBSP, fixed, last_bound, runs, surname
 
 
 @pytest.mark.parametrize(
@@ -130,3 +130,16 @@ def test_numbers_that_follow_each_other_are_a_stretch():
 )
 def test_a_surname_is_told_by_initials_or_a_patronymic(name, told):
     assert surname(name) == told
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("Расчёт двигателя ЯМЗ 238", "Расчёт двигателя ЯМЗ\xa0238"),
+        ("Расчёт двигателя", "Расчёт двигателя"),
+        ("Д240", "Д240"),
+        ("", ""),
+    ],
+)
+def test_a_short_last_word_does_not_stand_alone(text, said):
+    assert last_bound(text) == said

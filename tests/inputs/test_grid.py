@@ -1,6 +1,7 @@
 """Results for which the step of the tables is too coarse are told, and only those."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -85,6 +86,7 @@ def test_an_oil_hole_that_the_fine_step_puts_elsewhere_is_told():
     (found,) = (e for e in grid_errors(model) if e.key == "hole_pin_deg")
     assert (round(found.coarse), round(found.fine)) == (270, 300)
     assert np.isinf(found.percent)  # no share of an angle
+    assert replace(found, first=True).title.endswith("шейки 1, от колена против вращения")
     assert not [e for e in grid_errors(stepped("yamz-236", 10.0)) if "hole" in e.key]
 
 

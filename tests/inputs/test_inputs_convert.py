@@ -161,6 +161,9 @@ def test_unit_text():
     assert units.NONE.text(0.317) == "0,317"
     assert units.NONE.text(1e12) == "1000000000000"
     assert units.NONE.text(1e-7) == "0,0000001"
+    assert units.NM_RAD.limit(1e12) == "10¹² Н·м/рад"
+    assert units.RPM.limit(30_000) == "30000 мин⁻¹"
+    assert units.KG.limit(1.5e6) == "1500000 кг"
 
 
 @pytest.mark.parametrize(

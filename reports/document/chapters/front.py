@@ -12,7 +12,7 @@ from reports.document.chapters.profiles import told
 from reports.document.page.fitting import type_pt
 from reports.document.page.style import TitlePage
 from reports.inputs.sections.input_file import InputFile
-from reports.shared.russian import joined, surname
+from reports.shared.russian import joined, last_bound, surname
 
 Words = dict[str, Any]
 
@@ -56,7 +56,8 @@ def title_page(model: InputFile, style: TitlePage) -> Words:
     words = _words(model)
     department = words["department"]
     return words | {
-        "subtitle": model.engine.name,
+        "title": last_bound(model.report.title),
+        "subtitle": last_bound(model.engine.name),
         "kind": style.kind,
         "ministry": style.ministry,
         "department": _department(department),

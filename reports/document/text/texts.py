@@ -17,27 +17,27 @@ _LOWER = str.maketrans(_RAISED, _LEVEL)
 _RUN = re.compile(f"[{_RAISED}]+")
 _RELATION = re.compile("(?<=[α-ω]) = (?=[−\\d])")
 # A line may end at a hyphen, unlike at a no-break space.
-_ORDINAL = re.compile(r"(?<![\w-])(\d+-[а-яё]{1,3}(?: изд\.)?)(?![\w-])")
+_WHOLE = re.compile(r"(?<![\w-])(\d+-[а-яё]{1,3}(?: изд\.)?|[A-ZА-ЯЁ]-[а-яё]+)(?![\w-])")
 
 
 @functools.lru_cache(maxsize=8192)
 def rich(text: str) -> str | Markup:
     """Clean a text; «мин⁻¹» gets a superscript, because STIX has no raised minus.
 
-    No line ends within «φ = 0», «1-го» and «2-е изд.».  Text without raised signs and ordinals
-    stays a plain string, to be escaped by Jinja.
+    No line ends within «φ = 0», «1-го», «2-е изд.» and «V-образный».  Text without any of it
+    and of raised signs stays a plain string, to be escaped by Jinja.
     """
     text = _RELATION.sub(f"{NBSP}={NBSP}", text)
-    if not (_RUN.search(text) or _ORDINAL.search(text)):
+    if not (_RUN.search(text) or _WHOLE.search(text)):
         return printable(text)
-    pieces = [_whole_ordinals(escape(printable(piece))) for piece in _RUN.split(text)]
+    pieces = [_unparted(escape(printable(piece))) for piece in _RUN.split(text)]
     raised_signs = [run.translate(_LOWER) for run in _RUN.findall(text)]
     powers_html = [Markup("<sup>{}</sup>").format(run) for run in raised_signs]
     return Markup("").join(a + b for a, b in zip(pieces, [*powers_html, ""], strict=True))
 
 
-def _whole_ordinals(text: Markup) -> Markup:
-    return Markup(_ORDINAL.sub(r'<span class="nb">\1</span>', str(text)))
+def _unparted(text: Markup) -> Markup:
+    return Markup(_WHOLE.sub(r'<span class="nb">\1</span>', str(text)))
 
 
 def plain(text: object) -> Markup:

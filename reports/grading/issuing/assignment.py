@@ -71,7 +71,12 @@ class Assignment:
     def items(self) -> tuple[Item, ...]:
         """All items, in the order of the book: what a person would calculate."""
         found = [item for block in self.fill for item in _items(block)]
-        found = [item for item in found if not all(map(self._is_fixed, item.nodes))]
+        left = self.rubric.work.without
+        found = [
+            item
+            for item in found
+            if not all(map(self._is_fixed, item.nodes)) and not matches((item.id,), left)
+        ]
         helpers = frozenset(node for item in found if item.helper for node in item.nodes)
         read: dict[str, list[str]] = {}
         for node in self.model.nodes if helpers else ():
@@ -242,6 +247,12 @@ def assignment_of(model: Model, rubric: Rubric, source: str = "рубрика") 
         and (block.id in needed or matches((block.id,), rubric.work.given))
     ]
     made = Assignment(model, rubric, tuple(fill), tuple(given))
+    ids = [item.id for block in fill for item in _items(block)]
+    problems += [
+        Problem(f"{source}: work.without", f"нет столбца {pattern}", "имена — в register.json")
+        for pattern in rubric.work.without
+        if not any(fnmatchcase(id_, pattern) for id_ in ids)
+    ]
     known = {item.id for item in made.items} | filled
     for key, named in (
         ("points", list(rubric.points)),

@@ -49,7 +49,12 @@ def check_for_leaks(book: bytes, assignment: Assignment, source: str) -> None:
     if leaks:
         what = "; ".join(f"{leak.item} — {leak.place}" for leak in leaks[:6])
         more = f" и ещё {len(leaks) - 6}" if len(leaks) > 6 else ""
-        hint = "уберите эти таблицы из work.given или из work.fill рубрики"
+        items = (leak.item.partition(" ")[0] for leak in leaks)
+        names = ", ".join(f'"{item}"' for item in dict.fromkeys(items))
+        hint = (
+            "уберите эти таблицы из work.given или из work.fill рубрики либо выдайте ответы "
+            f"числами: work.without = [{names}]"
+        )
         raise InputError(Problem(source, f"выданная книга содержала бы ответы: {what}{more}", hint))
 
 

@@ -24,11 +24,15 @@ class _Part(BaseModel):
 
 
 class Work(_Part):
-    """[work]: the tables of the work-book, by id; ``*`` stands for any ending."""
+    """[work]: the tables of the work-book, by id; ``*`` stands for any ending.
+
+    ``without`` names columns and values of the tables to fill in that nobody is asked for.
+    """
 
     title: Annotated[str, Field(max_length=200)] = ""
     fill: tuple[str, ...] = ("geometry", "masses", "P3_*", "P4_*")
     given: tuple[str, ...] = ()
+    without: tuple[str, ...] = ()
 
 
 class Credit(_Part):

@@ -19,7 +19,7 @@ from reports.recalculation.grid import Column, Run
 from reports.recalculation.language import unquoted
 from reports.spec.blocks import TableSpec
 from reports.workbook.inputs import shown
-from reports.workbook.layout import Layout, RowReferences, at_row
+from reports.workbook.layout import Cell, Layout, RowReferences, at_row
 
 Array = NDArray[np.float64]
 
@@ -176,15 +176,25 @@ def own_formulas(
             if node not in nodes or expr is None:
                 continue
             text = compile_formula(expr, RowReferences(layout, table, block.sheet))
-            made[node] = tuple(
-                formula_at(
-                    at_row(text, cell.row, last=cell.row == cells[-1].row).removeprefix("="),
-                    cell.row,
-                    cell.column,
-                )
-                for cell in cells
-            )
+            made[node] = _filled_down(text, cells)
     return made
+
+
+def _filled_down(text: str, cells: Sequence[Cell]) -> tuple[Formula, ...]:
+    """The formulas of a column's cells, read from the first two rows and the last.
+
+    Distances between cells are the same in two rows and so in all between; else each is read.
+    """
+
+    def read(cell: Cell, *, last: bool) -> Formula:
+        written = at_row(text, cell.row, last=last).removeprefix("=")
+        return formula_at(written, cell.row, cell.column)
+
+    *body, end = cells
+    first = [read(cell, last=False) for cell in body[:2]]
+    alike = len(set(first)) == 1
+    rest = [first[0] if alike else read(cell, last=False) for cell in body[2:]]
+    return (*first, *rest, read(end, last=True))
 
 
 def _same(found: float | str | bool | None, wanted: float | str) -> bool:

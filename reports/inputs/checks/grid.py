@@ -18,6 +18,7 @@ from reports.inputs.to_si.engine import smallness_of
 from reports.shared.errors import InputError
 from reports.shared.russian import NBSP, fixed, written
 
+_PIN = re.compile(r"шейк\w*")  # in a title, before its number
 FINE = 1  # step that the others are held against [deg]
 MOST = 2.0  # difference that is told [%]
 _TOLD = 4  # differences in the one line; the report has them all
@@ -55,8 +56,9 @@ class GridError:
 
     @property
     def title(self) -> str:
-        """Its name, with the number of its pin."""
-        return self.quantity.title + " 1" * self.first
+        """Its name, with the number of its pin behind the pin."""
+        title = self.quantity.title
+        return _PIN.sub(r"\g<0> 1", title, count=1) if self.first else title
 
     @property
     def percent(self) -> float:

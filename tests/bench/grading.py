@@ -19,10 +19,14 @@ from unittest import mock
 from reports.grading.batch import pool
 from reports.grading.issuing.issue import assignment_for, issue
 from reports.grading.issuing.register import Register
+from reports.grading.reading import restoring
 from reports.recalculation.forms import Forms
+from reports.recalculation.formulas import Formula as Read
+from reports.recalculation.formulas import formula_of
 from reports.recalculation.read import read_grid
 from reports.shared import workers as room
 from reports.shared.resources import samples_dir
+from reports.workbook.layout import Cell, Layout
 from tests.bench._figure import Figure, costs, interleaved, median, ratio
 from tests.bench._process import Cost, kshm, run
 from tests.grading.fill import Formula, filled_book
@@ -45,6 +49,7 @@ def figures() -> Iterator[Figure]:
         each = (time.perf_counter() - started) / STUDENTS
         yield Figure("выдача одной рабочей книги", each, "с")
         yield from _assignments(register)
+        yield from _own_formulas(register)
         yield _copied(folder)
         books = LibreOffice().converted(_filled(folder, register))
         yield from _forms(books)
@@ -96,6 +101,26 @@ def _forms(books: list[bytes]) -> Iterator[Figure]:
     known, anew = (median(times[word]) / len(books) for word in ("known", "anew"))
     yield Figure("чтение работы, листы разобраны заново", anew, "с")
     yield Figure("чтение работы, формы листов известны", known, "с", f"{anew / known:.1f} раза")
+
+
+def _own_formulas(register: Register) -> Iterator[Figure]:
+    """What it saves that a column's formulas are read from its first two rows and the last."""
+    made = assignment_for(register.books[0], register.rubric)
+    layout, nodes = Layout.of(made.kept_model), made.fill_nodes | made.live_nodes
+    filled_down = restoring._filled_down
+
+    def each(text: str, cells: list[Cell]) -> tuple[Read, ...]:
+        return tuple(filled_down(text, [cell])[0] for cell in cells)
+
+    def read(way: object) -> None:
+        formula_of.cache_clear()
+        with mock.patch.object(restoring, "_filled_down", way):
+            restoring.own_formulas(made, layout, nodes)
+
+    times = interleaved({"two": lambda: read(filled_down), "each": lambda: read(each)})
+    yield Figure("формулы программы, прочитаны строка за строкой", median(times["each"]), "с")
+    yield Figure("формулы программы, прочитаны по двум строкам", median(times["two"]), "с",
+                 f"{ratio(times, 'each', 'two'):.1f} раза")  # fmt: skip
 
 
 def _assignments(register: Register) -> Iterator[Figure]:

@@ -99,6 +99,23 @@ def test_the_name_of_a_file_is_not_that_of_who_hands_it_in(before):
     assert (own.book, own.doubts) == (other, ())
 
 
+def test_a_participant_who_is_not_on_the_roster_is_told():
+    """Whatever identifier and name his file has: it may be another's."""
+    mine = classroom.register().books[0]
+    stranger = "Чужаков Семён"
+    key = f"{stranger}_7_assignsubmission_file_/{mine.file}"
+    match = owner(key, cell=mine.ticket, moodle=stranger)
+    assert (match.book, match.submitter) == (mine, 0)
+    told = f"имя участника Moodle: «{stranger}» — его нет в списке"
+    assert match.doubts == (f"{told}, а идентификатор выдан: {mine.student.full}",)
+    bare = owner(key, moodle=stranger)
+    assert (bare.book, bare.doubts) == (None, (f"нет идентификатора; {told}",))
+    unreadable = submission(key, stranger)
+    assert find_by_name(classroom.register(), unreadable).book is None
+    hidden = owner(key, cell=mine.ticket, moodle="Участник")  # of a task graded without names
+    assert (hidden.book, hidden.doubts) == (mine, ())
+
+
 def test_without_an_identifier_the_only_fitting_name_decides():
     books = classroom.register().books
     for key in (f"группа/{books[1].folder}/кр.xlsx", f"Moja {books[1].file}", "petrov kr.xlsx"):

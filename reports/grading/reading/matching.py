@@ -15,6 +15,10 @@ from reports.recalculation.grid import BadBook, Grid
 from reports.recalculation.sheets import parse_xml
 from reports.workbook.package import Package
 
+_NOBODYS = "нет идентификатора, имя файла не указывает на студента"
+# What Moodle calls those whose names it hides from the grader.
+_NAMELESS = re.compile(r"(участник|participant)[ _]?\d*", re.IGNORECASE)
+
 
 @dataclass(frozen=True, slots=True)
 class Match:
@@ -55,11 +59,17 @@ def find_owner(register: Register, submission: Submission, grid: Grid, package: 
             issued = book.student.full
             doubts.append(f"файл сдал(а) {who} ({where}), а идентификатор выдан: {issued}")
             return Match(book, tuple(evidence), tuple(doubts), submitter or 0)
+        if _is_stranger(register, submission):
+            doubts.append(f"{where} — его нет в списке, а идентификатор выдан: {book.student.full}")
+            return Match(book, tuple(evidence), tuple(doubts), 0)
         if one is not None:
             evidence.append(where)
         return Match(book, tuple(evidence), tuple(doubts))
     if one is None:
-        return Match(None, (), (*doubts, "нет идентификатора, имя файла не указывает на студента"))
+        text = (
+            f"нет идентификатора; {where} — его нет в списке" if where and not named else _NOBODYS
+        )
+        return Match(None, (), (*doubts, text))
     if tickets:
         return Match(None, (where,), tuple(doubts), submitter)
     doubts.append("в файле нет идентификатора: это не выданная книга или он удалён")
@@ -133,8 +143,16 @@ def _by_name(register: Register, submission: Submission) -> tuple[list[Issued], 
     if hits:  # a participant may hand in a file of another's; of namesakes its name tells which
         of_name = [book for book in hits if book in of_file]
         return of_name or hits, f"имя участника Moodle: «{submission.moodle_name[:120]}»"
+    if _is_stranger(register, submission):  # whatever the name of his file says
+        return [], f"имя участника Moodle: «{submission.moodle_name[:120]}»"
     hits = of_file or _named(register, submission.key)
     return hits, f"имя файла: «{submission.key[:120]}»" if hits else ""
+
+
+def _is_stranger(register: Register, submission: Submission) -> bool:
+    """Whether Moodle names a participant who is not on the roster."""
+    name = submission.moodle_name
+    return bool(name) and not _NAMELESS.fullmatch(name) and not _named(register, name)
 
 
 def _named(register: Register, text: str) -> list[Issued]:

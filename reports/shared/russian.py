@@ -77,14 +77,19 @@ def mantissa(value: float, decimals: int) -> tuple[str, int]:
     return fixed(float(text), decimals), int(exponent)
 
 
-def written(value: float, digits: Digits, *, more: int = 0) -> str:
-    """A value of a quantity as plain text; ``more`` decimals than it is printed with."""
+def written(
+    value: float, digits: Digits, *, more: int | None = None, group: bool = False
+) -> str:
+    """A value of a quantity as plain text; ``more`` decimals than cells show it with."""
     if digits.hides == "zeros" and value == 0:
         return ""
     if digits.kind == "scientific":
-        text, exponent = mantissa(value, digits.decimals + more)
+        text, exponent = mantissa(value, digits.decimals + (more or 0))
         return f"{text}·10{str(exponent).translate(_RAISED)}" if exponent else text
-    return fixed(value, digits.decimals + more, group=False)
+    if more is not None:
+        return fixed(value, digits.decimals + more, group=group)
+    shown = round(value, -digits.zeros) if digits.zeros else value
+    return fixed(shown, digits.within(value).decimals, group=group)
 
 
 def last_bound(text: str) -> str:

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from kshm.nomenclature.digits import Digits, scientific
 from reports.document.text import numbers
 from reports.formula.tex import input_symbol_tex, number_tex
-from reports.shared.russian import MINUS, NBSP, fixed, last_bound, runs, surname
+from reports.shared.russian import MINUS, NBSP, fixed, last_bound, runs, surname, written
 
 
 @pytest.mark.parametrize(
@@ -43,6 +43,28 @@ def test_negative_digits_are_refused():
         fixed(1.0, -1)
 
 
+@pytest.mark.parametrize(
+    ("value", "digits", "text"),
+    [
+        (389.3234, Digits(4), "389,32"),
+        (26.0218, Digits(4), "26,022"),
+        (0.0123456, Digits(6), "0,012346"),
+        (99999.6, Digits(1), "100\u00a0000"),
+        (450101.4, Digits(0), "450\u00a0101"),  # a whole number stays whole: a firing order is one
+        (450151.4, Digits(0, zeros=2), "450\u00a0200"),
+        (-3.0, Digits(0, zeros=1), "0"),
+    ],
+)
+def test_print_has_no_more_than_five_digits(value, digits, text):
+    assert numbers.of_digits(value, digits) == text
+    assert numbers.of_digits_tex(value, digits) == text.replace(",", "{,}").replace("\u00a0", r"\,")
+
+
+def test_cells_and_feedback_keep_all_decimals():
+    assert written(1234.5678, Digits(3), more=0) == "1234,568"
+    assert written(450151.4, Digits(0, zeros=2), more=1) == "450151,4"
+
+
 def test_significant():
     assert numbers.significant(0.31757, 3) == "0,318"
     assert numbers.significant(460.767, 5) == "460,77"
@@ -66,7 +88,7 @@ def test_powers_of_ten(value, html, tex):
 
 
 def test_tex_of_groups_and_minus():
-    assert numbers.of_digits_tex(-12345.6, Digits(1)) == r"-12\,345{,}6"
+    assert numbers.of_digits_tex(-12345.6, Digits(1)) == r"-12\,346"
 
 
 def test_zeros_that_are_left_blank():

@@ -44,7 +44,8 @@ def angle_table(
     for column in columns:
         q = column.quantity
         values = np.asarray(terms.values.columns[table][column.key], dtype=float).tolist()
-        cells.append([numbers.of_digits(v, q.digits) or "—" for v in values])
+        digits = q.digits.within(max(map(abs, values)))
+        cells.append([numbers.of_digits(v, digits) or "—" for v in values])
         tex = terms.tex(f"{table}.{column.key}") if own_symbols else q.tex
         heads.append(Column(symbol_head(tex, q.unit_label)))
     rows = list(zip(*cells, strict=True))
@@ -97,12 +98,9 @@ def grid_table(
     shown = []
     for row in (by_key[key] for key in rows or by_key if key in by_key):
         q = row.quantity
-        cells = [
-            "—"
-            if cell is None
-            else numbers.of_digits(cast(float, terms.values.scalars[cell.key]), q.digits)
-            for cell in row.cells
-        ]
+        values = [cell and cast(float, terms.values.scalars[cell.key]) for cell in row.cells]
+        digits = q.digits.within(max(abs(value or 0) for value in values))
+        cells = ["—" if value is None else numbers.of_digits(value, digits) for value in values]
         shown.append([symbol_head(q.tex, q.unit_label), *cells])
     columns = [Column("Величина", 1.4), *(Column(label) for label in labels or grid.labels)]
     return table_block(columns, shown)

@@ -16,20 +16,22 @@ class Digits:
     ``kind`` is ``scientific`` (decimals of the mantissa before a power of ten) or ``text``;
     ``hides`` tells which values are left blank: zeros, or the marks of a row that does not
     count.  Cells show ``decimals``; print rounds large engines' whole numbers to tens, hundreds
-    and so on: ``zeros`` of them.
+    and so on, ``zeros`` of them, and every large number that is ``measured``, not counted.
     """
 
     decimals: int = 3
     kind: Literal["fixed", "scientific", "text"] = "fixed"
     hides: Literal["", "zeros", "unused"] = ""
     zeros: int = 0
+    measured: bool = False
 
     def within(self, largest: float) -> Digits:
-        """As print has values up to ``largest``: five significant digits, whole numbers whole."""
+        """As print has values up to ``largest``: with five significant digits at most."""
         if self.kind != "fixed" or not largest or not math.isfinite(largest):
             return self
-        exponent = int(f"{largest:.{_MOST - 1}e}".partition("e")[2])
-        return replace(self, decimals=min(self.decimals, max(0, _MOST - 1 - exponent)))
+        over = int(f"{largest:.{_MOST - 1}e}".partition("e")[2]) - (_MOST - 1)
+        zeros = max(self.zeros, over if self.measured else 0)
+        return replace(self, decimals=min(self.decimals, max(0, -over)), zeros=zeros)
 
 
 TEXT = Digits(0, "text")
@@ -37,6 +39,11 @@ UNLESS_UNUSED = Digits(0, hides="unused")
 
 Row = tuple[str, str, str, str, str, int | Digits]  # key, symbol, tex, unit, title, digits
 UnitRow = tuple[str, str, float]  # key, label, size in SI
+
+
+def digits_of(given: int | Digits, unit: str) -> Digits:
+    """Digits of a row: what has a unit is measured."""
+    return replace(given if isinstance(given, Digits) else Digits(given), measured=bool(unit))
 
 
 def scientific(decimals: int) -> Digits:

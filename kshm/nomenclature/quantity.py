@@ -24,7 +24,7 @@ from kshm.nomenclature import (
     torque_orders,
     torsion,
 )
-from kshm.nomenclature.digits import Digits
+from kshm.nomenclature.digits import Digits, digits_of
 
 _SUBJECTS = (textbook, series, balance, inertia, torque_orders, cycle, chapters, layouts, torsion,
             bearings)  # fmt: skip
@@ -78,9 +78,7 @@ class Quantity:
 
 
 _ALL: dict[str, Quantity] = {
-    key: Quantity(
-        key, symbol, tex, unit, title, digits if isinstance(digits, Digits) else Digits(digits)
-    )
+    key: Quantity(key, symbol, tex, unit, title, digits_of(digits, unit))
     for subject in _SUBJECTS
     for key, symbol, tex, unit, title, digits in subject.ROWS
 }

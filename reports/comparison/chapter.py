@@ -14,6 +14,7 @@ from reports.comparison.engines import (
     Chart,
     Difference,
     Row,
+    apart,
     charts,
     check_sources,
     differences,
@@ -96,12 +97,14 @@ class ComparisonChapter:
         from reports.document.page.writer import Figure, TablePlan
 
         size = "dense" if len(self.labels) <= _FEW else "tiny"
+        different, only = apart(self.differences, self.labels)
+        shown, lacking = apart(self.rows, self.labels)
         data = TablePlan(
-            partial(data_block, self.labels, self.differences),
+            partial(data_block, self.labels, different),
             "Исходные данные, которые не совпадают", size=size, lined=True,
         )  # fmt: skip
         groups: dict[str, list[Row]] = {}
-        for row in self.rows:
+        for row in shown:
             groups.setdefault(row.group, []).append(row)
         tables = [
             (f"compare_{number}",
@@ -119,7 +122,9 @@ class ComparisonChapter:
             "comparison",
             engines=list(zip(self.labels, self.names, self.files, strict=True)),
             data=data,
+            only=only,
             tables=tables,
+            lacking=lacking,
             figures=figures,
             sentences=conclusions(self.labels, self.rows),
         )

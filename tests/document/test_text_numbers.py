@@ -23,6 +23,10 @@ from reports.shared.russian import MINUS, NBSP, fixed, last_bound, runs, surname
         (-1234567.891, 2, f"{MINUS}1{NBSP}234{NBSP}567,89"),
         (99999.5, 0, f"100{NBSP}000"),
         (np.float64(2.5), 1, "2,5"),
+        (4.335, 2, "4,34"),  # as the cell of the workbook shows it
+        (2 * 0.4335 * 5 * np.pi / np.pi, 2, "4,34"),
+        (-0.125, 2, MINUS + "0,13"),
+        (1e25, 2, f"10{NBSP}000{NBSP}000{NBSP}000{NBSP}000{NBSP}000{NBSP}000{NBSP}000{NBSP}000,00"),
     ],
 )
 def test_fixed(value, digits, text):
@@ -52,6 +56,7 @@ def test_negative_digits_are_refused():
         (99999.6, Digits(1), "100\u00a0000"),
         (450101.4, Digits(0), "450\u00a0101"),  # a whole number stays whole: a firing order is one
         (450151.4, Digits(0, zeros=2), "450\u00a0200"),
+        (278684.2, Digits(1, measured=True), "278\u00a0680"),
         (-3.0, Digits(0, zeros=1), "0"),
     ],
 )

@@ -87,6 +87,7 @@ def test_the_place_of_an_oil_hole_is_the_reports():
     canvas, *_ = drawn(model)
     said = [item.text for item in canvas.items if isinstance(item, Words)]
     assert any(text.endswith(f"отверстие {model.num('hole_pin_deg')}°") for text in said)
+    assert any(text.endswith("противовеса щеки 0; 2,4 кг") for text in said)  # as given
 
 
 def test_running_on_torques_of_a_small_engine_are_not_rounded_to_nothing() -> None:

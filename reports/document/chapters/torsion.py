@@ -139,7 +139,7 @@ def concluded(chapter: Chapter) -> Markup:
     over = bare.stress > section.stress_allowed_mpa
     line = (
         "первая собственная частота крутильных колебаний вала {}, наибольшая амплитуда "
-        "напряжений кручения {} при {}, что {} {}"
+        "напряжений кручения {} при частоте вращения {}, что {} {}"
     )
     verdict = "превышает допускаемую" if over else "не превышает допускаемой"
     allowed = terms.val("torsion_stress_allowed_mpa")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from typing import cast
 
 import numpy as np
 from markupsafe import Markup
@@ -98,7 +97,7 @@ def grid_table(
     shown = []
     for row in (by_key[key] for key in rows or by_key if key in by_key):
         q = row.quantity
-        values = [cell and cast(float, terms.values.scalars[cell.key]) for cell in row.cells]
+        values = [None if cell is None else terms.value(cell.key) for cell in row.cells]
         digits = q.digits.within(max(abs(value or 0) for value in values))
         cells = ["—" if value is None else numbers.of_digits(value, digits) for value in values]
         shown.append([symbol_head(q.tex, q.unit_label), *cells])

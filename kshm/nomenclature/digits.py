@@ -41,11 +41,6 @@ Row = tuple[str, str, str, str, str, int | Digits]  # key, symbol, tex, unit, ti
 UnitRow = tuple[str, str, float]  # key, label, size in SI
 
 
-def digits_of(given: int | Digits, unit: str) -> Digits:
-    """Digits of a row: what has a unit is measured."""
-    return replace(given if isinstance(given, Digits) else Digits(given), measured=bool(unit))
-
-
 def scientific(decimals: int) -> Digits:
     """Mantissa with so many decimals, times a power of ten."""
     return Digits(decimals, "scientific")

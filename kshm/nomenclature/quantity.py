@@ -24,7 +24,7 @@ from kshm.nomenclature import (
     torque_orders,
     torsion,
 )
-from kshm.nomenclature.digits import Digits, digits_of
+from kshm.nomenclature.digits import Digits
 
 _SUBJECTS = (textbook, series, balance, inertia, torque_orders, cycle, chapters, layouts, torsion,
             bearings)  # fmt: skip
@@ -78,7 +78,9 @@ class Quantity:
 
 
 _ALL: dict[str, Quantity] = {
-    key: Quantity(key, symbol, tex, unit, title, digits_of(digits, unit))
+    key: Quantity(
+        key, symbol, tex, unit, title, digits if isinstance(digits, Digits) else Digits(digits)
+    )
     for subject in _SUBJECTS
     for key, symbol, tex, unit, title, digits in subject.ROWS
 }
@@ -126,11 +128,11 @@ def quantity(key: str, small: int = 0) -> Quantity:
     about = _quantity(key)
     exact = small * _POWERS.get(about.unit, 0) / _FIFTHS
     more = math.ceil(exact) if small > 0 else round(exact)
-    if not more or about.digits.kind != "fixed":
-        return about
-    decimals = about.digits.decimals + more
-    held = replace(about.digits, decimals=max(0, decimals), zeros=max(0, -decimals))
-    return replace(about, digits=held)
+    digits = replace(about.digits, measured=bool(about.unit))
+    if digits.kind == "fixed":
+        decimals = digits.decimals + more
+        digits = replace(digits, decimals=max(0, decimals), zeros=max(0, -decimals))
+    return replace(about, digits=digits)
 
 
 def _quantity(key: str) -> Quantity:

@@ -118,9 +118,8 @@ def _results(made: _Book) -> None:
             at = Cell(RESULTS, number, 3 + count + place)
             look = "0.0###" if change < LEAST_PERCENT else "0.0"
             made.formula(sheet, at, f"=({own}/{first}-1)*100", change, look)
-    number += 1
-    sheet.cell(number, 1, lacking or None)
-    number += 1
+    number += 2
+    sheet.cell(number - 1, 1, lacking or None)
     sheet.cell(number, 1, "Выводы").font = Font(name=FONT, bold=True)
     for sentence in conclusions(labels, rows):
         number += 1

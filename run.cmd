@@ -37,6 +37,7 @@ if /i "%~1"=="test" goto test
 set "MODULE="
 if /i "%~1"=="bench" set "MODULE=tests.bench"
 if /i "%~1"=="fuzz" set "MODULE=tests.fuzz"
+if /i "%~1"=="breaks" set "MODULE=tests.breaks"
 if /i "%~1"=="docs" set "MODULE=tools.manual "%ROOT%docs""
 if defined MODULE goto module
 "%VENV%\Scripts\kshm.exe" %*
@@ -64,6 +65,7 @@ echo   run test [ПУТЬ ...]        проверки и тесты
 echo   run bench [ИМЯ]            время и память
 echo   run docs [--site ПАПКА]    страницы руководства
 echo   run fuzz ДВЕРЬ [СЕКУНДЫ]   случайные файлы на входе
+echo   run breaks [СЛОВО]         намеренные поломки: видят ли их тесты
 exit /b 0
 
 :test

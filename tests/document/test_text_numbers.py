@@ -8,7 +8,16 @@ from hypothesis import strategies as st
 from kshm.nomenclature.digits import Digits, scientific
 from reports.document.text import numbers
 from reports.formula.tex import input_symbol_tex, number_tex
-from reports.shared.russian import MINUS, NBSP, fixed, last_bound, runs, surname, written
+from reports.shared.russian import (
+    MINUS,
+    NBSP,
+    fixed,
+    last_bound,
+    runs,
+    short,
+    surname,
+    written,
+)
 
 
 @pytest.mark.parametrize(
@@ -170,3 +179,9 @@ def test_a_surname_is_told_by_initials_or_a_patronymic(name, told):
 )
 def test_a_short_last_word_does_not_stand_alone(text, said):
     assert last_bound(text) == said
+
+
+def test_short_numbers_have_the_comma_and_the_minus_of_print():
+    assert [short(value, 4) for value in (-0.5, 20000.0, -1234.56)] == [
+        f"{MINUS}0,5", "20000", f"{MINUS}1235",
+    ]  # fmt: skip

@@ -199,7 +199,7 @@ def test_without_arguments_it_tells_its_use(house):
     assert "./run build samples/gots-diesel.toml -o out" in done.stdout
 
 
-@pytest.mark.parametrize("command", ["test", "bench", "docs", "fuzz", "build"])
+@pytest.mark.parametrize("command", ["test", "bench", "docs", "fuzz", "breaks", "build"])
 def test_both_scripts_know_the_same_commands(command):
     for name in ("run", "run.cmd"):
         text = (ROOT / name).read_bytes().decode("utf-8")

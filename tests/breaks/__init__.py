@@ -1,0 +1,1 @@
+"""Deliberate breaks of the product and the tests that must see them: ``./run breaks``."""

@@ -46,7 +46,7 @@ SLOW = (
     "tests/bearings/test_film_refused.py::test_the_file",
     "tests/bearings/test_oil_film.py::test_an_orbit_against",
     "tests/bearings/test_oil_film.py::test_turning",
-    "tests/bearings/test_oil_film.py::test_two_hundred",
+    "tests/bearings/test_oil_film.py::test_random_bearings",
     "tests/comparison/test_chapter.py",
     "tests/comparison/test_compare.py::test_a_file_of_each_kind[pdf]",
     "tests/comparison/test_compare.py::test_an_edited_workbook",

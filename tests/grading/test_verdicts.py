@@ -48,6 +48,14 @@ def test_a_right_book_is_right_throughout():
     assert result["manual"] == result["notes"] == result["changed"] == result["altered"] == []
 
 
+def test_few_digits_of_pi_cost_nothing_and_are_no_mistake_of_what_follows():
+    """Where large forces cancel each other they cost more than a rounding may."""
+    texts = {n: [f.replace("RADIANS", "1/57.3*") for f in own] for n, own in formulas().items()}
+    result = graded(texts)
+    assert classroom.verdicts(result) == {}
+    assert result["points"] == 100
+
+
 def test_an_empty_book_is_empty_throughout():
     result = classroom.marks(classroom.handout())
     assert set(classroom.verdicts(result).values()) == {"empty"}

@@ -22,6 +22,7 @@ from reports.grading.judging.tolerances import close, tolerance
 from reports.grading.judging.trials import Trial
 from reports.grading.reading.student import Student
 from reports.recalculation.bench import (
+    ROUNDINGS,
     Bench,
     Cells,
     full,
@@ -349,8 +350,10 @@ class Response:
         half = self.student.assignment.rubric.tolerance.units * 10.0**-item.quantity.digits.decimals
         whole = [rounded_to(r.formula) for r in self.student.runs(node) if r.formula is not None]
         coarse = any(d is not None and d < item.quantity.digits.decimals for d in whole)
+        formulas = (run.formula for run in self._with_helpers(node) if run.formula is not None)
+        inside = any(not formula.functions.isdisjoint(ROUNDINGS) for formula in formulas)
         for trial, own, wanted in zip(self.trials, values, right, strict=True):
-            if trial.decides:
+            if trial.decides and inside:  # digits of π cost what they cost
                 largest = float(np.nanmax(np.abs(wanted))) if wanted.size else 0.0
                 allowed = half if coarse else max(half, _INSIDE * largest)
                 found &= close(item, own, wanted, allowed * (1 + 1e-9))

@@ -51,6 +51,10 @@ def test_a_right_book_is_right_throughout():
 def test_few_digits_of_pi_cost_nothing_and_are_no_mistake_of_what_follows():
     """Where large forces cancel each other they cost more than a rounding may."""
     texts = {n: [f.replace("RADIANS", "1/57.3*") for f in own] for n, own in formulas().items()}
+    turned = re.compile(r"RADIANS\(A(\d+)\)")
+    for node in ("P3_1.s1_mm", "P3_1.j1_m_s2", "P3_2.omega_rod_approx_1_s"):  # angles typed as well
+        texts[node] = [turned.sub(lambda m: f"({30 * (int(m[1]) - 6)}/57.3)", f)
+                       for f in formulas()[node]]  # fmt: skip
     result = graded(texts)
     assert classroom.verdicts(result) == {}
     assert result["points"] == 100

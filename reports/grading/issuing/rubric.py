@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 import tomllib
-from datetime import datetime
+from datetime import date, datetime
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
+from pydantic_core import PydanticCustomError
 
 from reports.inputs import messages
 from reports.inputs.source import read_text, refuse_bomb
@@ -76,6 +77,14 @@ class Late(_Part):
     free_days: Annotated[int, Field(ge=0, le=365)] = 0
     least: Share = 0.0
     rules: tuple[LateRule, ...] = (LateRule(after_hours=0, factor=0.9),)
+
+    @field_validator("deadline", mode="before")
+    @classmethod
+    def _with_its_hour(cls, value: object) -> object:
+        """A day alone would end as it begins: who hands in on that day would be late."""
+        if type(value) is date:
+            raise PydanticCustomError("datetime_parsing", "no hour")
+        return value
 
 
 class Attempts(_Part):
@@ -174,10 +183,11 @@ _WANTED = {
     "int_parsing": "нужно целое число",
     "tuple_type": "нужен список",
     "dict_type": "нужен раздел",
+    "model_type": "нужен раздел",
     "string_type": "нужен текст",
     "missing": "ключ обязателен",
-    "datetime_from_date_parsing": "нужна дата и время: 2026-12-20T23:59:00+03:00",
-    "datetime_parsing": "нужна дата и время: 2026-12-20T23:59:00+03:00",
+    "datetime_from_date_parsing": "нужна дата и время: 2026-12-20T23:59:00",
+    "datetime_parsing": "нужна дата и время: 2026-12-20T23:59:00",
 }
 
 

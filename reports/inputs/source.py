@@ -9,18 +9,12 @@ from typing import Any
 
 from reports.shared import files
 from reports.shared.errors import InputError, Problem, one_line
-from reports.shared.kinds import ARCHIVE, BINARY, OFFICE, PDF, TEXT, UTF16, kind_of
+from reports.shared.kinds import CALLED, TEXT, UTF16, kind_of
 
 MAX_BYTES = 2_000_000
 MAX_LINES = 20_000
 MAX_DOTS = 40
 MAX_ENTRIES = 10_000  # of a list: longer ones only hold a process up
-_OTHER = {
-    ARCHIVE: "это книга Excel или архив",
-    OFFICE: "это старый или зашифрованный документ Office",
-    PDF: "это документ PDF",
-    BINARY: "двоичный файл",
-}
 _DECIMAL = re.compile(r"(?<![\w.])\d+\.\d+(?:[eE][-+]?\d+)?(?![\w.])")
 
 
@@ -53,7 +47,7 @@ def _decode(source: str, data: bytes) -> str:
     if kind == UTF16:
         raise refused(source, "кодировка UTF-16", "сохраните файл в UTF-8")
     if kind != TEXT:
-        raise refused(source, f"{_OTHER[kind]}, а нужен текст TOML", "выберите другой файл")
+        raise refused(source, f"{CALLED[kind]}, а нужен текст TOML", "выберите другой файл")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:

@@ -10,7 +10,7 @@ from typing import NoReturn
 
 from reports.shared.errors import InputError, Problem
 from reports.shared.files import no_file, reason
-from reports.shared.kinds import ARCHIVE, OFFICE, kind_of
+from reports.shared.kinds import ARCHIVE, CALLED, OFFICE, kind_of
 from reports.workbook.package import Package
 
 MAX_FILE = 30 * 2**20
@@ -59,13 +59,15 @@ def check_data(data: bytes, name: str) -> Package:
     """
     if len(data) > MAX_FILE:
         _refuse(name, f"файл больше {MAX_FILE // 2**20} МБ", "это не книга kshm")
+    if not data:
+        _refuse(name, "файл пуст", "сохраните книгу заново")
     kind = kind_of(data)
     if kind == OFFICE:
         _refuse(
             name, "книга зашифрована или в старом формате .xls", "сохраните её как .xlsx без пароля"
         )
     if kind != ARCHIVE:
-        _refuse(name, "это не книга .xlsx", "сохраните её как .xlsx")
+        _refuse(name, f"{CALLED[kind]}, а не книга .xlsx", "нужна сама книга")
     try:
         package = Package(data)
         _check_parts(name, package)
@@ -82,7 +84,7 @@ def _check_parts(name: str, package: Package) -> None:
     if "xl/workbook.xml" not in names and "content.xml" in names:
         _refuse(name, "это книга .ods", "сохраните её как .xlsx: Файл → Сохранить как")
     if "xl/workbook.xml" not in names:
-        _refuse(name, "это не книга .xlsx", "сохраните её как .xlsx")
+        _refuse(name, "это архив или документ, а не книга .xlsx", "нужна сама книга")
     if any(name.lower().endswith(("vbaproject.bin", ".exe", ".dll")) for name in names):
         _refuse(name, "в книге есть макросы", "сохраните её как .xlsx без макросов")
     if any("externallinks/" in name.lower() for name in names):

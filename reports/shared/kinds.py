@@ -10,9 +10,7 @@ CALLED = {
     OFFICE: "это старый или зашифрованный документ Office",
     PDF: "это документ PDF",
     PACKED: "это архив RAR или 7z",
-    UTF16: "это текст",
     BINARY: "двоичный файл",
-    TEXT: "это текст",
 }
 _BEGINNINGS = (
     (b"PK\x03\x04", ARCHIVE),  # a book, too

@@ -95,6 +95,23 @@ def test_what_rests_on_an_empty_column_names_it():
     assert line(result, "P3_1.v_m_s")["verdict"] == "wrong"  # whatever it rests on
 
 
+def test_right_numbers_are_no_origin_of_a_mistake_and_every_remark_names_its_cells():
+    """Typed speeds are right though ω is not: the sum is off because of the other summand."""
+    right = evaluate_model(classroom.assignment().model).columns
+    beta, k = right["P3_2"]["beta_rad"], formulas()["P4_1.K_MPa"]
+    result = graded({
+        "omega": ["=regime_speed_rpm*PI()/60"],
+        "P3_1.v1_m_s": [round(float(v), 3) for v in right["P3_1"]["v1_m_s"]],
+        "P3_1.s_mm": [f"=D{row}" for row in range(6, 19)],
+        "V_c": ['=INDIRECT("C10")/17'],
+        "P4_1.K_MPa": [*k[:3], f"={float(beta[3])!r}+0.0004", *k[4:]],  # near β by chance
+    })  # fmt: skip
+    assert line(result, "P3_1.v_m_s")["origins"] == ["P3_1.v2_m_s"]
+    assert line(result, "P3_1.s_mm")["where"] == ["П3.1!D6:D18"]
+    assert line(result, "geometry.V_c")["where"] == ["Массы!C11"]
+    assert line(result, "P4_1.K_MPa")["cause"].endswith("сравните формулу с соседними")
+
+
 def test_a_wrong_way_back_is_wrong():
     moments = evaluate_model(classroom.assignment().model).columns["P4_1"]["M_Nm"]
     back = [f"=I{row}/F_piston/10^6" for row in range(6, 6 + len(moments))]  # without r

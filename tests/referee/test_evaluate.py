@@ -242,8 +242,9 @@ def test_array_formulas_fill_their_extent_and_nothing_else():
 @pytest.mark.parametrize("title", ["P41", "Q1 план", "E1-2", "Силы д'Аламбера", "R1C1"])
 def test_a_title_that_looks_like_a_cell_stays_when_formulas_are_filled_down(title):
     own = quoted(title)
-    engine = engine_of({"A1": 2.0, "A2": 3.0, "B1": f"={own}A1*10", "B2": f"={own}A2*10",
-                        "C1": f"=SUM({own}A$1:A1)", "C2": f"=SUM({own}A$1:A2)"}, title=title)  # fmt: skip
+    cells = {"A1": 2.0, "A2": 3.0, "B1": f"={own}A1*10", "B2": f"={own}A2*10",
+             "C1": f"=SUM({own}A$1:A1)", "C2": f"=SUM({own}A$1:A2)"}  # fmt: skip
+    engine = engine_of(cells, title=title)
     assert engine.values(title, 2, 1, 2)[0].tolist() == [20.0, 30.0]
     assert engine.values(title, 3, 1, 2)[0].tolist() == [2.0, 5.0]
 

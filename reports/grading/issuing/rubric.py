@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from datetime import date, datetime
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -12,7 +11,8 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_valida
 from pydantic_core import PydanticCustomError
 
 from reports.inputs import messages
-from reports.inputs.source import read_text, refuse_bomb
+from reports.inputs.load import tables_of
+from reports.inputs.source import read_text
 from reports.shared.errors import InputError, Problem, one_line
 
 Share = Annotated[float, Field(ge=0, le=1)]
@@ -128,18 +128,7 @@ def load_rubric(path: Path | None) -> Rubric:
     """
     if path is None:
         return Rubric()
-    text = read_text(path)
-    refuse_bomb(path.name, text)
-    try:
-        raw = tomllib.loads(text)
-    except (ValueError, RecursionError) as error:
-        what, hint = (
-            messages.toml_error(error, text)
-            if isinstance(error, ValueError)
-            else ("слишком глубокая вложенность", "уберите лишние скобки")
-        )
-        raise InputError(Problem(path.name, what, hint)) from None
-    return rubric_of(raw, path.name)
+    return rubric_of(tables_of(read_text(path), source=path.name), path.name)
 
 
 def rubric_of(raw: dict[str, Any], source: str) -> Rubric:

@@ -14,8 +14,8 @@ from typing import Any
 
 from reports.inputs.diagram_file import with_points
 from reports.inputs.fields import set_value
-from reports.inputs.load import Loaded, load_mapping
-from reports.inputs.ranges import Range, read_ranges, split_ranges
+from reports.inputs.load import Loaded, load_mapping, load_text, tables_of
+from reports.inputs.ranges import SECTION, Range, read_ranges, split_ranges
 from reports.inputs.source import read_text
 from reports.shared.errors import InputError, Problem
 
@@ -53,20 +53,17 @@ def load_base(path: Path, beside: Path | None = None) -> Base:
     Raises:
         InputError: everything that is wrong with it.
     """
-    import tomllib
-
-    from reports.inputs.load import load_text
-
     text = read_text(path)
     loaded = load_text(text, source=path.name, folder=path.parent)
-    raw, section = split_ranges(tomllib.loads(text))
+    raw, section = split_ranges(tables_of(text, source=path.name))
     raw = with_points(raw, path.parent, path.name)
     source = path.name
     if beside is not None:
         if section is not None:
             what = "диапазоны заданы и в разделе [variants], и ключом --ranges"
             raise InputError(Problem(path.name, what, "оставьте одно"))
-        section, source = _ranges_file(beside), beside.name
+        data, source = tables_of(read_text(beside), source=beside.name), beside.name
+        section = data.get(SECTION, data)
     if section is None:
         what = "нет раздела [variants] с диапазонами параметров"
         hint = 'пример: [variants] и строка "geometry.bore_mm" = {min = 84, max = 92, step = 1}'
@@ -75,20 +72,6 @@ def load_base(path: Path, beside: Path | None = None) -> Base:
     if problems:
         raise InputError(problems)
     return Base(path.name, raw, tuple(ranges), loaded)
-
-
-def _ranges_file(path: Path) -> object:
-    import tomllib
-
-    from reports.inputs.messages import toml_error
-
-    text = read_text(path)
-    try:
-        data = tomllib.loads(text)
-    except ValueError as error:
-        what, hint = toml_error(error, text)
-        raise InputError(Problem(path.name, what, hint or "исправьте строку")) from None
-    return data.get("variants", data)
 
 
 def draw_variants(base: Base, students: Sequence[str], seed: int) -> list[Variant]:

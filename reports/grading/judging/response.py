@@ -94,7 +94,7 @@ class Response:
             if any(
                 run.formula is not None and rounds(run.formula) for run in self._with_helpers(node)
             )
-            or (self._full_constants and _has_pi(self.student.own_numbers(node)))
+            or (self._full_constants and any(full(v) != v for v in self.student.own_numbers(node)))
         ]
         return self._run(wanted, rounded=False) if wanted else {}
 
@@ -341,18 +341,14 @@ class Response:
     def _rounded_good(
         self, item: Item, node: str, values: Sequence[Array], right: Sequence[Array]
     ) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]] | None:
-        """Where a formula would be right without its roundings, and where they are fine enough.
-
-        The last is where without them it agrees with the trials that do not decide.
-        """
+        """Where it is right without its roundings, where they are fine, where the others agree."""
         plain = self._unrounded.get(node)
         if not plain or isinstance(plain, str):
             return None
         exact, others = self._good(item, plain, right)
         found = exact.copy()
         half = self.student.assignment.rubric.tolerance.units * 10.0**-item.quantity.digits.decimals
-        whole = [rounded_to(r.formula) for r in self.student.runs(node) if r.formula is not None]
-        coarse = any(d is not None and d < item.quantity.digits.decimals for d in whole)
+        coarse = rounds_coarsely(self.student, item, node)
         formulas = (run.formula for run in self._with_helpers(node) if run.formula is not None)
         inside = any(not formula.functions.isdisjoint(ROUNDINGS) for formula in formulas)
         for trial, own, wanted in zip(self.trials, values, right, strict=True):
@@ -386,8 +382,10 @@ class Response:
         return True
 
 
-def _has_pi(numbers: Sequence[float]) -> bool:
-    return any(full(number) != number for number in numbers)
+def rounds_coarsely(student: Student, item: Item, node: str) -> bool:
+    """Whether a column is rounded more than the book prints."""
+    digits = [rounded_to(run.formula) for run in student.runs(node) if run.formula is not None]
+    return any(d is not None and d < item.quantity.digits.decimals for d in digits)
 
 
 def _differ(first: float, second: float) -> bool:

@@ -54,7 +54,8 @@ def without_ground(found: dict[str, Judgement], student: Student, response: Resp
         at = round_ & set(judgement.item.nodes)
         if at and judgement.verdict != UNKNOWN:
             verdict, reason = (UNKNOWN, _ROUND_HERE) if at <= held else (BROKEN, _ROUND)
-            found[id_] = replace(judgement, verdict=verdict, paid=0.0, reason=reason)
+            rows = tuple(range(len(judgement.values)))
+            found[id_] = replace(judgement, verdict=verdict, rows=rows, paid=0.0, reason=reason)
     for id_, judgement in found.items():
         if judgement.paid > 0 and hidden & set(judgement.item.nodes):
             found[id_] = replace(judgement, verdict=UNKNOWN, paid=0.0, reason=_ROUND_ELSEWHERE)
@@ -171,18 +172,19 @@ def carried(found: dict[str, Judgement], student: Student) -> None:
     Roundings on the way, and values that are not known, are nobody's mistake.
     """
     owner = {node: j.item.id for j in found.values() for node in j.item.nodes}
-    wrong = {id_ for id_, j in found.items() if j.verdict not in (RIGHT, UNKNOWN)}
+    wrong: set[str] = set()
     off: dict[str, tuple[int, ...]] = {}
     near: dict[str, list[str]] = {}
     for id_, judgement in found.items():
-        if judgement.verdict != RIGHT or np.isnan(judgement.expected).all():
-            continue
         allowed = tolerance(judgement.item, judgement.expected, student)
         good = close(judgement.item, judgement.values, judgement.expected, allowed)
-        if good.all():
+        if good.all() or judgement.verdict == UNKNOWN:
             continue
-        off[id_] = tuple(np.flatnonzero(~good).tolist())
-        near[id_] = _earlier(judgement, owner, student)
+        if judgement.verdict != RIGHT:
+            wrong.add(id_)
+        elif not np.isnan(judgement.expected).all():
+            off[id_] = tuple(np.flatnonzero(~good).tolist())
+            near[id_] = _earlier(judgement, owner, student)
     moved: set[str] = set()
     while more := {n for n in off.keys() - moved if not (wrong | moved).isdisjoint(near[n])}:
         moved |= more

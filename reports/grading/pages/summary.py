@@ -18,6 +18,8 @@ from reports.shared.russian import short
 _BESIDE = (".doc", ".docx", ".odt", ".rtf", ".txt", ".md", ".pdf", ".jpg", ".jpeg", ".png", ".heic",
            ".dwg", ".dxf", ".cdw", ".frw", ".pptx", ".xmcd", ".html")  # fmt: skip
 HELD = "ждёт решения"  # the state of a work that may be another's
+_NOBODYS = {"number": None, "group": "", "id": "", "email": "", "moodle_id": "", "points": None,
+            "provisional": None, "manual": True, "decision": None}  # fmt: skip
 _BAR = 160  # px of the longest bar
 _STEPS = 10
 
@@ -119,13 +121,9 @@ def table_rows(register: Register, results: Sequence[Work]) -> list[dict[str, An
     for result in results:
         if result.number is None and result.submitter is None:
             rows.append(
-                {
-                    "number": None, "student": f"? ({result.file})", "group": "", "id": "",
-                    "email": "", "moodle_id": "", "file": result.file,
-                    "status": _status(result), "points": None, "provisional": None,
-                    "result": result, "page": result.page,
-                    "manual": True, "remark": "; ".join(result.manual), "decision": None,
-                }
+                _NOBODYS | {"student": f"? ({result.file})", "file": result.file,
+                            "status": _status(result), "result": result, "page": result.page,
+                            "remark": "; ".join(result.manual)}
             )  # fmt: skip
     return rows
 

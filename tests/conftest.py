@@ -119,7 +119,7 @@ SLOW = (
     "tests/tables/test_left_out.py::test_the_contents",
     "tests/tables/test_reference.py",
     "tests/tables/test_regimes.py",
-    "tests/torsion/test_torsion_tables.py::test_the_sheets_follow_twenty_random_changes",
+    "tests/torsion/test_torsion_tables.py::test_the_sheets_follow_random_changes",
     "tests/validation/test_validation_book.py",
     "tests/web/test_browser.py",
     "tests/web/test_class.py",

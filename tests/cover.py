@@ -8,12 +8,14 @@ holds is read from the registries, so that a new sample or a new table joins by 
 
 from __future__ import annotations
 
+import ast
 import os
 import re
 from collections.abc import Callable, Mapping
 from functools import cache
 
 from reports.document.chapters.profiles import chosen
+from reports.formula.parse import parse
 from reports.inputs.fields import to_mapping
 from reports.spec.blocks import Model
 from reports.tables.registry import build_model
@@ -44,6 +46,18 @@ def quantities(model: Model) -> set[tuple]:
     found |= {("input", alike(field.name)) for field in model.inputs}
     texts = (node.expr for node in model.nodes.values() if node.expr)
     return found | {("function", word) for text in texts for word in _FUNCTION.findall(text)}
+
+
+def operations(model: Model) -> set[tuple]:
+    """Every function and operator with the kinds of what it works on, as a compiler meets them."""
+    texts = (node.expr for node in model.nodes.values() if node.expr)
+    parts = (part for text in set(texts) for part in ast.walk(parse(text)))
+    return {
+        (type(part), getattr(getattr(part, "func", None), "id", ""),
+         tuple(map(type, ast.iter_child_nodes(part))))
+        for part in parts
+        if not isinstance(part, (ast.Name, ast.Attribute, ast.Constant, ast.expr_context))
+    }  # fmt: skip
 
 
 def charts(model: Model) -> set[tuple]:

@@ -80,7 +80,10 @@ def uneven_arms(raw: dict, throws: int) -> None:
     """Throws whose rods stand apart and off the middle, each otherwise: even ones cancel."""
     shaft = raw["crankshaft"]
     web, arm = shaft["webs"][0], shaft["arms"][0]
-    shaft["webs"] = [dict(web, angle_deg=5.0 * i) for i in range(2 * throws)]
+    shaft["webs"] = [
+        dict(web, angle_deg=5.0 * i, counterweight_angle_deg=4.0 - 3.0 * i)
+        for i in range(2 * throws)
+    ]
     shaft["arms"] = [
         dict(arm, l2_mm=20.0 + i, l3_mm=11.0 + 2 * i, l4_mm=13.0 - i, l5_mm=24.0)
         for i in range(throws)

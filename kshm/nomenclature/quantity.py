@@ -110,7 +110,7 @@ def smallness(bore_m: float) -> int:
     """How much smaller an engine is than those of the books, in fifths of a power of ten.
 
     Nothing for bores from 60 to 200 mm, for which the books' own decimals serve; negative for
-    larger ones, which have fewer.
+    larger ones, which have fewer, and whole numbers rounded to tens.
     """
     low, high = _USUAL_BORES_M
     smaller = math.ceil(_FIFTHS * math.log10(low / bore_m) - 1e-9)
@@ -128,11 +128,11 @@ def quantity(key: str, small: int = 0) -> Quantity:
     about = _quantity(key)
     exact = small * _POWERS.get(about.unit, 0) / _FIFTHS
     more = math.ceil(exact) if small > 0 else round(exact)
-    if not more or about.digits.kind != "fixed":
-        return about
-    return replace(
-        about, digits=replace(about.digits, decimals=max(0, about.digits.decimals + more))
-    )
+    digits = replace(about.digits, measured=bool(about.unit))
+    if digits.kind == "fixed":
+        decimals = digits.decimals + more
+        digits = replace(digits, decimals=max(0, decimals), zeros=max(0, -decimals))
+    return replace(about, digits=digits)
 
 
 def _quantity(key: str) -> Quantity:

@@ -69,11 +69,16 @@ def summary_of(name: str, curve: Array, phi: Array) -> dict[str, Array]:
 def least_loaded(sums: Array) -> tuple[Array, Array]:
     """Number of the ray with the smallest sum and the place of the oil hole [rad].
 
-    Rays are directions of the force on the journal; the journal is touched on
-    the side from which the force comes, half a turn away.  Shape of both (...,)
-    for ``sums`` of shape (..., rays).
+    Where several rays are loaded least, often not at all, the middle of their widest arc is
+    taken: its place hardly depends on the step.  Rays are directions of the force on the
+    journal; the journal is touched on the side from which the force comes, half a turn away.
+    Shape of both (...,) for ``sums`` of shape (..., rays).
     """
     count = sums.shape[-1]
-    ray = first_extremes(sums, np.arange(1.0, count + 1), largest=False, floor=UNITS["MPa"].si)[1]
-    place = np.mod(ray_angles(count)[ray.astype(int) - 1] + np.pi, 2 * np.pi)
-    return ray, place
+    least = sums.min(axis=-1, keepdims=True)
+    tied = sums <= least + TIE * np.maximum(UNITS["MPa"].si, least)
+    places = np.arange(2 * count + 1)  # two turns: an arc may pass the first ray
+    broken = np.where(tied[..., places % count], -1, places)
+    arcs = (places - np.maximum.accumulate(broken, axis=-1))[..., count:]  # ending at each ray
+    ray = (arcs.argmax(axis=-1) - arcs.max(axis=-1) // 2) % count + 1
+    return ray.astype(float), np.mod(ray_angles(count)[ray - 1] + np.pi, 2 * np.pi)

@@ -72,14 +72,9 @@ def _least(one: Array, other: Array) -> dict[str, Array]:
 
 def _mains(case: Case, asked: Bearings, factors: Scalars) -> Scalars:
     """Main journals turned by the running-on torques; the first has none."""
-    s, torques = asked.strength, case.raw.running_main[case.index, 1:]
     diameters = np.array(case.engine.crankshaft.main_diameters[1:])
     modulus = polar_modulus(diameters, np.array(asked.main_bore))
-    swing = Swing.of(torques.max(axis=1), torques.min(axis=1), modulus)
-    fillet, hole = (
-        safety(swing, s.torsion, factors[key], s.mean_torsion)
-        for key in ("safe_kf_turn", "safe_kh_turn")
-    )
+    swing, fillet, hole = _turned(case.raw.running_main[case.index, 1:], modulus, asked, factors)
     least = np.minimum(fillet, hole)
     rows = {
         "safe_W{}_cm3": modulus,
@@ -95,6 +90,18 @@ def _mains(case: Case, asked: Bearings, factors: Scalars) -> Scalars:
     return _numbered(rows, 2) | weakest | {"safe_n_main": float(least.min())}
 
 
+def _turned(
+    torques: Array, modulus: Array, asked: Bearings, factors: Scalars
+) -> tuple[Swing, Array, Array]:
+    """Swings of stress of all journals, their safety at fillet and oil hole."""
+    s, swing = asked.strength, Swing.of(torques.max(axis=1), torques.min(axis=1), modulus)
+    fillet, hole = (
+        safety(swing, s.torsion, factors[key], s.mean_torsion)
+        for key in ("safe_kf_turn", "safe_kh_turn")
+    )
+    return swing, fillet, hole
+
+
 @dataclass(frozen=True, slots=True)
 class _Turned:
     """Torsion of every crankpin: its rows, stress and safety at fillet and oil hole."""
@@ -107,14 +114,9 @@ class _Turned:
 
 
 def _turned_pins(case: Case, asked: Bearings, factors: Scalars) -> _Turned:
-    s, torques = asked.strength, case.raw.running_pin[case.index]
     diameters = np.array(case.engine.crankshaft.pin_diameters)
     modulus = polar_modulus(diameters, np.array(asked.pin_bore))
-    swing = Swing.of(torques.max(axis=1), torques.min(axis=1), modulus)
-    fillet, hole = (
-        safety(swing, s.torsion, factors[key], s.mean_torsion)
-        for key in ("safe_kf_turn", "safe_kh_turn")
-    )
+    swing, fillet, hole = _turned(case.raw.running_pin[case.index], modulus, asked, factors)
     rows = {
         "safe_pin_W{}_cm3": modulus,
         "safe_pin_a{}_MPa": swing.amplitude,

@@ -15,6 +15,7 @@ from reports.comparison.engines import (
     X_TITLE,
     Chart,
     Compared,
+    apart,
     charts,
     differences,
     results,
@@ -73,9 +74,11 @@ def _data(made: _Book) -> None:
     made.head(sheet, ("Величина", "Обозначение", "Единица", *labels))
     sheet.append(["Двигатель", "", "", *[engine.model.engine.name for engine in made.engines]])
     sheet.append(["Файл", "", "", *[engine.source.name for engine in made.engines]])
-    for row in differences(made.engines):
+    different, only = apart(differences(made.engines), labels)
+    for row in different:
         symbol = row.symbol.replace("_", "")
         sheet.append([row.title, symbol, row.unit, *row.values])
+    sheet.append([only])
     for cells in sheet.iter_rows(min_row=_HEAD + 1):
         for cell in cells:
             cell.alignment = Alignment(wrap_text=True, vertical="top")
@@ -95,7 +98,7 @@ def _results(made: _Book) -> None:
     sheet = made.sheet(RESULTS, widths, "Результаты; значения — из расчёта файлов листа «Данные»")
     others = [f"{label} к {labels[0]}, %" for label in labels[1:]]
     made.head(sheet, ("Величина", "Обозначение", "Единица", *labels, *others))
-    rows = results(made.engines)
+    rows, lacking = apart(results(made.engines), labels)
     number, group = _HEAD, ""
     for row in rows:
         if row.group != group:
@@ -116,6 +119,7 @@ def _results(made: _Book) -> None:
             look = "0.0###" if change < LEAST_PERCENT else "0.0"
             made.formula(sheet, at, f"=({own}/{first}-1)*100", change, look)
     number += 2
+    sheet.cell(number - 1, 1, lacking or None)
     sheet.cell(number, 1, "Выводы").font = Font(name=FONT, bold=True)
     for sentence in conclusions(labels, rows):
         number += 1

@@ -14,6 +14,7 @@ from reports.comparison.engines import (
     Chart,
     Difference,
     Row,
+    apart,
     charts,
     check_sources,
     differences,
@@ -69,9 +70,7 @@ def comparison_chapters(path: Path, loaded: Loaded) -> tuple[ComparisonChapter, 
     engines = read_engines([path, *others], models)
     return (
         ComparisonChapter(
-            labels=tuple(engine.label for engine in engines),
-            names=tuple(engine.model.engine.name for engine in engines),
-            files=tuple(engine.source.name for engine in engines),
+            engines=tuple((e.label, e.model.engine.name, e.source.name) for e in engines),
             differences=differences(engines),
             rows=results(engines),
             charts=charts(engines),
@@ -83,9 +82,7 @@ def comparison_chapters(path: Path, loaded: Loaded) -> tuple[ComparisonChapter, 
 class ComparisonChapter:
     """What the chapter prints; the first engine is that of the report."""
 
-    labels: tuple[str, ...]
-    names: tuple[str, ...]
-    files: tuple[str, ...]
+    engines: tuple[tuple[str, str, str], ...]  # label, name, file
     differences: tuple[Difference, ...]
     rows: tuple[Row, ...]
     charts: tuple[Chart, ...]
@@ -95,31 +92,36 @@ class ComparisonChapter:
         from reports.comparison.page import curves_of, data_block, results_block
         from reports.document.page.writer import Figure, TablePlan
 
-        size = "dense" if len(self.labels) <= _FEW else "tiny"
+        labels = [label for label, *_ in self.engines]
+        size = "dense" if len(labels) <= _FEW else "tiny"
+        different, only = apart(self.differences, labels)
+        shown, lacking = apart(self.rows, labels)
         data = TablePlan(
-            partial(data_block, self.labels, self.differences),
+            partial(data_block, labels, different),
             "Исходные данные, которые не совпадают", size=size, lined=True,
         )  # fmt: skip
         groups: dict[str, list[Row]] = {}
-        for row in self.rows:
+        for row in shown:
             groups.setdefault(row.group, []).append(row)
         tables = [
             (f"compare_{number}",
-             TablePlan(partial(results_block, self.labels, rows), f"Сравнение: {uncapital(group)}",
+             TablePlan(partial(results_block, labels, rows), f"Сравнение: {uncapital(group)}",
                        size=size, lined=True))
             for number, (group, rows) in enumerate(groups.items(), 1)
         ]  # fmt: skip
         figures = [
             (f"compare_{chart.key}",
-             Figure(partial(curves_of, self.labels, chart), f"{chart.title}: сравнение двигателей",
-                    f"{chart.title}: {', '.join(self.labels)}"))
+             Figure(partial(curves_of, labels, chart), f"{chart.title}: сравнение двигателей",
+                    f"{chart.title}: {', '.join(labels)}"))
             for chart in self.charts
         ]  # fmt: skip
         return chapter.page(
             "comparison",
-            engines=list(zip(self.labels, self.names, self.files, strict=True)),
+            engines=self.engines,
             data=data,
+            only=only,
             tables=tables,
+            lacking=lacking,
             figures=figures,
-            sentences=conclusions(self.labels, self.rows),
+            sentences=conclusions(labels, self.rows),
         )

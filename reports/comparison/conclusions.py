@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from reports.comparison.engines import Row
-from reports.shared.russian import NBSP, fixed, short
+from reports.shared.russian import NBSP, fixed, short, written
 
 SAME = 0.01  # share within which values count as equal
 STILL = 1e-3  # of the engine's own load or torque: what is smaller is nought
@@ -63,11 +63,8 @@ def _greatest(names: Sequence[str], rows: Mapping[str, Row]) -> Iterator[str]:
         if row is None or values is None or min(values) <= 0:
             continue
         big, small = values.index(max(values)), values.index(min(values))
-        text = (
-            f"{fixed(values[big], row.quantity(big).digits.decimals)} {row.unit}".rstrip().replace(
-                " ", NBSP
-            )
-        )
+        shown = written(values[big], row.quantity(big).digits, group=True)
+        text = f"{shown} {row.unit}".rstrip().replace(" ", NBSP)
         if spread(values) <= SAME:
             what = words.removeprefix("Наибольшая ").removeprefix("Наибольший ")
             what = what.removeprefix("Самый тяжёлый ")

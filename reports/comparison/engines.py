@@ -6,14 +6,14 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from kshm.nomenclature.quantity import Quantity, quantity
 from reports.inputs.fields import Field, iter_fields
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import smallness_of
 from reports.shared.errors import InputError, Problem
-from reports.shared.russian import capital, short, uncapital
+from reports.shared.russian import capital, joined, short, uncapital
 from reports.spec.charts import PHI
 from reports.spec.shape import pin_name, pin_table
 from reports.tables.overview.unused import given_by_cycle
@@ -76,12 +76,19 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Difference:
-    """A field of the data whose values are not all the same."""
+    """A field of the data whose values are not all the same.
+
+    ``group`` names its section where the engines without the field have nothing of that.
+    """
 
     title: str
     symbol: str
     unit: str
     values: tuple[str | int | float | None, ...]
+    group: str = ""
+
+
+AnyRow = TypeVar("AnyRow", Row, Difference)
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,6 +183,7 @@ def differences(engines: Sequence[Compared]) -> tuple[Difference, ...]:
     """Fields whose values differ, in the order of the file; lists as one text."""
     columns = [dict(_gathered(engine.model)) for engine in engines]
     keys = list(dict.fromkeys(key for column in columns for key in column))
+    sections = [{field.section for field, _ in column.values()} for column in columns]
     rows = []
     for key in keys:
         found = [column.get(key) for column in columns]
@@ -183,8 +191,30 @@ def differences(engines: Sequence[Compared]) -> tuple[Difference, ...]:
         if len(set(values)) > 1:
             field = next(item[0] for item in found if item is not None)
             title = re.sub(r"(?<=\D) 1(?=:)", "", field.title)  # a list is told at once
-            rows.append(Difference(title, field.symbol, field.unit, values))
+            lacking = [field.section not in held for held in sections]
+            group = field.section if lacking == [value is None for value in values] else ""
+            rows.append(Difference(title, field.symbol, field.unit, values, group))
     return tuple(rows)
+
+
+def apart(rows: Sequence[AnyRow], labels: Sequence[str]) -> tuple[list[AnyRow], str]:
+    """Rows that compare something, and a sentence that names what stands in none of them.
+
+    Nothing is compared where one engine alone has a result, or where all that have a datum
+    agree: rows of dashes.  A group that some engines lack wholly is named as one.
+    """
+    owners = [tuple(value is not None for value in row.values) for row in rows]
+    groups = {(row.group, has) for row, has in zip(rows, owners, strict=True)}
+    shown, left = [], dict[str, dict[str, None]]()
+    for row, has in zip(rows, owners, strict=True):
+        if all(has) or len({value for value in row.values if value is not None}) > 1:
+            shown.append(row)
+            continue
+        whole = row.group and sum(group == row.group for group, _ in groups) == 1
+        names = joined([label for label, there in zip(labels, has, strict=True) if there])
+        left.setdefault(names, {})[uncapital(row.group if whole else row.title)] = None
+    told = "; ".join(f"{names} — {', '.join(things)}" for names, things in left.items())
+    return shown, f"Есть не у всех: {told}." if told else ""
 
 
 def _gathered(model: InputFile) -> Iterator[tuple[str, tuple[Field, str | int | float]]]:

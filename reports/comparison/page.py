@@ -17,12 +17,13 @@ from reports.comparison.engines import (
     Compared,
     Difference,
     Row,
+    apart,
     charts,
     differences,
     results,
 )
 from reports.document.page.blocks import Column, DocumentInfo, TableBlock, table_block
-from reports.document.page.numbering import Label, Numbering
+from reports.document.page.numbering import Draft, Label
 from reports.document.text.numbers import of_digits
 from reports.document.text.texts import rich, spaces_inside
 from reports.shared.russian import MINUS, NBSP, comma, fixed, grouped, short
@@ -46,26 +47,21 @@ def comparison_page(engines: Sequence[Compared], *, media: Literal["print", "scr
     """The whole page with style sheet and fonts inside."""
     from reports.document.page.render import environment
 
-    numbering = Numbering()
-
-    def place(kind: Literal["table", "figure"], key: str, body: TableBlock | Markup,
-              caption: str) -> Placed:  # fmt: skip
-        numbering.declare(kind, key)
-        return Placed(body, numbering.place(kind, key), caption)
-
+    numbering = Draft()
     labels = [engine.label for engine in engines]
-    rows = results(engines)
+    rows, lacking = apart(results(engines), labels)
+    different, only = apart(differences(engines), labels)
     data = numbering.section(1, "Чем отличаются исходные данные")
-    data_table = place("table", "data", data_block(labels, differences(engines)),
-                       "Исходные данные, которые не совпадают")  # fmt: skip
+    data_table = Placed(data_block(labels, different), numbering.place("table", "data"),
+                        "Исходные данные, которые не совпадают")  # fmt: skip
     shown = numbering.section(1, "Результаты")
     tables = []
     for group in dict.fromkeys(row.group for row in rows):
         block = results_block(labels, [row for row in rows if row.group == group])
-        tables.append(place("table", group, block, group))
+        tables.append(Placed(block, numbering.place("table", group), group))
     drawn = numbering.section(1, "Диаграммы")
     figures = [
-        place("figure", chart.key, Markup(curves_of(labels, chart)), chart.title)
+        Placed(Markup(curves_of(labels, chart)), numbering.place("figure", chart.key), chart.title)
         for chart in charts(engines)
     ]
     ending = numbering.section(1, "Выводы")
@@ -76,26 +72,14 @@ def comparison_page(engines: Sequence[Compared], *, media: Literal["print", "scr
                  for engine in engines],
         headings=(data, shown, drawn, ending),
         data=data_table,
+        only=only,
         tables=tables,
+        lacking=lacking,
         figures=figures,
         sentences=conclusions(labels, rows),
         size="dense" if len(labels) <= _FEW else "tiny",
     )  # fmt: skip
     return spaces_inside(page)
-
-
-def comparison_pdf(engines: Sequence[Compared]) -> bytes:
-    """The page as PDF.
-
-    Raises:
-        SystemPartMissing: pango is not on this machine.
-        RenderError: the page could not be set as the template says.
-    """
-    from reports.document.page.render import render_pdf
-    from reports.shared.doctor import need_pango
-
-    need_pango()
-    return render_pdf(comparison_page(engines, media="print"))
 
 
 def data_block(labels: Sequence[str], found: Sequence[Difference]) -> TableBlock:

@@ -39,9 +39,10 @@ def write(sources: Sequence[Path], models: Sequence[InputFile], target: Path) ->
 
         write_bytes(target, book_bytes(engines))
         return
-    from reports.comparison.page import comparison_page, comparison_pdf
+    from reports.comparison.page import comparison_page
+    from reports.document.page.render import render_pdf
 
     if suffix == ".html":
         write_text(target, comparison_page(engines, media="screen"))
     else:
-        write_bytes(target, comparison_pdf(engines))
+        write_bytes(target, render_pdf(comparison_page(engines, media="print")))

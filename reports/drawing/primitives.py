@@ -168,18 +168,18 @@ class Canvas:
 
     def words_where_free(
         self, places: Iterable[Point], text: str, height: float = 3.5, within: Box | None = None,
-        **more: object,
+        *, crossed: bool = True, **more: object,
     ) -> bool:  # fmt: skip
-        """A text at the first place that is free, best with no line through it; whether placed."""
+        """A text at a free place, best, if not ``crossed`` only, with no line through; whether."""
         made = (Words(place, text, height, **more) for place in places)  # type: ignore[arg-type]
         free = [
             words
             for words in made
             if self.free(words) and (within is None or _inside(words.box, within))
         ]
-        if free:
-            self.items.append(next(filter(self.clear, free), free[0]))
-        return bool(free)
+        chosen = [*filter(self.clear, free), *(free if crossed else ())][:1]
+        self.items += chosen
+        return bool(chosen)
 
     def arrow(self, tip: Point, along: Point, length: float = 3.5, layer: Layer = SIZES) -> None:
         """A filled arrow head whose tip points along a unit vector."""
@@ -198,7 +198,9 @@ def _inside(box: Box, outer: Box) -> bool:
 
 
 def _cuts(item: Item, words: Words) -> bool:
-    if isinstance(item, Words) or (isinstance(item, Line) and item.layer not in (CONTOUR, SIZES)):
+    if isinstance(item, Words) or (
+        isinstance(item, Line) and item.layer not in (CONTOUR, CURVES, SIZES)
+    ):
         return False
     left, low, right, high = words.box
     around = (left - _NEAR, low - _NEAR, right + _NEAR, high + _NEAR)

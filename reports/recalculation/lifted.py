@@ -5,24 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from decimal import ROUND_DOWN, ROUND_HALF_UP, Decimal
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from formualizer import Workbook
 
 
-def _decimal(value: float, digits: float, rounding: str) -> float:
+def _decimal(value: float, digits: float = 0.0, *, rounding: str) -> float:
     # A spreadsheet rounds the decimal number that it shows, halves away from zero.
     unit = Decimal(1).scaleb(-int(digits))
     return float((Decimal(f"{value:.15g}") / unit).quantize(Decimal(1), rounding) * unit)
-
-
-def _round(value: float, digits: float) -> float:
-    return _decimal(value, digits, ROUND_HALF_UP)
-
-
-def _trunc(value: float, digits: float = 0.0) -> float:
-    return _decimal(value, digits, ROUND_DOWN)
 
 
 def _log(value: float, base: float = 10.0) -> float:
@@ -54,7 +47,8 @@ _FUNCTIONS: dict[str, tuple[Callable[..., Any], int, int]] = {
     "SQRT": (math.sqrt, 1, 1), "ASIN": (math.asin, 1, 1), "ACOS": (math.acos, 1, 1),
     "ATAN": (math.atan, 1, 1), "EXP": (math.exp, 1, 1), "LN": (math.log, 1, 1),
     "LOG": (_log, 1, 2), "LOG10": (math.log10, 1, 1), "INT": (math.floor, 1, 1),
-    "TRUNC": (_trunc, 1, 2), "SIGN": (_sign, 1, 1), "ROUND": (_round, 2, 2),
+    "TRUNC": (partial(_decimal, rounding=ROUND_DOWN), 1, 2), "SIGN": (_sign, 1, 1),
+    "ROUND": (partial(_decimal, rounding=ROUND_HALF_UP), 2, 2),
     "POWER": (math.pow, 2, 2), "MOD": (_mod, 2, 2), "NOT": (lambda value: not value, 1, 1),
     "CEILING": (_ceiling, 1, 2), "FLOOR": (_floor, 1, 2),
 }  # fmt: skip

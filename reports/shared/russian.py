@@ -9,12 +9,15 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from decimal import ROUND_HALF_UP, Context, Decimal
 
 from kshm.nomenclature.digits import Digits
 
 MINUS = "\u2212"
 NBSP = "\u00a0"
 _GROUP_FROM = 5
+_SPREADSHEET = 15  # significant digits that Excel rounds by
+_ROUNDING = Context(prec=400, rounding=ROUND_HALF_UP)
 _ALONE = 4  # letters of a word that looks lost in a line of its own
 _ZEROS = 6  # of a round number that nobody counts any more
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -36,6 +39,8 @@ def short(value: float, digits: int = 6) -> str:
 def fixed(value: float, digits: int = 2, *, group: bool = True) -> str:
     """Write a number with a given count of decimals: ``−12 345,60``.
 
+    Halves go up as spreadsheets show them, by fifteen digits: 4.335 is a binary 4.33499…
+
     Args:
         value: The number; numpy scalars are welcome.
         digits: Decimals after the comma, 0 or more.
@@ -48,7 +53,8 @@ def fixed(value: float, digits: int = 2, *, group: bool = True) -> str:
         raise ValueError(f"Число для печати не конечно: {value!r}")
     if digits < 0:
         raise ValueError(f"Число знаков после запятой отрицательно: {digits}")
-    text = f"{abs(value):.{digits}f}"
+    exact = Decimal(f"{abs(value):.{_SPREADSHEET}g}")
+    text = f"{exact.quantize(Decimal((0, (1,), -digits)), context=_ROUNDING):f}"
     whole, _, part = text.partition(".")
     negative = value < 0 and text.strip("0.") != ""
     if group:
@@ -77,14 +83,18 @@ def mantissa(value: float, decimals: int) -> tuple[str, int]:
     return fixed(float(text), decimals), int(exponent)
 
 
-def written(value: float, digits: Digits, *, more: int = 0) -> str:
-    """A value of a quantity as plain text; ``more`` decimals than it is printed with."""
+def written(value: float, digits: Digits, *, more: int | None = None, group: bool = False) -> str:
+    """A value of a quantity as plain text; ``more`` decimals than cells show it with."""
     if digits.hides == "zeros" and value == 0:
         return ""
     if digits.kind == "scientific":
-        text, exponent = mantissa(value, digits.decimals + more)
+        text, exponent = mantissa(value, digits.decimals + (more or 0))
         return f"{text}·10{str(exponent).translate(_RAISED)}" if exponent else text
-    return fixed(value, digits.decimals + more, group=False)
+    if more is not None:
+        return fixed(value, digits.decimals + more, group=group)
+    shown = digits.within(value)
+    whole = round(value, -shown.zeros) if shown.zeros else value
+    return fixed(whole, shown.decimals, group=group)
 
 
 def last_bound(text: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -155,10 +156,8 @@ def path(canvas: Canvas, room: Room, terms: Terms, chart: ChartSpec) -> None:
     for px, py, name in poles:
         place = (origin[0] + across.at(signs[0] * px), origin[1] + up.at(signs[1] * py))
         canvas.circle(place, 1.2, layer=CONTOUR)
-        near = [
-            (place[0] + dx, place[1] + dy) for dx, dy in ((2, 1.5), (2, -5), (-8, 1.5), (-8, -5))
-        ]
-        canvas.words_where_free(near, name, 5.0, frame)
+        near = _beside(place, name, TEXT, (45, 135, -45, -135, 90, -90))
+        canvas.words_where_free(near, name, TEXT, frame)
     _angles(canvas, terms, drawn, (origin, across, up, signs), frame)
 
 
@@ -212,13 +211,22 @@ def _angles(
             if row in said:
                 continue
             (x, y), text = points[row], f"{fixed(rows[row], 0)}°"
-            out = np.subtract(points[row], centre)
-            dx, dy = (out / (np.hypot(*out) or 1.0)).tolist()
-            half = width_of(text, 2.5) / 2
-            places = [(x + dx * (r + half) - half, y + dy * r - 1.2) for r in (2.5, 5, 8)]
-            if canvas.words_where_free(places, text, 2.5, frame):
+            away = math.degrees(math.atan2(x - centre[0], y - centre[1]))
+            turns = [away + aside for aside in (0, 180, 45, -45, 90, -90)]
+            places = _beside((x, y), text, 2.5, turns)
+            if canvas.words_where_free(places, text, 2.5, frame, crossed=False):
                 canvas.circle((x, y), 0.5, layer=THIN, filled=True)
                 said.add(row)
+
+
+def _beside(point: Point, text: str, height: float, turns: Sequence[float]) -> list[Point]:
+    """Places of a text around a point, the near ones first; angles clockwise from above [deg]."""
+    half = width_of(text, height) / 2
+    ways = [(math.sin(math.radians(turn)), math.cos(math.radians(turn))) for turn in turns]
+    return [
+        (point[0] + across * (far + half) - half, point[1] + up * far - height / 2)
+        for far in (2.5, 5, 8) for across, up in ways
+    ]  # fmt: skip
 
 
 def wear(canvas: Canvas, room: Room, terms: Terms, chart: ChartSpec) -> None:

@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from reports.document.text.terms import Terms
+from reports.document.text.terms import Terms, plain_number
 from reports.drawing.lettering import fitted
 from reports.drawing.primitives import AXES, CONTOUR, SIZES, THIN, Canvas, Point, polar
 from reports.inputs.firing import order_text
-from reports.shared.russian import fixed
 from reports.sheet.cell import TEXT, Room, headed
 from reports.spec.shape import Shape
 
@@ -112,7 +111,8 @@ def balance(canvas: Canvas, room: Room, terms: Terms) -> None:
         if any(web.counterweight_kg for web in pair):
             low = y - up * 0.35 * (side.height / 2 - 10)
             canvas.box(place[0] - 4, min(low, y - up * 4), place[0] + 4, max(low, y - up * 4), THIN)
-    mass = ", ".join(sorted({fixed(web.counterweight_kg, 3) for web in shaft.webs}))
+    masses = sorted(web.counterweight_kg for web in shaft.webs)
+    mass = "; ".join(dict.fromkeys(map(plain_number, masses)))
     said = f"Kr = {terms.num('K_r')} кН; приведённая масса противовеса щеки {mass} кг"
     height = fitted(said, room.width, TEXT)
     canvas.words((room.middle[0], room.low + 1), said, height, align=0.5)

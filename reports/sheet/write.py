@@ -37,9 +37,6 @@ def sheet_files(model: Model, values: Values) -> dict[str, bytes]:
         InputError: the sheet cannot hold what was picked.
         SystemPartMissing: pango is not on this machine.
     """
-    from reports.shared.doctor import need_pango
-
-    need_pango()
     terms = Terms(model, values, fine_columns(model.input))
     canvas, width, height = sheet_items(terms)
     return {

@@ -133,11 +133,6 @@ _D50 = 19.2  # specific imbalance of the Д-50 [kg/m]: 192 gf·cm/cm²
 _RPM = np.pi / 30
 
 
-def _second_of_unit() -> float:
-    """Second-order coefficient of the torque of one mass over m r²ω²."""
-    return torque_harmonics.inertia_coefficients(0.25)[1]
-
-
 def _gas_second() -> float:
     """t_г2 that ψ = 0.4 at 1630 min⁻¹ implies [Pa]; the paper's curve is not printed."""
     return float((1 - 0.4) * torque_harmonics.inertia_second(_D50, np.array(1630 * _RPM)))
@@ -152,11 +147,6 @@ def _full_helps_from() -> float:
     return float(rpm[helps][0])
 
 
-def _offset_share() -> float:
-    """h/(ψL) of the two shafts."""
-    return torque_harmonics.shaft_offset(0.5, 0.2) / (0.5 * 0.2)
-
-
 def _shaft_share() -> float:
     """Force of one shaft over 0.5·λ m_j r ω² of one cylinder."""
     solved = solution("d-240")
@@ -166,11 +156,13 @@ def _shaft_share() -> float:
 
 
 CHUDAKOV: dict[str, Number] = {
-    "inertia_second": _second_of_unit,
+    # Second-order coefficient of the torque of one mass over m r²ω².
+    "inertia_second": lambda: torque_harmonics.inertia_coefficients(0.25)[1],
     "gamma_inertia": lambda: solution("d-240").scalars["gamma_inertia2_deg"],
     "gamma_gas": lambda: solution("d-240").scalars["gamma_gas2_deg"],
     "shaft_force": _shaft_share,
-    "shaft_offset": _offset_share,
+    # h/(ψL) of the two shafts.
+    "shaft_offset": lambda: torque_harmonics.shaft_offset(0.5, 0.2) / (0.5 * 0.2),
     "psi_1630": lambda: UNKNOWN,
     "speed_helps": _full_helps_from,
 }

@@ -9,7 +9,7 @@ from typing import Literal
 from markupsafe import Markup
 
 from reports.document.page.blocks import Column, DocumentInfo, TableBlock, table_block
-from reports.document.page.numbering import Heading, Label, Numbering
+from reports.document.page.numbering import Draft, Heading, Label
 from reports.document.text.texts import rich, spaces_inside
 from reports.shared.russian import capital
 from reports.validation import shown
@@ -60,10 +60,9 @@ class _Setter:
     """Numbers headings and tables in the order in which they are made."""
 
     def __init__(self) -> None:
-        self.numbering = Numbering()
+        self.numbering = Draft()
 
     def place(self, key: str, block: TableBlock, caption: str, size: str = "dense") -> Placed:
-        self.numbering.declare("table", key)
         return Placed(block, self.numbering.place("table", key), caption, size)
 
     def chapter(self, source: str, book: Book) -> Chapter:
@@ -112,20 +111,6 @@ def validation_page(book: Book, *, media: Literal["print", "screen"]) -> str:
         words=WORDS,
     )  # fmt: skip
     return spaces_inside(page)
-
-
-def validation_pdf(book: Book) -> bytes:
-    """The page as PDF.
-
-    Raises:
-        SystemPartMissing: pango is not on this machine.
-        RenderError: the page could not be set as the template says.
-    """
-    from reports.document.page.render import render_pdf
-    from reports.shared.doctor import need_pango
-
-    need_pango()
-    return render_pdf(validation_page(book, media="print"))
 
 
 def count_cells(counts: Counts) -> list[str]:

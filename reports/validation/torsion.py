@@ -12,10 +12,6 @@ from reports.validation.gots_text import Number
 from reports.validation.runs import solution
 
 
-def _discs() -> Modes:
-    return modes_of(Train(np.array([211.4, 8.3]), np.array([9.775e6])))
-
-
 @lru_cache(maxsize=1)
 def _mwm() -> Modes:
     engine = solution("mwm-6").engine
@@ -29,6 +25,6 @@ def _frequency(number: int) -> float:
 
 
 DISCS: dict[str, Number] = {
-    "first": lambda: float(_discs().hertz[0]),
+    "first": lambda: float(modes_of(Train(np.array([211.4, 8.3]), np.array([9.775e6]))).hertz[0]),
 }
 MWM: dict[str, Number] = {f"f{number}": partial(_frequency, number) for number in range(1, 9)}

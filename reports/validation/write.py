@@ -5,12 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Literal
 
+from reports.document.page.render import render_pdf
 from reports.shared.errors import SystemPartMissing
 from reports.shared.files import make_dir, write_bytes, write_text
 from reports.shared.progress import Progress
 from reports.validation.book import Book, validate
 from reports.validation.listing import listing
-from reports.validation.page import validation_page, validation_pdf
+from reports.validation.page import validation_page
 
 Kind = Literal["csv", "html", "pdf"]
 KINDS: tuple[Kind, ...] = ("csv", "html", "pdf")
@@ -39,7 +40,7 @@ def write(folder: Path, kinds: tuple[Kind, ...]) -> tuple[Book, list[Path], str]
             else:
                 progress.step("Книга сверки PDF")
                 try:
-                    write_bytes(target, validation_pdf(book))
+                    write_bytes(target, render_pdf(validation_page(book, media="print")))
                 except SystemPartMissing as error:
                     missing = "\n".join(error.lines())
                     continue

@@ -131,7 +131,7 @@ def _widen(sheet: Worksheet, blocks: Sequence[Block], layout: Layout, values: Va
     longest: dict[int, int] = {}
 
     def hold(column: int, number: float, quantity: Quantity) -> None:
-        letters = len(written(number, quantity.digits)) if isfinite(number) else 0
+        letters = len(written(number, quantity.digits, more=0)) if isfinite(number) else 0
         longest[column] = max(longest.get(column, 0), letters)
 
     for block in blocks:

@@ -49,8 +49,9 @@ def main(words: list[str]) -> int:
 
 def _copied(folder: Path) -> Path:
     tracked = subprocess.run(
-        ["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, check=True, text=True
-    ).stdout
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        cwd=ROOT, capture_output=True, check=True, text=True,
+    ).stdout  # fmt: skip
     for name in filter(None, tracked.split("\0")):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(ROOT / name, folder / name)
@@ -58,7 +59,11 @@ def _copied(folder: Path) -> Path:
 
 
 def _is_seen(one: Break, copy: Path) -> bool:
-    """Whether a test fails; a run that finds no tests is not one that sees anything."""
+    """Whether a test fails.
+
+    Raises:
+        RuntimeError: the tests did not run.
+    """
     path = copy / one.file
     whole = path.read_text(encoding="utf-8")
     path.write_text(whole.replace(one.stands, one.put), encoding="utf-8")
@@ -71,6 +76,8 @@ def _is_seen(one: Break, copy: Path) -> bool:
         )  # fmt: skip
     finally:
         path.write_text(whole, encoding="utf-8")
+    if ended.returncode > 1:
+        raise RuntimeError(f"{one.about}: {one.tests} did not run:\n{ended.stdout.decode()}")
     return ended.returncode == 1
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import re
 import zipfile
+from dataclasses import replace
 
 import openpyxl
 import pytest
@@ -16,7 +17,15 @@ from kshm.nomenclature.quantity import quantity
 from reports.cli import main
 from reports.comparison.book import CURVES, DATA, FIGURES, RESULTS, book_bytes
 from reports.comparison.conclusions import conclusions, spread
-from reports.comparison.engines import Row, charts, differences, labels, read_engines, results
+from reports.comparison.engines import (
+    Row,
+    apart,
+    charts,
+    differences,
+    labels,
+    read_engines,
+    results,
+)
 from reports.comparison.page import comparison_page, results_block
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_text, load_toml
@@ -24,6 +33,7 @@ from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.resources import samples_dir
 from reports.shared.russian import capital
 from tests.conftest import sample
+from tests.document.bare_pages import plain
 from tests.referee.compare import differences_from_caches, errors_in
 from tests.workbook.lint import chart_problems
 from tools.referees.by_formualizer import Formualizer
@@ -243,7 +253,7 @@ def test_each_engine_has_its_own_decimals_and_no_change_is_told_in_millions_of_p
     moment = Row("", "M_max", "М", "", quantity("M_max"), (17.26, 881857.0, 16.0), (2, -3, 2))
     (line,) = results_block(("А", "Б", "В"), [moment]).rows
     texts = [str(cell).replace("\u00a0", " ") for cell in line[1:]]
-    assert texts == ["17,26", "881 857<br>(× 51 100)", "16,00<br>(−7,3 %)"]
+    assert texts == ["17,26", "881 900<br>(× 51 100)", "16,00<br>(−7,3 %)"]
 
 
 def test_nothing_is_concluded_where_an_engine_has_no_value():
@@ -297,3 +307,27 @@ def test_data_of_a_regime_are_said_to_be_of_it():
     assert "polytropic" not in words
     (speed,) = (d for d in found if d.title == "Режим 2: частота вращения")
     assert speed.values == (None, 2400)
+
+
+def test_what_one_engine_alone_has_is_named_in_a_sentence_and_no_row_of_dashes():
+    found = engines(("d-240", "d-240-bearings", "gots-regimes"))
+    names = [engine.label for engine in found]
+    shown, said = apart(differences(found), names)
+    assert "подшипники и прочность шеек" in said and "газы режима 3" in said
+    for row in (*shown, *apart(results(found), names)[0]):
+        known = [value for value in row.values if value is not None]
+        assert len(known) == len(names) or len(set(known)) > 1, row.title
+    page = plain(comparison_page(found, media="screen"))
+    assert said.replace("\u00a0", " ") in page.replace("\u00a0", " ")
+    sheet = openpyxl.load_workbook(io.BytesIO(book_bytes(found)))[DATA]
+    assert said in [cell.value for cell in sheet["A"]]
+    assert apart(differences(found[:1] * 2), names[:2]) == ([], "")
+
+
+def test_results_that_one_engine_alone_has_are_named_by_their_group():
+    pair = [
+        Row("Уравновешенность", key, key, "", quantity("F1_after_max"), (1.0, None)) for key in "ab"
+    ]
+    assert apart(pair, ("А", "Б")) == ([], "Есть не у всех: А — уравновешенность.")
+    shown, said = apart([*pair, replace(pair[0], key="c", values=(1.0, 2.0))], ("А", "Б"))
+    assert [row.key for row in shown] == ["c"] and said == "Есть не у всех: А — a, b."

@@ -8,7 +8,16 @@ from hypothesis import strategies as st
 from kshm.nomenclature.digits import Digits, scientific
 from reports.document.text import numbers
 from reports.formula.tex import input_symbol_tex, number_tex
-from reports.shared.russian import MINUS, NBSP, fixed, last_bound, runs, surname
+from reports.shared.russian import (
+    MINUS,
+    NBSP,
+    fixed,
+    last_bound,
+    runs,
+    short,
+    surname,
+    written,
+)
 
 
 @pytest.mark.parametrize(
@@ -23,6 +32,10 @@ from reports.shared.russian import MINUS, NBSP, fixed, last_bound, runs, surname
         (-1234567.891, 2, f"{MINUS}1{NBSP}234{NBSP}567,89"),
         (99999.5, 0, f"100{NBSP}000"),
         (np.float64(2.5), 1, "2,5"),
+        (4.335, 2, "4,34"),  # as the cell of the workbook shows it
+        (2 * 0.4335 * 5 * np.pi / np.pi, 2, "4,34"),
+        (-0.125, 2, MINUS + "0,13"),
+        (1e25, 2, f"10{NBSP}000{NBSP}000{NBSP}000{NBSP}000{NBSP}000{NBSP}000{NBSP}000{NBSP}000,00"),
     ],
 )
 def test_fixed(value, digits, text):
@@ -41,6 +54,29 @@ def test_not_finite_is_refused(value):
 def test_negative_digits_are_refused():
     with pytest.raises(ValueError, match="отрицательно"):
         fixed(1.0, -1)
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "text"),
+    [
+        (389.3234, Digits(4), "389,32"),
+        (26.0218, Digits(4), "26,022"),
+        (0.0123456, Digits(6), "0,012346"),
+        (99999.6, Digits(1), "100\u00a0000"),
+        (450101.4, Digits(0), "450\u00a0101"),  # a whole number stays whole: a firing order is one
+        (450151.4, Digits(0, zeros=2), "450\u00a0200"),
+        (278684.2, Digits(1, measured=True), "278\u00a0680"),
+        (-3.0, Digits(0, zeros=1), "0"),
+    ],
+)
+def test_print_has_no_more_than_five_digits(value, digits, text):
+    assert numbers.of_digits(value, digits) == text
+    assert numbers.of_digits_tex(value, digits) == text.replace(",", "{,}").replace("\u00a0", r"\,")
+
+
+def test_cells_and_feedback_keep_all_decimals():
+    assert written(1234.5678, Digits(3), more=0) == "1234,568"
+    assert written(450151.4, Digits(0, zeros=2), more=1) == "450151,4"
 
 
 def test_significant():
@@ -66,7 +102,7 @@ def test_powers_of_ten(value, html, tex):
 
 
 def test_tex_of_groups_and_minus():
-    assert numbers.of_digits_tex(-12345.6, Digits(1)) == r"-12\,345{,}6"
+    assert numbers.of_digits_tex(-12345.6, Digits(1)) == r"-12\,346"
 
 
 def test_zeros_that_are_left_blank():
@@ -143,3 +179,9 @@ def test_a_surname_is_told_by_initials_or_a_patronymic(name, told):
 )
 def test_a_short_last_word_does_not_stand_alone(text, said):
     assert last_bound(text) == said
+
+
+def test_short_numbers_have_the_comma_and_the_minus_of_print():
+    assert [short(value, 4) for value in (-0.5, 20000.0, -1234.56)] == [
+        f"{MINUS}0,5", "20000", f"{MINUS}1235",
+    ]  # fmt: skip

@@ -1,3 +1,5 @@
+import re
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -7,6 +9,7 @@ from reports.document.page.render import render
 from reports.document.text import fonts, texts
 from reports.document.text.fonts import fonts_css
 from reports.shared import signs
+from reports.shared.resources import templates_dir
 from tests.document.pdftools import pages_of
 
 
@@ -124,3 +127,17 @@ def test_no_line_ends_before_a_dash_a_sign_a_unit_or_a_reference(text, said):
 )
 def test_no_line_ends_within_an_ordinal_or_a_relation(text, said):
     assert texts.rich(text) == said
+
+
+def test_short_words_are_divided_too_before_a_line_is_stretched(tmp_path):
+    """Russian print leaves two letters behind: «ре-жиме», «ча-стоте», «шату-на»."""
+    sheet = (templates_dir() / "report" / "report.css.j2").read_text(encoding="utf-8")
+    limit = re.search(r"hyphenate-limit-chars:[^;]+;", sheet)[0]
+    css = f"html{{font:14pt STIXGeneral;hyphens:auto;{limit}}}p{{margin:0}}@page{{margin:0}}"
+    text = "на установившемся режиме частота равна"
+    body = "".join(f'<p style="width:{width}px">{text}</p>' for width in range(190, 240))
+    page = (
+        f'<html lang="ru"><head><style>{fonts_css()}{css}</style></head><body>{body}</body></html>'
+    )
+    lines = "".join(pages_of(render(page).pdf, tmp_path)).splitlines()
+    assert any(line.strip().endswith(("ре‐", "ре-")) for line in lines)

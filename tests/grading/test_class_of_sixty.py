@@ -32,18 +32,18 @@ FORMS_OF_EACH = 2
 COUNT = FORMS_OF_EACH * len(DEFECTS)
 
 
-def plan() -> list[tuple[Defect, str]]:
-    """Each defect in two of the three forms."""
+def plan() -> list[tuple[int, Defect, str]]:
+    """Each defect is a student's, who hands it in in two of the three forms."""
     found = []
     for index, defect in enumerate(DEFECTS):
         forms = [form for form in FORMS[index % 3 :] + FORMS[: index % 3] if form in defect.forms]
-        found += [(defect, form) for form in forms[:FORMS_OF_EACH]]
+        found += [(index + 1, defect, form) for form in forms[:FORMS_OF_EACH]]
     return found
 
 
 @lru_cache(maxsize=1)
 def classroom() -> Register:
-    return registered(Path(mkdtemp(prefix="kshm-sixty-")), COUNT, RUBRIC)
+    return registered(Path(mkdtemp(prefix="kshm-sixty-")), len(DEFECTS), RUBRIC)
 
 
 @lru_cache(maxsize=64)
@@ -91,8 +91,8 @@ def book_of(number: int, defect: Defect) -> bytes:
     assignment = assignment_of_book(number)
     layout = Layout.of(assignment.model)
     values = evaluate_model(assignment.model)
-    # The first ones as the files that are handed out, with their charts.
-    empty = (handout_bytes if number <= FORMS_OF_EACH else opened)(assignment, issued.ticket)
+    # The first one as the file that is handed out, with its charts.
+    empty = (handout_bytes if number == 1 else opened)(assignment, issued.ticket)
     formulas = solved_formulas(assignment, layout)
     changes = defect.change(formulas, values, assignment)
 
@@ -108,20 +108,22 @@ def book_of(number: int, defect: Defect) -> bytes:
 
 
 def graded_class(libreoffice: LibreOffice):
-    """Number of the student → defect, form and result."""
+    """Number of the student and form → defect, result and file."""
     register = classroom()
-    pairs = plan()
-    assert len(pairs) == COUNT == len(register.books) == 60
-    books = {number: book_of(number, defect) for number, (defect, _) in enumerate(pairs, 1)}
-    office = [number for number, (_, form) in enumerate(pairs, 1) if form == "office"]
-    saved = libreoffice.converted([books[number] for number in office])
-    books |= dict(zip(office, saved, strict=True))
+    works = plan()
+    assert len(works) == COUNT == FORMS_OF_EACH * len(register.books) == 60
+    books = {number: book_of(number, defect) for number, defect in enumerate(DEFECTS, 1)}
+    office = [number for number, _, form in works if form == "office"]
+    saved = dict(
+        zip(office, libreoffice.converted([books[number] for number in office]), strict=True)
+    )
     marker = Marker(register)
     found = {}
-    for number, (defect, form) in enumerate(pairs, 1):
+    for number, defect, form in works:
         data = as_excel(books[number]) if form == "excel" else books[number]
+        data = saved[number] if form == "office" else data
         submission = Submission(f"работа {number}.xlsx", Path("x"), None, None)
-        found[number] = defect, form, marker.mark(submission, data), data
+        found[number, form] = defect, marker.mark(submission, data), data
     return found
 
 
@@ -136,7 +138,7 @@ def test_a_class_of_sixty(libreoffice: LibreOffice):
 
 def check_the_table_of_verdicts_holds_exactly(results):
     wrong = []
-    for number, (defect, form, result, _) in results.items():
+    for (number, form), (defect, result, _) in results.items():
         where = f"{number} {defect.name} ({form})"
         if result["status"] != "graded" or result["number"] != number:
             wrong.append((where, result["status"], result.get("reason"), result["manual"]))
@@ -162,7 +164,7 @@ def check_the_table_of_verdicts_holds_exactly(results):
 
 
 def check_a_wrong_omega_costs_one_item(results):
-    for defect, _, result, _ in results.values():
+    for defect, result, _ in results.values():
         if defect.name == "omega":
             lines = result["items"]
             verdicts = {line["id"]: line["verdict"] for line in lines}
@@ -172,7 +174,7 @@ def check_a_wrong_omega_costs_one_item(results):
 
 
 def check_what_was_moved_or_changed_is_told(results):
-    for defect, form, result, _ in results.values():
+    for (_, form), (defect, result, _) in results.items():
         told = " ".join([*result["moved"], *result["notes"]])
         if defect.note:
             assert defect.note in told, (defect.name, form, told)
@@ -183,7 +185,7 @@ def check_what_was_moved_or_changed_is_told(results):
 
 def check_a_saved_value_that_was_altered_is_reported(results):
     register = classroom()
-    for defect, form, _, data in results.values():
+    for (_, form), (defect, _, data) in results.items():
         if defect.name == "right" and form != "own":
             changed = tampered(data, "П3.1", "E9")
             submission = Submission("a.xlsx", Path("a"), None, None)

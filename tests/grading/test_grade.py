@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 
+from reports.grading.batch import grade as room
 from reports.grading.batch.grade import Options, decide, grade
 from reports.grading.issuing.rubric import rubric_of
 from reports.grading.judging.marking import late_factor
@@ -22,6 +23,11 @@ from tests.grading import classroom
 from tests.grading.fill import filled_book
 
 ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(autouse=True)
+def _by_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(room, "grade_all", classroom.graded_here)
 
 
 def right(number: int) -> bytes:

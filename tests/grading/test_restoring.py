@@ -13,14 +13,13 @@ from reports.grading.issuing.handout import fill_cells
 from reports.grading.issuing.rubric import rubric_of
 from reports.grading.reading.restoring import _filled_down, own_formulas
 from reports.recalculation.formulas import formula_at
-from reports.tables.registry import build_model
 from reports.workbook.layout import _ROW, Cell, Layout
 from reports.workbook.write import workbook_bytes
-from tests.conftest import sample
+from tests.workbook.made import coarse_model
 
 
 def everything(name: str) -> Assignment:
-    made = assignment_of(build_model(sample(name)), rubric_of({"work": {"fill": ["*"]}}, "r"))
+    made = assignment_of(coarse_model(name), rubric_of({"work": {"fill": ["*"]}}, "r"))
     return replace(made, given=())
 
 

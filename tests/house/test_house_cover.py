@@ -13,6 +13,7 @@ from tests.cover import (
     covering,
     formulas,
     held,
+    operations,
     quantities,
     smallest,
 )
@@ -23,9 +24,9 @@ SAMPLES, LAYOUTS = tuple(sample_names()), tuple(MAKERS)
 
 @pytest.mark.parametrize(
     ("kind", "names"),
-    [(kind, SAMPLES) for kind in (quantities, charts, chapters, choices)]
+    [(kind, SAMPLES) for kind in (quantities, charts, chapters, choices, operations)]
     + [(formulas, SAMPLES + LAYOUTS)],
-    ids=["quantities", "charts", "chapters", "choices", "formulas"],
+    ids=["quantities", "charts", "chapters", "choices", "operations", "formulas"],
 )
 def test_nothing_is_left_out_and_nobody_is_needless(kind: Kind, names: tuple[str, ...]) -> None:
     def together(some: list[str]) -> set[tuple]:
@@ -45,6 +46,7 @@ def test_every_table_function_chart_and_chapter_counts() -> None:
         assert len(held(name, charts)) > 50 and len(held(name, chapters)) > 10
     assert {("function", "element"), ("block", "P#_#")} <= held("gots-diesel", quantities)
     assert {("section", "torsion"), ("chapter", "torsion")} <= held("mwm-6", chapters)
+    assert {"element", "sqrt", "wave_cos"} <= {name for _, name, _ in held("mwm-6", operations)}
 
 
 def test_what_is_new_joins_by_itself() -> None:

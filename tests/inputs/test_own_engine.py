@@ -315,3 +315,12 @@ def test_the_note_at_the_bore_tells_this_engines_piston_speed(options):
     made = own_engine(4, **options)
     speed = made.data["geometry"]["stroke_mm"] * made.data["regime"]["speed_rpm"] / 30000
     assert f"Sn/30 ≈ {number_text(round(speed, 1))} м/с" in made.notes["geometry.bore_mm"]
+
+
+def test_masses_of_a_large_engine_grow_with_its_bore():
+    """Table 4 is of engines up to about 150 mm; beyond it alike engines weigh as D³."""
+    small, large = (
+        table_masses("inline", "diesel", bore, 1.1 * bore)[0]["piston_group_kg"]
+        for bore in (150.0, 300.0)
+    )
+    assert large / small == pytest.approx(8, rel=0.01)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from tests.cover import examples
 from tests.robustness.command import leftovers, small_input, started
 
-COUNT = 20
+COUNT = examples(10, 20)
 
 
-def test_twenty_commands_in_one_folder(tmp_path):
+def test_many_commands_in_one_folder(tmp_path):
     out, alone = tmp_path / "out", tmp_path / "alone"
     sources = [small_input(tmp_path, name) for name in ("a", "b")]
     first = started("solve", sources[0], "--csv", alone, "--json", alone / "a.json")

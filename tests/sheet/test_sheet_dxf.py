@@ -25,7 +25,7 @@ from reports.inputs.own_engine import own_engine
 from reports.inputs.own_file import file_text
 from reports.sheet.layout import sheet_items
 from reports.sheet.write import _throws, sheet_files
-from tests.cover import chapters, charts, samples_with
+from tests.cover import chapters, charts, examples, samples_with
 from tests.sheet.sheet_samples import drawn, terms, terms_of
 from tests.sheet.test_sheet_places import faults
 
@@ -128,7 +128,7 @@ def test_every_curve_lies_where_the_table_says(name):
     assert check_curves(terms(name)) > 400
 
 
-@settings(max_examples=20)
+@settings(max_examples=examples(8, 20))
 @given(
     cylinders=st.integers(1, 12), layout=st.sampled_from(["inline", "v", "opposed"]),
     strokes=st.sampled_from([4, 2]), kind=st.sampled_from(["petrol", "diesel"]),

@@ -87,6 +87,7 @@ def test_the_place_of_an_oil_hole_is_the_reports():
     canvas, *_ = drawn(model)
     said = [item.text for item in canvas.items if isinstance(item, Words)]
     assert any(text.endswith(f"отверстие {model.num('hole_pin_deg')}°") for text in said)
+    assert any(text.endswith("противовеса щеки 0; 2,4 кг") for text in said)  # as given
 
 
 def test_running_on_torques_of_a_small_engine_are_not_rounded_to_nothing() -> None:
@@ -127,3 +128,14 @@ def test_forces_of_the_throws_point_away_from_the_axis():
     assert second != t.num("balance_orders.F_order_kN", 1.0)
     words = [item.text for item in canvas.items if isinstance(item, Words)]
     assert any(f"до балансирных валов: сила {second} кН" in text for text in words)
+
+
+@pytest.mark.parametrize("name", ["yamz-236", "vw-1600"])
+def test_no_curve_runs_through_an_angle_of_a_polar_diagram(name):
+    canvas, *_ = drawn(terms(name))
+    (curve,) = (i for i in canvas.items if getattr(i, "name", "").startswith("fig50"))
+    angles = [i for i in canvas.items if isinstance(i, Words) and i.text.endswith("°")]
+    near = [w.box for w in angles if w.height == 2.5]
+    assert len(near) >= 6
+    for left, low, right, high in near:
+        assert not any(left < x < right and low < y < high for x, y in curve.points)

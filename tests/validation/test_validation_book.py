@@ -11,6 +11,7 @@ import pytest
 from click.testing import CliRunner
 
 from reports import cli
+from reports.document.page.render import render_pdf
 from reports.shared.resources import validation_dir
 from reports.validation import checks, write
 from reports.validation.book import WORDS, Book, Checked, validate
@@ -131,11 +132,9 @@ def test_the_page_fits_a_phone_and_a_screen(page: str, width: int, tmp_path: Pat
 
 
 def test_pdf_of_a_few_tables(tmp_path: Path) -> None:
-    from reports.validation.page import validation_pdf
-
-    made = validation_pdf(small())
+    made = render_pdf(validation_page(small(), media="print"))
     assert made.startswith(b"%PDF")
-    assert validation_pdf(small()) == made
+    assert render_pdf(validation_page(small(), media="print")) == made
     text = " ".join(pages_of(made, tmp_path))
     for word in ("Книга сверки", "опечатка", "75°10′", "2°52,0′", "0,381"):
         assert word.casefold() in text.casefold(), word

@@ -129,25 +129,27 @@ def test_every_fields_error_is_shown_at_the_field(page: Any) -> None:
     until(page, "kshm.last.charts.length === 1")
     # Nor is it painted: two hundred pictures of the results are not looked at.
     page.evaluate("document.getElementById('results').style.display = 'none'")
+    # All at once, as all errors are told at once: a field that stays silent is found all the same.
     silent = page.evaluate(r"""async () => {
-        const silent = [];
-        const inputs = [...document.querySelectorAll("#fields .field input[inputmode]")]
-            .filter(({id}) => !/[[](?!1[\]])/.test(id)); // of lists the first entry
-        for (const {id} of inputs) {
-            const input = () => document.getElementById(id), was = input().value;
-            const type = async text => {
-                input().value = text;
-                input().dispatchEvent(new Event("input"));
-                do await new Promise(done => setTimeout(done, 5)); while (kshm.running);
-            };
-            await type("abc");
+        const ids = [...document.querySelectorAll("#fields .field input[inputmode]")]
+            .map(({id}) => id).filter(id => !/[[](?!1[\]])/.test(id)); // of lists the first entry
+        const was = ids.map(id => document.getElementById(id).value);
+        const type = async texts => {
+            ids.forEach((id, i) => {
+                const input = document.getElementById(id);
+                input.value = texts[i];
+                input.dispatchEvent(new Event("input"));
+            });
+            do await new Promise(done => setTimeout(done, 300)); while (kshm.running);
+        };
+        await type(ids.map(() => "abc"));
+        const silent = ids.filter(id => {
             const error = document.getElementById(id.replace("f-", "e-")).querySelector(".error");
-            const marked = input().getAttribute("aria-invalid") === "true";
-            if (!error?.textContent || !marked) silent.push(id);
-            type(was);
-        }
-        await new Promise(done => setTimeout(done, 300));
-        return [inputs.length, silent];
+            const input = document.getElementById(id);
+            return !error?.textContent || input.getAttribute("aria-invalid") !== "true";
+        });
+        await type(was);
+        return [ids.length, silent];
     }""")
     assert silent[0] > 60 and silent[1] == []
     assert not page.locator(".error").count()
@@ -290,7 +292,7 @@ def test_an_own_engine_by_the_keyboard_alone_to_workbook_and_pdf(
     tab_to(page, "#upload")  # its dialog is the browser's own
     page.set_input_files("#upload", tmp_path / "edited.xlsx")
     until(page, "kshm.raw.geometry.bore_mm === 91.25 && !kshm.running")
-    assert taken(page, "pdf", "engine.pdf") != pdf
+    assert "91,25" in taken(page, "html", "engine.html").decode()
     tab_to(page, "#undo")
     page.keyboard.press("Enter")
     until(page, "kshm.raw.geometry.bore_mm < 90 && !kshm.running")

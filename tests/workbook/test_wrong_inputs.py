@@ -16,7 +16,6 @@ from reports.inputs.fields import Field, key_text, set_value, to_mapping
 from reports.inputs.load import load_mapping
 from reports.shared.errors import InputError
 from reports.shared.russian import capital, uncapital
-from reports.spec.evaluation import evaluate_model
 from reports.tables.overview.summary import NO, YES
 from reports.tables.registry import build_model
 from reports.workbook.inputs import options, shown
@@ -27,7 +26,15 @@ from reports.workbook.what_if import SHEET
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample, sample_names
 from tests.referee.changes import without_charts
-from tests.workbook.made import book, coarse, coarse_model, coarse_opened, coarse_values, model
+from tests.workbook.made import (
+    book,
+    coarse,
+    coarse_book,
+    coarse_model,
+    coarse_opened,
+    coarse_values,
+    model,
+)
 from tools.referees.cells import formula_cells, row_and_column, stripped
 
 NAME = "two-stroke"
@@ -66,14 +73,14 @@ WRONG = (0.0, None, "сто", -1.0)
 def answers(name: str) -> Iterator[tuple[Field, float | str | None, str, int, bool]]:
     """What the first sheet says of every wrong value of a cell, errors, whether it is red.
 
-    Of the other engine's cells those that the first has not.
+    Of the other engine's cells those that the first has not; in few rows, as often as it is asked.
     """
-    made, data = model(name), book(name)
+    made, data = coarse_model(name), coarse_book(name)
     layout = Layout.of(made)
     engine = formualizer.load_workbook_bytes(stripped(data)[0])
     ranges = [formula_range(sheet, found) for sheet, found in formula_cells(data).items() if found]
     reds = red_rows(data)
-    known = set() if name == NAME else set(model(NAME).fields)
+    known = set() if name == NAME else set(coarse_model(NAME).fields)
     for item in (item for item in made.inputs if item.name not in known):
         place = layout.cells[item.name]
         for value in WRONG:
@@ -155,13 +162,13 @@ def door(name: str, changes: dict[Field, float | str | None]) -> str | list[str]
 
 @pytest.mark.parametrize("name", [NAME, "d-240-bearings"])
 def test_values_that_contradict_each_other_turn_red_as_the_door_refuses_them(name: str) -> None:
-    made, data = model(name), book(name)
+    made, data = coarse_model(name), coarse_book(name)
     layout = Layout.of(made)
     engine = formualizer.load_workbook_bytes(stripped(data)[0])
     reds, told = red_rows(data), set()
     engine.evaluate_all()
     rows = {engine.get_value("Проверки", row, 1): row for row in range(1, 90)}
-    for condition in conditions(made, layout, evaluate_model(made).scalars):
+    for condition in conditions(made, layout, coarse_values(name).scalars):
         pair, verdict_row = condition.pair, rows[condition.title]
         if len(condition.fields) != 2:
             continue

@@ -76,6 +76,7 @@ def crankpin(chapter: Chapter) -> Markup:
         sums=TablePlan(sums, f"Суммы удельных сил по лучам шатунной шейки{number}", keep=True),
         best=least_ray(terms, name),
         ties=_least_rays(terms, name, rays),
+        arc=max(terms.value(f"{name}_arc{i}") for i in range(1, rays + 1)),
     )
 
 

@@ -14,6 +14,7 @@ from reports.document.page.spec_tables import grid_table
 from reports.document.page.writer import TablePlan
 from reports.document.text import numbers
 from reports.document.text.terms import Terms, with_unit
+from reports.formula.tex import number_tex
 from reports.inputs.checks.flywheel import INERTIAS, lighter_than
 from reports.shared.russian import fixed
 
@@ -138,7 +139,7 @@ def concluded(chapter: Chapter) -> Markup:
     over = bare.stress > section.stress_allowed_mpa
     line = (
         "первая собственная частота крутильных колебаний вала {}, наибольшая амплитуда "
-        "напряжений кручения {} при {}, что {} {}"
+        "напряжений кручения {} при частоте вращения {}, что {} {}"
     )
     verdict = "превышает допускаемую" if over else "не превышает допускаемой"
     allowed = terms.val("torsion_stress_allowed_mpa")
@@ -199,9 +200,7 @@ def _holzer_row(terms: Terms) -> str:
     inertia, spring = terms.value("torJ1"), terms.value("torc1")
     omega = 2 * np.pi * terms.value("tor_f1_hz")
     moment = omega**2 * inertia - terms.value("torsion_ground_nm_rad")
-    digits = terms.quantity("torJ1").digits
-    shown = [numbers.to_tex(text) for text in (fixed(omega, 1), fixed(inertia, digits.decimals),
-                                               fixed(moment, 0), fixed(spring, 0))]  # fmt: skip
+    shown = [number_tex(each, 5) for each in (omega, inertia, moment, spring)]
     second = numbers.to_tex(fixed(float(terms.column("torsion_forms.tor_theta1")[1]), 5))
     ground = terms.value("torsion_ground_nm_rad")
     less = rf" - {numbers.to_tex(fixed(ground, 0))}" if ground else ""

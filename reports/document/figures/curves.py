@@ -133,7 +133,8 @@ def curves_figure(
     ]
     left = max(ticks.width() for ticks in y_ticks) + 8
     right = text_size(x_title, FONT_SIZE)[0] + x_ticks.beyond() + 3
-    top = _TOP + LEGEND_ROW * _further_rows(panels[0])  # those of the others stand between them
+    # Rows of a legend above the first; those of the other panels stand between them.
+    top = _TOP + LEGEND_ROW * (max(len(panels[0].curves) - 1, 0) // _IN_ROW)
     page = Sheet(PAGE_WIDTH, height * len(panels))
     room = page.height - _BOTTOM - top - _BETWEEN * (len(panels) - 1)
     tall = room / len(panels)
@@ -147,11 +148,6 @@ def curves_figure(
             page.text(middle, f"{LETTERS[index]})", middle=False)
     axes.name_x(x_title)
     return page.svg()
-
-
-def _further_rows(panel: Panel) -> int:
-    """Rows of a legend, if it comes to one, above the first, for which there is room anyway."""
-    return max(len(panel.curves) - 1, 0) // _IN_ROW
 
 
 def _plot(axes: Axes, x: NDArray[np.float64], panel: Panel) -> None:

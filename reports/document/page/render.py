@@ -20,6 +20,7 @@ from reports.document.text import fonts, texts
 from reports.document.text.complaints import complaints
 from reports.document.text.mathsvg import formula_lines
 from reports.document.text.symbols import inline_html
+from reports.shared.doctor import need_pango
 from reports.shared.garbage import uncollected
 from reports.shared.russian import NBSP, joined
 
@@ -72,7 +73,7 @@ def render_pdf(
 
     Raises:
         RenderError: WeasyPrint logged a warning; the message holds all of them.
-        OSError: pango is missing on this machine.
+        SystemPartMissing: pango is not on this machine.
     """
     result = render(html, attachments=attachments, variant=variant, identifier=identifier)
     if result.warnings:
@@ -89,6 +90,7 @@ def render(
     identifier: bytes | None = None,
 ) -> Rendered:
     """Render like :func:`render_pdf`, handing the warnings back instead of raising."""
+    need_pango()
     with uncollected(), complaints("weasyprint") as warnings:
         # In a function of its own: what it made is gone before garbage is looked for again.
         pdf, pages = _rendered(html, attachments, variant, identifier)

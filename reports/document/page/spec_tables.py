@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from typing import cast
 
 import numpy as np
 from markupsafe import Markup
@@ -44,7 +43,8 @@ def angle_table(
     for column in columns:
         q = column.quantity
         values = np.asarray(terms.values.columns[table][column.key], dtype=float).tolist()
-        cells.append([numbers.of_digits(v, q.digits) or "—" for v in values])
+        digits = q.digits.within(max(map(abs, values)))
+        cells.append([numbers.of_digits(v, digits) or "—" for v in values])
         tex = terms.tex(f"{table}.{column.key}") if own_symbols else q.tex
         heads.append(Column(symbol_head(tex, q.unit_label)))
     rows = list(zip(*cells, strict=True))
@@ -97,12 +97,9 @@ def grid_table(
     shown = []
     for row in (by_key[key] for key in rows or by_key if key in by_key):
         q = row.quantity
-        cells = [
-            "—"
-            if cell is None
-            else numbers.of_digits(cast(float, terms.values.scalars[cell.key]), q.digits)
-            for cell in row.cells
-        ]
+        values = [None if cell is None else terms.value(cell.key) for cell in row.cells]
+        digits = q.digits.within(max(abs(value or 0) for value in values))
+        cells = ["—" if value is None else numbers.of_digits(value, digits) for value in values]
         shown.append([symbol_head(q.tex, q.unit_label), *cells])
     columns = [Column("Величина", 1.4), *(Column(label) for label in labels or grid.labels)]
     return table_block(columns, shown)

@@ -22,7 +22,7 @@ def of_digits(value: float, digits: Digits) -> str:
             return "0"
         text, exponent = mantissa(value, digits.decimals)
         return Markup("{}·10<sup>{}</sup>").format(text, fixed(exponent, 0)) if exponent else text
-    return fixed(value, digits.decimals) if digits.hides == "" else written(value, digits)
+    return written(value, digits, group=digits.hides == "")
 
 
 def of_digits_tex(value: float, digits: Digits) -> str:

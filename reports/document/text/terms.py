@@ -11,6 +11,7 @@ import numpy as np
 from markupsafe import Markup
 from numpy.typing import NDArray
 
+from kshm.nomenclature.digits import Digits
 from kshm.nomenclature.quantity import Quantity, quantity
 from reports.document.text import numbers
 from reports.document.text.symbols import inline_html
@@ -174,7 +175,7 @@ class Terms:
         value = self.value(name, at)
         if name in self.model.fields:
             return plain_number(value)
-        return numbers.of_digits(value, self.quantity(name).digits)
+        return numbers.of_digits(value, self._digits(name))
 
     def val(self, name: str, at: float | None = None) -> Markup:
         """Number with unit: ``829 Н·м``, ``30°``."""
@@ -215,8 +216,8 @@ class Terms:
         """Result with unit for TeX."""
         if name in self.model.fields:
             return numbers.to_tex(self.num(name, at)) + unit_tex(self.unit(name))
-        digits = self.quantity(name).digits
-        return numbers.of_digits_tex(self.value(name, at), digits) + unit_tex(self.unit(name))
+        shown = numbers.of_digits_tex(self.value(name, at), self._digits(name))
+        return shown + unit_tex(self.unit(name))
 
     def branches(self, name: str) -> list[formulas.Piece]:
         """All branches of a formula with choices."""
@@ -227,6 +228,11 @@ class Terms:
         nodes = map(self._node, names)
         sources = [node.source for node in nodes if isinstance(node, Scalar | Column)]
         return book_place(*sources)
+
+    def _digits(self, name: str) -> Digits:
+        """Digits of a node; of a column those that its table has."""
+        digits = self.quantity(name).digits
+        return digits.within(np.abs(self.column(name)).max()) if self._column(name) else digits
 
     def _symbols(self, name: str) -> formulas.Symbols:
         table = name.rpartition(".")[0]

@@ -21,7 +21,6 @@ from reports.grading.issuing.ticket import kept_secret, secret_path
 from reports.grading.issuing.variants import Base, Variant, draw_variants, load_base
 from reports.inputs.fields import iter_fields, tables_shape
 from reports.inputs.load import load_mapping
-from reports.inputs.sections.input_file import InputFile
 from reports.shared.errors import InputError, Problem
 from reports.shared.files import atomic_dir
 from reports.shared.progress import Progress
@@ -93,14 +92,10 @@ def issue(
     return Result(register, folder, place if fresh else None)
 
 
-def student_model(raw: dict[str, Any], student: Student, number: int) -> InputFile:
-    """The checked input of a student's variant, with the title page filled in."""
-    return load_mapping(_with_title(raw, student, number), source=student.full).model
-
-
 def assignment_for(book: Issued, rubric: Rubric, like: Assignment | None = None) -> Assignment:
     """The tables of an issued work-book; ``like`` is another student's, for the same rubric."""
-    model = student_model(book.raw, book.student, book.number)
+    titled = _with_title(book.raw, book.student, book.number)
+    model = load_mapping(titled, source=book.student.full).model
     if like is not None:
         fields = tuple(iter_fields(model))
         if tables_shape(fields) == tables_shape(like.model.inputs):

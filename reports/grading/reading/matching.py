@@ -138,7 +138,9 @@ def _by_name(register: Register, submission: Submission) -> tuple[list[Issued], 
     More than one are those that the name does not tell apart.
     """
     of_file = [book for book in register.books if book.folder in submission.key.split("/")]
-    of_file = of_file or [book for book in register.books if _file_stem(book) in submission.key]
+    of_file = of_file or [
+        book for book in register.books if book.file.removesuffix(".xlsx") in submission.key
+    ]
     hits = _named(register, submission.moodle_name)
     if hits:  # a participant may hand in a file of another's; of namesakes its name tells which
         of_name = [book for book in hits if book in of_file]
@@ -162,10 +164,6 @@ def _named(register: Register, text: str) -> list[Issued]:
     return hits or _standing_in(words, [(book, _surname(book)) for book in register.books])
 
 
-def _file_stem(book: Issued) -> str:
-    return book.file.removesuffix(".xlsx")
-
-
 def _names(book: Issued) -> set[str]:
     first, surname = _words(book.student.name.split(" ")[0]), _words(book.student.surname)
     return first | surname if first - surname else set()
@@ -185,8 +183,4 @@ def _standing_in(words: set[str], names: Iterable[tuple[Issued, set[str]]]) -> l
 
 def _words(text: str) -> set[str]:
     """Words in Latin letters, so that Иванов is found in ivanov_kr.xlsx."""
-    return set(_split(latin(text)))
-
-
-def _split(text: str) -> Iterable[str]:
-    return (word for word in re.split(r"[\W\d_]+", text) if word)
+    return set(filter(None, re.split(r"[\W\d_]+", latin(text))))

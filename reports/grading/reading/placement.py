@@ -7,6 +7,7 @@ table are told by the angles in its first column.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from reports.grading.issuing.handout import anchor_name, cell_name
 from reports.recalculation.evaluate import NUMBER, Engine
@@ -107,7 +108,7 @@ def _find_table(table: TableSpec, layout: Layout, search: _Search, found: Placem
     if index_column is None or index_column not in heads:
         return
     sheet, row, column = heads[index_column]
-    rows = _rows(search.grid, sheet, row, column, table.rows)
+    rows = _rows(search, sheet, row, column, table.rows)
     first = layout.rows_of(table)[0]
     if any(r is not None and r != first + i for i, r in enumerate(rows)):
         found.moved.append(f"таблица {table.number}: строки сдвинуты")
@@ -119,13 +120,13 @@ def _find_table(table: TableSpec, layout: Layout, search: _Search, found: Placem
 
 
 def _rows(
-    grid: Grid, sheet: str, header: int, column: int, wanted: tuple[float, ...]
+    search: _Search, sheet: str, header: int, column: int, wanted: tuple[float, ...]
 ) -> tuple[int | None, ...]:
     """Rows below the header whose index is the wanted one, in order."""
-    known = grid.column(sheet, column)
+    known = search.grid.column(sheet, column)
     constants = dict(known.constants)
     if known.runs:  # angles calculated from the row above
-        constants |= _calculated(grid, sheet, header, column)
+        constants |= _calculated(search.engine, sheet, header, column)
     expected = tuple(range(header + 2, header + 2 + len(wanted)))
     if tuple(map(constants.get, expected)) == wanted:
         return expected
@@ -147,10 +148,10 @@ def _rows(
     return tuple(found)
 
 
-def _calculated(grid: Grid, sheet: str, header: int, column: int) -> dict[int, float]:
+def _calculated(engine: Engine, sheet: str, header: int, column: int) -> dict[int, float]:
     first, last = header + 2, header + _SEARCH_ROWS
     try:
-        values, kinds = Engine(grid).values(sheet, column, first, last)
+        values, kinds = engine.values(sheet, column, first, last)
     except UnknownFormula:
         return {}
     numbers = zip(values.tolist(), kinds, strict=True)
@@ -172,23 +173,26 @@ def _report_sheets(model: Model, layout: Layout, found: Placement) -> None:
 
 
 class _Search:
-    """Texts of a workbook by what they say."""
+    """Texts of a workbook by what they say, and what its formulas give."""
 
     def __init__(self, grid: Grid) -> None:
         self.grid = grid
-        self._texts: dict[str, list[tuple[str, int, int]]] | None = None
 
-    @property
+    @cached_property
+    def engine(self) -> Engine:
+        """The whole book calculated, for all tables whose angles are."""
+        return Engine(self.grid)
+
+    @cached_property
     def texts(self) -> dict[str, list[tuple[str, int, int]]]:
         """Text → cells; built when first needed."""
-        if self._texts is None:
-            self._texts = {}
-            for sheet, columns in self.grid.sheets.items():
-                for number, column in columns.items():
-                    for row, value in column.constants.items():
-                        if isinstance(value, str):
-                            self._texts.setdefault(_plain(value), []).append((sheet, row, number))
-        return self._texts
+        found: dict[str, list[tuple[str, int, int]]] = {}
+        for sheet, columns in self.grid.sheets.items():
+            for number, column in columns.items():
+                for row, value in column.constants.items():
+                    if isinstance(value, str):
+                        found.setdefault(_plain(value), []).append((sheet, row, number))
+        return found
 
     def beside(self, text: str, distance: int) -> tuple[str, int, int] | None:
         """The cell so many columns beside the only cell with a text."""

@@ -28,13 +28,8 @@ def _forces(model: InputFile, rows: tuple[float, ...]) -> TableSpec:
                 phi_deg
                 Pg_MPa = gas.p_MPa - gas_ambient_pressure_mpa | Гоц (33)
             """),
-            *_chain("phi_deg"),
-            *column_list(f"""
-                helpers:
-                beta_rad = {shape.beta("phi_deg")} | Гоц (7), (17)
-                j_m_s2 = {acceleration(model, "phi_deg", "beta_rad")} | Гоц (6) или точно
-                Mopr_Nm = {overturning} | Гоц (39)
-            """),
+            *_chain(model, shape, "phi_deg"),
+            Column("Mopr_Nm", overturning, "Гоц (39)", helper=True),
         ),
         rows,
     )
@@ -66,12 +61,7 @@ def _shifted(
                 p_MPa = {text} | Гоц, 2.4
                 Pg_MPa = p_MPa - gas_ambient_pressure_mpa | Гоц (33)
             """),
-            *_chain("phase_deg"),
-            *column_list(f"""
-                helpers:
-                beta_rad = {shape.beta("phase_deg")} | Гоц (7), (17)
-                j_m_s2 = {acceleration(model, "phase_deg", "beta_rad")} | Гоц (6) или точно
-            """),
+            *_chain(model, shape, "phase_deg"),
             *timing(model, shape, "phase_deg"),
             *helpers,
         ),
@@ -80,7 +70,7 @@ def _shifted(
     )
 
 
-def _chain(phi: str) -> tuple[Column, ...]:
+def _chain(model: InputFile, shape: Shape, phi: str) -> tuple[Column, ...]:
     return column_list(f"""
         Pj_MPa = to_MPa(-(m_j*j_m_s2)/F_piston) | Гоц (30)
         Ps_MPa = Pg_MPa + Pj_MPa | Гоц, 2.4
@@ -89,6 +79,9 @@ def _chain(phi: str) -> tuple[Column, ...]:
         T_MPa = Ps_MPa*sin(rad({phi}) + beta_rad)/cos(beta_rad) | Гоц (37)
         K_MPa = Ps_MPa*cos(rad({phi}) + beta_rad)/cos(beta_rad) | Гоц (36)
         M_Nm = of_MPa(T_MPa)*F_piston*r_crank | Гоц, 2.5
+        helpers:
+        beta_rad = {shape.beta(phi)} | Гоц (7), (17)
+        j_m_s2 = {acceleration(model, phi, "beta_rad")} | Гоц (6) или точно
     """)
 
 

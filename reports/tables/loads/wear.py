@@ -65,17 +65,17 @@ def _sums(table_id: str, name: str, sheet: str, rays: int) -> Grid:
     numbers = range(1, rays + 1)
     grid = f"{table_id}_sums"
 
-    def row(of: str, key: str, text: str) -> GridRow:
+    def row(of: str, key: str, text: str, before: str = "") -> GridRow:
         cells: list[Scalar] = []
-        for i in (*numbers, 1):  # the last instance closes the curve
-            closing = len(cells) == rays
-            expr = text.format(i=i, ray=ray_key(i), sum=f"{name}_sum{i}", deg=f"{name}_deg{i}")
-            cells.append(
-                Scalar(f"{name}_{key}{rays + 1 if closing else i}", expr, "Гоц, рис. 33", of=of)
-            )
+        for place, i in enumerate((*numbers, 1), 1):  # the last instance closes the curve
+            known = {"sum": f"{name}_sum{i}", "deg": f"{name}_deg{i}", "before": before}
+            before = f"{name}_{key}{place}"
+            expr = text.format(i=i, ray=ray_key(i), **known)
+            cells.append(Scalar(before, expr, "Гоц, рис. 33", of=of))
         return GridRow(of, tuple(cells))
 
     # Drawn on the side of contact, half a turn from the ray; the deepest wear is half the radius.
+    arc = f"{{before}} + 1 if {{sum}} < col_min({grid}.ray_sum) + {TIE} else 0"
     radius = f"(1 - {{sum}}/(2*col_max({grid}.ray_sum)))"
     return Grid(
         grid,
@@ -85,11 +85,8 @@ def _sums(table_id: str, name: str, sheet: str, rays: int) -> Grid:
         (
             row("ray_deg", "deg", "({i} - 1)*360/calculation_wear_rays"),
             row("ray_sum", "sum", f"col_sum({table_id}.{{ray}})"),
-            row(
-                "ray_candidate",
-                "best",
-                f"{{i}} if {{sum}} < col_min({grid}.ray_sum) + {TIE} else {rays}",
-            ),
+            row("ray_lap", "lap", arc, before="0"),
+            row("ray_arc", "arc", arc, before=f"{name}_lap{rays}"),
             # x grows to the left, as the axes of the journals do; the chart turns it round.
             # A ray's points of wear and circle stand one below the other: a line joins them.
             row("wear_x", "x", f"-({radius}*sin(rad({{deg}})))"),
@@ -111,13 +108,15 @@ def _sums(table_id: str, name: str, sheet: str, rays: int) -> Grid:
 
 
 def hole_scalars(name: str) -> tuple[Scalar, ...]:
-    """Least loaded ray and the place of the oil hole opposite to it."""
+    """Least loaded ray, of equal ones the middle of the widest arc, and the oil hole opposite."""
     key, number = f"hole_{name}", name.removeprefix("pin")
     table = rays_table(int(number)) if number.isdigit() else "table_14"
     if name.startswith("main"):
         table = f"table_14_main_{name.removeprefix('main')}"
+    arcs = f"{table}_sums.ray_arc"
+    middle = f"first_largest({arcs}) - floor(col_max({arcs})/2)"
     return scalar_list(f"""
-        {key}_ray = col_min({table}_sums.ray_candidate) | Гоц, рис. 33
+        {key}_ray = mod({middle} - 1, calculation_wear_rays) + 1 | Гоц, рис. 33
         {key}_deg = mod(({key}_ray - 1)*360/calculation_wear_rays + 180, 360) | Гоц, 2.6
     """)
 

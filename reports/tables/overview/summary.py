@@ -80,56 +80,49 @@ def _hung_work(shape: Shape) -> tuple[Scalar, ...]:
 
 
 def _pin(number: int, shape: Shape) -> ScalarTable:
-    n, pins = pin_name(number), len(shape.pins)
+    n, several, table = pin_name(number), len(shape.pins) > 1, pin_table(number)
     throw = shape.throw_of(shape.pins[number - 1][0])
-    projected = f"(of_mm(pin_diameter_{throw}_mm)*of_mm(pin_length_{throw}_mm))"
-    name, table = f"Rpin{n}", pin_table(number)
+    least = f"Rpin{n}_min_kN = to_kN(of_MPa(Rpin{n}_min)*F_piston) | Гоц, 2.9"
     return ScalarTable(
         f"summary_pin{n}",
-        f"Шатунная шейка {number if pins > 1 else ''}".strip(),
+        f"Шатунная шейка {number if several else ''}".strip(),
         SHEET,
-        (
-            Scalar(f"{name}_mean", f"col_mean({table}.Rpin_MPa)", "Гоц, 2.6"),
-            *extreme_scalars(table, "Rpin_MPa", name, "Гоц, 2.6"),
-            *scalar_list(f"""
-                {name}_max_kN = to_kN(of_MPa({name}_max)*F_piston) | Гоц, 2.9
-                {name}_min_kN = to_kN(of_MPa({name}_min)*F_piston) | Гоц, 2.9
-                q_pin{n}_mean = {name}_mean*F_piston/{projected} | Гоц, 2.6
-                q_pin{n}_max = {name}_max*F_piston/{projected} | Гоц, 2.6
-            """),
-            *hole_scalars(f"pin{n}"),
-        ),
+        _journal_loads(f"pin{n}", f"{table}.Rpin_MPa", f"pin_{{}}_{throw}_mm", "2.6", least),
     )
 
 
 def _journal(k: int) -> ScalarTable:
-    name, table = f"Rmain{k}", f"P4_3_{k}"
-    projected = f"(of_mm(main_diameter_{k}_mm)*of_mm(main_length_{k}_mm))"
     return ScalarTable(
         f"summary_main_{k}",
         f"Коренная шейка {k}",
         SHEET,
-        (
-            Scalar(f"{name}_mean", f"col_mean({table}.R_MPa)", "Гоц, 2.9"),
-            *extreme_scalars(table, "R_MPa", name, "Гоц, 2.9"),
-            *scalar_list(f"""
-                {name}_max_kN = to_kN(of_MPa({name}_max)*F_piston) | Гоц, 2.9
-                q_main{k}_mean = {name}_mean*F_piston/{projected} | Гоц, 2.6
-                q_main{k}_max = {name}_max*F_piston/{projected} | Гоц, 2.6
-            """),
-            *hole_scalars(f"main{k}"),
-        ),
+        _journal_loads(f"main{k}", f"P4_3_{k}.R_MPa", f"main_{{}}_{k}_mm", "2.9"),
+    )
+
+
+def _journal_loads(
+    name: str, column: str, size: str, section: str, least: str = ""
+) -> tuple[Scalar, ...]:
+    """Loads of a journal, its pressures and its oil hole."""
+    load, (table, key) = f"R{name}", column.split(".")
+    projected = f"(of_mm({size.format('diameter')})*of_mm({size.format('length')}))"
+    return (
+        Scalar(f"{load}_mean", f"col_mean({column})", f"Гоц, {section}"),
+        *extreme_scalars(table, key, load, f"Гоц, {section}"),
+        *scalar_list(f"""
+            {load}_max_kN = to_kN(of_MPa({load}_max)*F_piston) | Гоц, 2.9
+            {least}
+            q_{name}_mean = {load}_mean*F_piston/{projected} | Гоц, 2.6
+            q_{name}_max = {load}_max*F_piston/{projected} | Гоц, 2.6
+        """),
+        *hole_scalars(name),
     )
 
 
 def _running(throws: int) -> ScalarTable:
-    scalars = []
-    for k in range(2, throws + 2):
-        column = f"P4_4.Mmain{k}_Nm"
-        scalars.append(Scalar(f"dM_main{k}", f"col_max({column}) - col_min({column})", "Гоц, 2.8"))
-    for i in range(1, throws + 1):
-        column = f"P4_5.Mpin{i}_Nm"
-        scalars.append(Scalar(f"dM_pin{i}", f"col_max({column}) - col_min({column})", "Гоц, 2.8"))
+    swings = [(f"dM_main{k}", f"P4_4.Mmain{k}_Nm") for k in range(2, throws + 2)]
+    swings += [(f"dM_pin{i}", f"P4_5.Mpin{i}_Nm") for i in range(1, throws + 1)]
+    scalars = [Scalar(key, f"col_max({of}) - col_min({of})", "Гоц, 2.8") for key, of in swings]
     scalars += scalar_list("""
         worst_main_torque = first_largest(ranks.rank_dM_main) + 1 | Гоц, 2.8
         worst_pin_torque = first_largest(ranks.rank_dM_pin) | Гоц, 2.8

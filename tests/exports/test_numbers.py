@@ -1,0 +1,34 @@
+"""Numbers without documents: what a cell of CSV holds."""
+
+from __future__ import annotations
+
+import pytest
+
+from kshm.nomenclature.quantity import ray_key
+from reports.exports.numbers import csv_text, export_tables, neutralised
+from reports.inputs.solved import solved
+from tests.conftest import sample
+
+
+def test_a_force_that_a_ray_does_not_count_is_blank() -> None:
+    tables = export_tables(solved(sample("gots-diesel")))
+    loads = next(columns for columns in tables.values() if ray_key(1) in columns)
+    cells = [cell for key, cells in loads.items() if key.startswith("ray_") for cell in cells]
+    assert None in cells
+    assert 0.0 not in cells
+    assert 0.0 in tables["P3_1"]["s_mm"]  # a nought of any other column is a number
+
+
+def test_a_cell_has_a_point_full_precision_and_no_formula() -> None:
+    text = csv_text({"phi_deg": [0.0, 10.0], "x": [1 / 3, None], "mode": ["a", "b"]})
+    assert text == "phi_deg,x,mode\n0,0.3333333333333333,a\n10,,b\n"
+    assert [neutralised(text) for text in ("=1+1", "-x", "x=1")] == ["'=1+1", "'-x", "x=1"]
+
+
+def test_a_result_that_is_no_number_is_refused() -> None:
+    class Broken:
+        columns = {"P3_1": {"s_mm": [float("nan")]}}  # noqa: RUF012 - stands for a solution
+        wear_sums: dict = {}  # noqa: RUF012
+
+    with pytest.raises(ValueError, match="not a number"):
+        export_tables(Broken())

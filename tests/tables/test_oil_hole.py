@@ -1,0 +1,40 @@
+"""Where several rays are loaded least, the oil hole stands opposite the middle of their arc."""
+
+import numpy as np
+import pytest
+
+from kshm.results.extremes import least_loaded
+from reports.inputs.fields import to_mapping
+from reports.inputs.load import load_mapping
+from tests.conftest import sample
+from tests.tables.test_two_statements import assert_agree
+
+
+@pytest.mark.parametrize(
+    ("unloaded", "ray"),
+    [
+        ((), 1),  # all alike: nothing tells
+        ((4,), 4),
+        ((4, 5), 4),
+        ((5, 6, 7, 8, 9), 7),
+        ((2, 6, 7, 8), 7),  # the widest
+        ((11, 12, 1, 2, 3), 1),  # past the first ray
+        ((10, 11, 12, 1), 11),
+    ],
+)
+def test_the_middle_of_the_widest_unloaded_arc_is_taken(unloaded, ray):
+    sums = np.full(12, 5e6)
+    sums[np.array(unloaded, dtype=int) - 1] = 0
+    found, place = least_loaded(np.stack([sums, sums]))
+    assert found.tolist() == [ray, ray]
+    assert np.degrees(place) == pytest.approx((30 * (ray - 1) + 180) % 360)
+
+
+def test_both_statements_take_it_whatever_the_step():
+    for step in (10, 2):
+        raw = to_mapping(sample("gots-diesel"))
+        raw["calculation"]["step_deg"] = step
+        raw["regime"]["speed_rpm"] = 6000  # a racer's pin is pressed from the axis outwards only
+        model, solution = assert_agree(load_mapping(raw, source="t.toml").model)
+        assert (solution.scalars["hole_pin_ray"], solution.scalars["hole_pin_deg"]) == (7, 0)
+        assert {"hole_pin_ray", "hole_pin_deg"} <= set(model.scalars)

@@ -41,7 +41,6 @@ from reports.inputs.understood import understood
 from reports.shared.errors import InputError, Problem, one_line
 
 MAX_PROBLEMS = 200
-
 Locate = Callable[[Path], str]
 
 
@@ -99,17 +98,26 @@ def parsed(text: str, *, source: str) -> dict[str, Any]:
     Raises:
         InputError: It is no TOML, or there is nothing in it.
     """
+    raw = tables_of(text, source=source)
+    if not raw:
+        raise refused(source, "файл пуст", "заготовку даст команда «kshm new»")
+    return raw
+
+
+def tables_of(text: str, *, source: str) -> dict[str, Any]:
+    """The nested mapping of a text that may hold nothing but remarks.
+
+    Raises:
+        InputError: It is no TOML.
+    """
     refuse_bomb(source, text)
     try:
-        raw = tomllib.loads(text)
+        return tomllib.loads(text)
     except RecursionError:
         raise refused(source, "слишком глубокая вложенность", "уберите лишние скобки") from None
     except ValueError as error:  # TOMLDecodeError, or an integer of thousands of digits
         what, hint = messages.toml_error(error, text)
         raise refused(source, what, hint) from None
-    if not raw:
-        raise refused(source, "файл пуст", "заготовку даст команда «kshm new»")
-    return raw
 
 
 def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None = None) -> Loaded:

@@ -11,6 +11,7 @@ from reports.shared.errors import Problem, one_line
 
 SECTION = "variants"
 MAX_VALUES = 100_000
+_IDLE = ("report", "sheet", "checks")  # sections that nothing is calculated from
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +57,10 @@ def read_ranges(
         if current is None:
             problems.append(Problem(place, "в файле нет такого параметра", "задайте его значение"))
             continue
+        if path[0] in _IDLE or path == ("engine", "name"):
+            what = "расчёт от этого параметра не зависит"
+            problems.append(Problem(place, what, "назовите другой параметр"))
+            continue
         values, what, hint = _values(given, current)
         if what:
             problems.append(Problem(place, what, hint))
@@ -67,6 +72,8 @@ def read_ranges(
 def _at(base: Mapping[str, Any], path: tuple[str | int, ...]) -> float | int | str | None:
     value: Any = base
     for part in path:
+        if part == -1:  # lists count from 1
+            return None
         try:
             value = value[part]
         except (KeyError, IndexError, TypeError):

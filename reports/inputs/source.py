@@ -7,20 +7,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from reports.shared import files
 from reports.shared.errors import InputError, Problem, one_line
-from reports.shared.kinds import ARCHIVE, BINARY, OFFICE, PDF, TEXT, UTF16, kind_of
+from reports.shared.kinds import CALLED, TEXT, UTF16, kind_of
+from reports.shared.reading import read_bytes
 
 MAX_BYTES = 2_000_000
 MAX_LINES = 20_000
 MAX_DOTS = 40
 MAX_ENTRIES = 10_000  # of a list: longer ones only hold a process up
-_OTHER = {
-    ARCHIVE: "это книга Excel или архив",
-    OFFICE: "это старый или зашифрованный документ Office",
-    PDF: "это документ PDF",
-    BINARY: "двоичный файл",
-}
 _DECIMAL = re.compile(r"(?<![\w.])\d+\.\d+(?:[eE][-+]?\d+)?(?![\w.])")
 
 
@@ -30,30 +24,12 @@ def read_text(file: Path) -> str:
     Raises:
         InputError: It is missing, unreadable, too large or no UTF-8 text.
     """
-    try:
-        what = files.no_file(file)
-        if what:
-            raise refused(str(file), what, "проверьте имя и путь")
-        with file.open("rb") as stream:
-            data = stream.read(MAX_BYTES + 1)
-    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-        why = files.reason(error) if isinstance(error, OSError) else "недопустимое имя"
-        raise refused(str(file), f"файл не читается: {why}", "проверьте имя и права") from None
-    if len(data) > MAX_BYTES:
-        raise refused(
-            file.name, f"файл больше {MAX_BYTES // 10**6} МБ", "это не файл исходных данных"
-        )
-    return _decode(file.name, data)
-
-
-def _decode(source: str, data: bytes) -> str:
-    if not data.strip():
-        raise refused(source, "файл пуст", "заготовку даст команда «kshm new»")
+    data, source = read_bytes(file, MAX_BYTES, "это не файл исходных данных"), file.name
     kind = kind_of(data)
     if kind == UTF16:
         raise refused(source, "кодировка UTF-16", "сохраните файл в UTF-8")
     if kind != TEXT:
-        raise refused(source, f"{_OTHER[kind]}, а нужен текст TOML", "выберите другой файл")
+        raise refused(source, f"{CALLED[kind]}, а нужен текст TOML", "выберите другой файл")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:

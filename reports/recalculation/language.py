@@ -171,4 +171,4 @@ def quoted(sheet: str) -> str:
 
 def unquoted(token: str) -> str:
     """The sheet that such a token names."""
-    return token[:-1].strip("'").replace("''", "'")
+    return token[1:-2].replace("''", "'") if token.startswith("'") else token[:-1]

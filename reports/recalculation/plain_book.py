@@ -7,6 +7,7 @@ nothing else: no saved values, no formats, no formulas outside the whitelist.
 from __future__ import annotations
 
 import io
+import re
 import zipfile
 from collections.abc import Collection
 from html import escape
@@ -22,6 +23,7 @@ _TYPES = "application/vnd.openxmlformats-officedocument.spreadsheetml"
 
 _DEEPEST = 60  # parentheses within each other
 _CHAIN = 200  # operands in a row; formualizer takes 256
+_CELL = re.compile(r"(?<![A-Za-z0-9])[A-Za-z]{1,3}[0-9]")
 
 
 def folded(text: str) -> str:
@@ -97,14 +99,13 @@ def _sheet(grid: Grid, columns: dict[int, Column], runs: list[Run]) -> str:
             if run.column > run.array.first_column:
                 continue  # its values come with those of the first column
             about = f' t="array" ref="{_extent(run.array)}"'
-        elif run.count > 1:
+        elif run.count > 1 and not _is_misread(run):
             about = f' t="shared" ref="{letters}{run.first}:{letters}{run.last}" si="{shared}"'
-            follows = f'"><f t="shared" si="{shared}"/></c>'
-        first = f'<c r="{letters}{run.first}"><f{about}>{_formula(grid, run)}</f></c>'
-        rows.setdefault(run.first, []).append(first)
-        if follows:
-            for row in range(run.first + 1, run.last + 1):
-                rows.setdefault(row, []).append(f'<c r="{letters}{row}{follows}')
+            follows = f'<f t="shared" si="{shared}"/>'
+        for row in range(run.first, run.last + 1 if run.array is None else run.first + 1):
+            first = not follows or row == run.first
+            text = f"<f{about}>{_formula(grid, run, row)}</f>" if first else follows
+            rows.setdefault(row, []).append(f'<c r="{letters}{row}">{text}</c>')
     lines = "".join(f'<row r="{row}">{"".join(rows[row])}</row>' for row in sorted(rows))
     return f"<worksheet {_MAIN}><sheetData>{lines}</sheetData></worksheet>"
 
@@ -117,8 +118,14 @@ def _value(value: Constant) -> str:
     return f"><v>{value!r}</v>"
 
 
-def _formula(grid: Grid, run: Run) -> str:
-    text = formula_text(grid, run, run.first, run.column)
+def _is_misread(run: Run) -> bool:
+    """Whether the library would fill down what looks like a cell in the title of a sheet."""
+    assert run.formula is not None
+    return any(kind == "sheet" and _CELL.search(value) for kind, value in run.formula.pattern)
+
+
+def _formula(grid: Grid, run: Run, row: int) -> str:
+    text = formula_text(grid, run, row, run.column)
     if run.array is not None:  # its extent bounds what it fills
         area = run.array
         height, width = run.count, area.last_column - area.first_column + 1

@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import NoReturn
 
 from reports.shared.errors import InputError, Problem
-from reports.shared.files import no_file, reason
-from reports.shared.kinds import ARCHIVE, OFFICE, kind_of
+from reports.shared.kinds import ARCHIVE, CALLED, OFFICE, kind_of
+from reports.shared.reading import read_bytes
 from reports.workbook.package import Package
 
-MAX_FILE = 30 * 2**20
+MAX_FILE = 30 * 10**6
 MAX_UNPACKED = 300 * 2**20
 MAX_PARTS = 2000
 MAX_RATIO = 400
@@ -37,16 +37,7 @@ def check_package(path: Path) -> bytes:
         InputError: not a workbook, encrypted, too large, with macros, external
             links, a DOCTYPE, or a package that unpacks out of proportion.
     """
-    try:
-        what = no_file(path)
-        if what:
-            _refuse(str(path), what, "проверьте имя и путь")
-        if path.stat().st_size > MAX_FILE:
-            _refuse(path.name, f"файл больше {MAX_FILE // 2**20} МБ", "это не книга kshm")
-        data = path.read_bytes()
-    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-        why = reason(error) if isinstance(error, OSError) else "недопустимое имя"
-        _refuse(str(path), f"файл не читается: {why}", "проверьте имя и права")
+    data = read_bytes(path, MAX_FILE, "это не книга kshm")
     check_data(data, path.name)
     return data
 
@@ -58,14 +49,16 @@ def check_data(data: bytes, name: str) -> Package:
         InputError: what ``check_package`` refuses.
     """
     if len(data) > MAX_FILE:
-        _refuse(name, f"файл больше {MAX_FILE // 2**20} МБ", "это не книга kshm")
+        _refuse(name, f"файл больше {MAX_FILE // 10**6} МБ", "это не книга kshm")
+    if not data:
+        _refuse(name, "файл пуст", "сохраните книгу заново")
     kind = kind_of(data)
     if kind == OFFICE:
         _refuse(
             name, "книга зашифрована или в старом формате .xls", "сохраните её как .xlsx без пароля"
         )
     if kind != ARCHIVE:
-        _refuse(name, "это не книга .xlsx", "сохраните её как .xlsx")
+        _refuse(name, f"{CALLED.get(kind, 'это текст')}, а не книга .xlsx", "нужна сама книга")
     try:
         package = Package(data)
         _check_parts(name, package)
@@ -82,7 +75,7 @@ def _check_parts(name: str, package: Package) -> None:
     if "xl/workbook.xml" not in names and "content.xml" in names:
         _refuse(name, "это книга .ods", "сохраните её как .xlsx: Файл → Сохранить как")
     if "xl/workbook.xml" not in names:
-        _refuse(name, "это не книга .xlsx", "сохраните её как .xlsx")
+        _refuse(name, "это архив или документ, а не книга .xlsx", "нужна сама книга")
     if any(name.lower().endswith(("vbaproject.bin", ".exe", ".dll")) for name in names):
         _refuse(name, "в книге есть макросы", "сохраните её как .xlsx без макросов")
     if any("externallinks/" in name.lower() for name in names):

@@ -22,7 +22,7 @@ from reports.grading.judging.judgement import EMPTY, RIGHT, WRONG
 from reports.grading.judging.marking import late_factor, score
 from reports.grading.judging.works import Work, work_of
 from reports.grading.pages.gradebook import DECISION, OF_FILE
-from reports.grading.pages.summary import choose
+from reports.grading.pages.summary import choose, table_rows
 from reports.shared.errors import InputError
 from tests.grading import classroom
 from tests.grading.fill import filled_book
@@ -293,6 +293,17 @@ def test_the_best_attempt_counts_where_the_rubric_says_so():
     assert choose([first, second], "best")[1] is first
     thief = result(0.0, "2026-01-03", 2)
     assert choose([first, second, thief])[1] is second  # a stranger's file is never mine
+
+
+def test_of_files_in_one_zip_none_is_the_last():
+    """By their names an empty book beside the filled one would have counted."""
+    about = {"number": 1, "status": "graded", "time": "2026-01-01", "submitter": None,
+             "items": [], "manual": [], "page": "", "fingerprint": "", "sha256": ""}  # fmt: skip
+    files = (("1.zip/filled.xlsx", 90.0), ("1.zip/the empty.xlsx", 0.0))
+    works = [work_of(about | {"key": key, "file": key, "points": n}, {}) for key, n in files]
+    row = table_rows(classroom.register(), works)[0]
+    assert row["points"] == 90
+    assert "файлов: 2, оценён лучший из сданных в то же время (1.zip/filled" in row["remark"]
 
 
 def test_days_of_delay():

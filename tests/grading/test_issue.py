@@ -5,17 +5,19 @@ from __future__ import annotations
 import io
 import json
 import re
+import tomllib
 import zipfile
 
 import pytest
 from openpyxl import load_workbook
 
 from reports.exports.build import load_input
+from reports.grading.issuing.assignment import assignment_of
 from reports.grading.issuing.handout import _live_cells, fill_cells
 from reports.grading.issuing.issue import issue, latin
 from reports.grading.issuing.register import load_register
 from reports.grading.issuing.roster import read_roster
-from reports.grading.issuing.rubric import Rubric, load_rubric
+from reports.grading.issuing.rubric import Rubric, load_rubric, rubric_of
 from reports.grading.issuing.variants import draw_variants, load_base
 from reports.shared.errors import InputError
 from reports.shared.resources import samples_dir
@@ -82,11 +84,12 @@ def test_bad_ranges_are_refused(tmp_path, ranges, words):
 
 def test_too_few_variants_are_refused(tmp_path):
     path = base(tmp_path, '[variants]\n"geometry.bore_mm" = {values = [86, 88, 90]}\n')
-    with pytest.raises(InputError, match="только 3 вариантов, а студентов 4"):
+    with pytest.raises(InputError, match="вариантов в диапазонах 3, а студентов 4"):
         draw_variants(load_base(path), list("abcd"), 1)
     # A rod shorter than the crank does not pass the check.
     path = base(tmp_path, '[variants]\n"geometry.rod_length_mm" = {values = [10, 20, 148]}\n')
-    with pytest.raises(InputError, match="хватило только на 1 из 2"):
+    why = "хватило только на 1 из 2 студентов; один из отказов — .*geometry.rod_length_mm"
+    with pytest.raises(InputError, match=why):
         draw_variants(load_base(path), list("ab"), 1)
 
 
@@ -220,6 +223,8 @@ def test_the_sample_of_a_class_can_be_issued(tmp_path):
         ("[feedback]\nmode = 'all'\n", "hints"),
         ("x = [", "rubric.toml"),
         ("[late]\ndeadline = 'завтра'\n", "late.deadline"),
+        ("[late]\ndeadline = 2026-12-20\n", "нужна дата и время: 2026-12-20T23:59"),  # begins then
+        ("[[work]]\n", "work: недопустимое значение список; нужен раздел"),
     ],
 )
 def test_a_bad_rubric_is_refused(tmp_path, text, words):
@@ -229,8 +234,30 @@ def test_a_bad_rubric_is_refused(tmp_path, text, words):
         load_rubric(path)
 
 
-def test_a_rubric_that_does_not_fit_the_engine_is_refused(tmp_path):
-    with pytest.raises(InputError, match="нет таблицы P9_9"):
-        classroom.issue_class(tmp_path, 1, '[work]\nfill = ["P9_9"]\n')
-    with pytest.raises(InputError, match=r"нет заполняемой таблицы или столбца P3_1\.x"):
-        classroom.issue_class(tmp_path, 1, '[points]\n"P3_1.x" = 2\n')
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('[work]\nfill = ["P9_9"]\n', "нет таблицы P9_9; есть: "),
+        ('[points]\n"P3_1.x" = 2\n', r"заполняемой таблицы или столбца P3_1\.x; возможно, P3_1"),
+        ('[points]\n"geometry.omegas" = 2\n', "возможно, geometry.omega"),
+        ('[work]\nwithout = ["P3_1.nope"]\n', r"нет столбца P3_1\.nope; есть: P3_1\.s1_mm"),
+        ('[work]\ngiven = ["P3_2"]\n', "given: таблица P3_2 и дана, и заполняется"),
+        ("[work]\nfill = []\n", r"ни один столбец не оценивается; .*\[work\]"),
+    ],
+)  # fmt: skip
+def test_a_rubric_that_does_not_fit_the_engine_is_refused(text, words):
+    with pytest.raises(InputError, match=words):
+        assignment_of(classroom.assignment().model, rubric_of(tomllib.loads(text), "rubric.toml"))
+
+
+@pytest.mark.parametrize(
+    ("key", "values", "words"),
+    [
+        ("crankshaft.webs.0.mass_kg", "[0.2, 0.3]", "в файле нет такого параметра"),
+        ("report.student", '["А", "Б"]', "расчёт от этого параметра не зависит"),
+        ("engine.name", '["А", "Б"]', "расчёт от этого параметра не зависит"),
+    ],
+)
+def test_what_makes_no_other_engine_is_no_variant(tmp_path, key, values, words):
+    with pytest.raises(InputError, match=words):
+        load_base(base(tmp_path, f'[variants]\n"{key}" = {{values = {values}}}\n'))

@@ -56,6 +56,15 @@ def test_what_is_begun_is_to_be_mended_and_what_is_not_stands_apart():
     assert "Строки: 180; 210; 240" in parts[6][0] and 'id="P3_1.v_m_s"' in parts[6][2]
 
 
+@pytest.mark.parametrize(("share", "words"), [(1.0, "не снимаются"), (0.5, "доля баллов 0,5")])
+def test_what_an_earlier_mistake_costs_is_told_as_the_rubric_has_it(share, words):
+    rubric = classroom.register().rubric
+    rubric = rubric.model_copy(
+        update={"credit": rubric.credit.model_copy(update={"carried": share})}
+    )
+    assert words in student_page(graded({"omega": ["=regime_speed_rpm"]}), rubric)
+
+
 def test_full_feedback_draws_both_curves():
     html, item = page("full")
     chart = item["chart"]

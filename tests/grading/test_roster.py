@@ -33,7 +33,11 @@ def test_a_roster_in_any_usual_form(tmp_path, encoding, delimiter):
 
 @pytest.mark.parametrize("delimiter", [";", ",", "\t"])
 @pytest.mark.parametrize("first", ["sep=@\r\n", "\r\n\r\n"])
-@pytest.mark.parametrize("head", ["Ф. И. О.", "Ф.И.О. студента", "Фамилия Имя Отчество"])
+@pytest.mark.parametrize(
+    "head",
+    ["Ф. И. О.", "Ф.И.О. студента", "Фамилия Имя Отчество", "ФИО (полностью)",
+     "Ф.И.О. обучающегося", "Фамилия имя отчество студента", "Студенты"],
+)  # fmt: skip
 def test_a_roster_may_begin_with_what_excel_puts_before_it(tmp_path, delimiter, first, head):
     path = tmp_path / "group.csv"
     text = f"{first}{head}@Группа\r\nИванов Иван Ильич@Д-1\r\n"
@@ -170,6 +174,9 @@ def with_value(data: bytes, text: str) -> bytes:
         ([[HEAD, ("#N/A", "Иван")]], "«Группа 1», A2: ошибка #N/A"),
         ([[HEAD, IVANOV], [HEAD, PETROV]], "на листе «Группа 2» есть студенты, которых нет"),
         ([[HEAD, ("Ы" * 300, "Иван")]], "слишком длинный"),
+        ([[HEAD, IVANOV, ("Группа Д-2",), HEAD, PETROV]], "A3: «Группа Д-2» — не фамилия"),
+        ([[("№", "ФИО"), (1, "Иванов Иван"), (None, "Всего: 1")]], "B3: «Всего:» — не фамилия"),
+        ([[(*HEAD, *HEAD), (*IVANOV, *PETROV)]], "A1: столбец «Фамилия» назван дважды"),
     ],
 )
 def test_a_bad_book_is_one_clear_line(tmp_path, rows, words):

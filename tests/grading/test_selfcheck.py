@@ -52,7 +52,7 @@ def test_what_a_page_tells_is_short_and_no_condition(tmp_path: Path) -> None:
         len(remarks(str(path), str(issued))["remarks"]) == 1
     )  # its input is none: a person decides on it
     path.write_bytes(b"MZ")
-    with pytest.raises(InputError, match="это не книга"):
+    with pytest.raises(InputError, match="а не книга"):
         remarks(str(path), str(issued))
 
 

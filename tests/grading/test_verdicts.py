@@ -48,6 +48,18 @@ def test_a_right_book_is_right_throughout():
     assert result["manual"] == result["notes"] == result["changed"] == result["altered"] == []
 
 
+def test_few_digits_of_pi_cost_nothing_and_are_no_mistake_of_what_follows():
+    """Where large forces cancel each other they cost more than a rounding may."""
+    texts = {n: [f.replace("RADIANS", "1/57.3*") for f in own] for n, own in formulas().items()}
+    turned = re.compile(r"RADIANS\(A(\d+)\)")
+    for node in ("P3_1.s1_mm", "P3_1.j1_m_s2", "P3_2.omega_rod_approx_1_s"):  # angles typed as well
+        texts[node] = [turned.sub(lambda m: f"({30 * (int(m[1]) - 6)}/57.3)", f)
+                       for f in formulas()[node]]  # fmt: skip
+    result = graded(texts)
+    assert classroom.verdicts(result) == {}
+    assert result["points"] == 100
+
+
 def test_an_empty_book_is_empty_throughout():
     result = classroom.marks(classroom.handout())
     assert set(classroom.verdicts(result).values()) == {"empty"}
@@ -81,6 +93,23 @@ def test_what_rests_on_an_empty_column_names_it():
     wrong = [f.replace("+", "-") for f in formulas()["P3_1.v_m_s"]]
     result = graded({"P3_1.v1_m_s": empty, "P3_1.v_m_s": wrong})
     assert line(result, "P3_1.v_m_s")["verdict"] == "wrong"  # whatever it rests on
+
+
+def test_right_numbers_are_no_origin_of_a_mistake_and_every_remark_names_its_cells():
+    """Typed speeds are right though ω is not: the sum is off because of the other summand."""
+    right = evaluate_model(classroom.assignment().model).columns
+    beta, k = right["P3_2"]["beta_rad"], formulas()["P4_1.K_MPa"]
+    result = graded({
+        "omega": ["=regime_speed_rpm*PI()/60"],
+        "P3_1.v1_m_s": [round(float(v), 3) for v in right["P3_1"]["v1_m_s"]],
+        "P3_1.s_mm": [f"=D{row}" for row in range(6, 19)],
+        "V_c": ['=INDIRECT("C10")/17'],
+        "P4_1.K_MPa": [*k[:3], f"={float(beta[3])!r}+0.0004", *k[4:]],  # near β by chance
+    })  # fmt: skip
+    assert line(result, "P3_1.v_m_s")["origins"] == ["P3_1.v2_m_s"]
+    assert line(result, "P3_1.s_mm")["where"] == ["П3.1!D6:D18"]
+    assert line(result, "geometry.V_c")["where"] == ["Массы!C11"]
+    assert line(result, "P4_1.K_MPa")["cause"].endswith("сравните формулу с соседними")
 
 
 def test_a_wrong_way_back_is_wrong():

@@ -20,9 +20,12 @@ SHEET = (
 )
 
 
-def book_of(cells: Mapping[str, object], arrays: Mapping[str, str] | None = None) -> bytes:
+def book_of(
+    cells: Mapping[str, object], arrays: Mapping[str, str] | None = None, title: str = "Sheet"
+) -> bytes:
     """A book of one sheet; ``arrays`` are array formulas by their extent."""
     book = Workbook()
+    book.active.title = title
     for at, value in cells.items():
         book.active[at] = value
     for extent, text in (arrays or {}).items():
@@ -32,9 +35,11 @@ def book_of(cells: Mapping[str, object], arrays: Mapping[str, str] | None = None
     return stream.getvalue()
 
 
-def engine_of(cells: Mapping[str, object], arrays: Mapping[str, str] | None = None) -> Engine:
+def engine_of(
+    cells: Mapping[str, object], arrays: Mapping[str, str] | None = None, title: str = "Sheet"
+) -> Engine:
     """The engine of such a book."""
-    return Engine(read_grid(book_of(cells, arrays)))
+    return Engine(read_grid(book_of(cells, arrays, title)))
 
 
 def grid_of(cells: str, strings: list[str] | None = None) -> Grid:

@@ -12,7 +12,7 @@ import pytest
 from reports.recalculation.bench import Bench, Cells, pinned, unrounded
 from reports.recalculation.evaluate import Engine
 from reports.recalculation.formulas import formula_of
-from reports.recalculation.language import UnknownFormula, pattern, render
+from reports.recalculation.language import UnknownFormula, pattern, quoted, render
 from reports.recalculation.read import read_grid
 from reports.workbook.caches import sheet_parts
 from tests.referee.books import engine_of
@@ -237,6 +237,16 @@ def test_array_formulas_fill_their_extent_and_nothing_else():
     assert engine.shown("Sheet", 5, 1) == 0.0
     with pytest.raises(UnknownFormula):  # of two cells it fills one
         engine_of({"A1": 1.0}, {"B1:B2": "=A1:A1*2"}).values("Sheet", 2, 1, 2)
+
+
+@pytest.mark.parametrize("title", ["P41", "Q1 план", "E1-2", "Силы д'Аламбера", "R1C1"])
+def test_a_title_that_looks_like_a_cell_stays_when_formulas_are_filled_down(title):
+    own = quoted(title)
+    cells = {"A1": 2.0, "A2": 3.0, "B1": f"={own}A1*10", "B2": f"={own}A2*10",
+             "C1": f"=SUM({own}A$1:A1)", "C2": f"=SUM({own}A$1:A2)"}  # fmt: skip
+    engine = engine_of(cells, title=title)
+    assert engine.values(title, 2, 1, 2)[0].tolist() == [20.0, 30.0]
+    assert engine.values(title, 3, 1, 2)[0].tolist() == [2.0, 5.0]
 
 
 def test_formulas_on_other_cells():

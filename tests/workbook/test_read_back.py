@@ -105,7 +105,9 @@ def test_a_foreign_workbook_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        (b"", "не книга"),
+        (b"", "файл пуст"),
+        (b"Rar!\x1a\x07", "это архив RAR или 7z, а не книга"),
+        (b"%PDF-1.4", "это документ PDF, а не книга"),
         (b"PK\x03\x04 broken", "повреждён"),
         (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + b"\0" * 100, "зашифрована"),
         (b"[engine]\n", "не книга"),

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import tomllib
 from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from reports.inputs.messages import explain, toml_error
+from reports.inputs.load import tables_of
+from reports.inputs.messages import explain
+from reports.inputs.source import read_text
 from reports.shared.errors import InputError, Problem
-from reports.shared.files import no_file
 
 HINT = "исправьте файл оформления; ключи описаны в docs/report.md"
 PX = 96 / 25.4  # CSS pixels in a millimetre
@@ -102,18 +102,7 @@ def read(path: Path) -> Style:
         InputError: It cannot be read, is no TOML, or has a wrong key or value; one line.
     """
     try:
-        missing = no_file(path)
-        if missing:
-            raise InputError(Problem(str(path), missing, "проверьте имя и путь"))
-        text = path.read_text(encoding="utf-8")
-    except (OSError, ValueError) as error:  # ValueError: no UTF-8, a NUL in the name
-        hint = "нужен файл оформления TOML в кодировке UTF-8"
-        raise InputError(Problem(str(path), "файл не читается", hint)) from error
-    try:
-        return Style.model_validate(tomllib.loads(text))
-    except tomllib.TOMLDecodeError as error:
-        what, hint = toml_error(error, text)
-        raise InputError(Problem(str(path), what, hint or HINT)) from error
+        return Style.model_validate(tables_of(read_text(path), source=str(path)))
     except ValidationError as error:
         raise InputError(Problem(str(path), _said(error), HINT)) from error
 

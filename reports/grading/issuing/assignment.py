@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from functools import cached_property
@@ -14,6 +14,7 @@ from kshm.nomenclature.quantity import Quantity
 from reports.formula.parse import parse
 from reports.grading.issuing.given import LIVE, NUMBER, states, with_own_shifts
 from reports.grading.issuing.rubric import Rubric
+from reports.inputs.messages import likely_word
 from reports.shared.errors import InputError, Problem
 from reports.spec.blocks import Block, Column, Grid, Model, Scalar, TableSpec
 from reports.spec.graph import Graph, graph_of, nodes_of
@@ -227,14 +228,17 @@ def assignment_of(model: Model, rubric: Rubric, source: str = "рубрика") 
     Raises:
         InputError: the rubric names a table that the engine does not have.
     """
-    ids = [block.id for block in model.blocks]
-    problems = []
-    for key, patterns in (("fill", rubric.work.fill), ("given", rubric.work.given)):
+    problems: list[Problem] = []
+
+    def check(key: str, patterns: Iterable[str], known: Collection[str], what: str) -> None:
         for pattern in patterns:
-            if not any(fnmatchcase(id_, pattern) for id_ in ids):
-                where = f"{source}: work.{key}"
-                hint = "есть: " + ", ".join(ids[:12]) + "…"
-                problems.append(Problem(where, f"нет таблицы {pattern}", hint))
+            if not any(fnmatchcase(id_, pattern) for id_ in known):
+                where, hint = f"{source}: {key}", _near(pattern, known)
+                problems.append(Problem(where, f"нет {what} {pattern}", hint))
+
+    ids = [block.id for block in model.blocks]
+    check("work.fill", rubric.work.fill, ids, "таблицы")
+    check("work.given", rubric.work.given, ids, "таблицы")
     fill = [block for block in model.blocks if _wanted(block, rubric.work.fill)]
     model = with_own_shifts(model, fill)
     fill = [block for block in model.blocks if _wanted(block, rubric.work.fill)]
@@ -246,28 +250,33 @@ def assignment_of(model: Model, rubric: Rubric, source: str = "рубрика") 
         if block.id not in filled
         and (block.id in needed or matches((block.id,), rubric.work.given))
     ]
-    made = Assignment(model, rubric, tuple(fill), tuple(given))
-    ids = [item.id for block in fill for item in _items(block)]
     problems += [
-        Problem(f"{source}: work.without", f"нет столбца {pattern}", "имена — в register.json")
-        for pattern in rubric.work.without
-        if not any(fnmatchcase(id_, pattern) for id_ in ids)
-    ]
-    known = {item.id for item in made.items} | filled
-    for key, named in (
-        ("points", list(rubric.points)),
-        ("tolerance.items", list(rubric.tolerance.items)),
-        ("formulas.optional", list(rubric.formulas.optional)),
-    ):
-        for pattern in named:
-            if not any(fnmatchcase(id_, pattern) for id_ in known):
-                what = f"нет заполняемой таблицы или столбца {pattern}"
-                problems.append(Problem(f"{source}: {key}", what, "имена — в register.json"))
+        Problem(f"{source}: work.given", f"таблица {pattern} и дана, и заполняется",
+                "оставьте её либо в given, либо в fill")
+        for pattern in rubric.work.given
+        if (named := {id_ for id_ in ids if fnmatchcase(id_, pattern)}) and named <= filled
+    ]  # fmt: skip
+    made = Assignment(model, rubric, tuple(fill), tuple(given))
+    items = [item.id for block in fill for item in _items(block)]
+    check("work.without", rubric.work.without, items, "столбца")
+    known = [*dict.fromkeys(item.id for item in made.items), *sorted(filled)]
+    what = "заполняемой таблицы или столбца"
+    check("points", rubric.points, known, what)
+    check("tolerance.items", rubric.tolerance.items, known, what)
+    check("formulas.optional", rubric.formulas.optional, known, what)
     if not problems and made.rubric.maximum and not sum(made.points.values()):
-        problems.append(Problem(source, "ни один столбец не оценивается", "исправьте [points]"))
+        hint = "исправьте [points] или [work]"
+        problems.append(Problem(source, "ни один столбец не оценивается", hint))
     if problems:
         raise InputError(problems)
     return made
+
+
+def _near(pattern: str, known: Collection[str]) -> str:
+    """What a name was meant for, or what there is."""
+    likely, table = likely_word(pattern, known), pattern.partition(".")[0]
+    beside = sorted(known, key=lambda id_: not id_.startswith(table))  # those of its table first
+    return f"возможно, {likely}" if likely else f"есть: {', '.join(beside[:12])}…"
 
 
 def matches(ids: Iterable[str], patterns: Iterable[str]) -> bool:

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from reports.shared.errors import InputError, Problem, one_line
-from reports.shared.files import reason
 from reports.shared.kinds import ARCHIVE, OFFICE, TEXT, UTF16, kind_of
+from reports.shared.reading import read_bytes
 from reports.workbook.intake import check_data
 from reports.workbook.layout import Cell
 
@@ -56,14 +56,7 @@ def listings(path: Path) -> list[Listing]:
     Raises:
         InputError: it is neither.
     """
-    try:
-        with path.open("rb") as stream:
-            data = stream.read(MAX_BYTES + 1)
-    except OSError as error:
-        hint = "проверьте имя и путь"
-        raise refused(path, f"файл не читается: {reason(error)}", hint) from None
-    if len(data) > MAX_BYTES:
-        raise refused(path, f"файл больше {MAX_BYTES // 10**6} МБ", "это не список группы")
+    data = read_bytes(path, MAX_BYTES, "это не список группы")
     kind = kind_of(data)
     if kind in (ARCHIVE, OFFICE):
         return _sheets(path, data)

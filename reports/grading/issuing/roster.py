@@ -14,18 +14,21 @@ MAX_STUDENTS = 2000
 _TITLES = 20  # lines above the head: what the list is, of which year
 
 _HEADS = {
-    "surname": ("фамилия", "surname", "last name", "lastname", "фамилия студента"),
+    "surname": ("фамилия", "surname", "last name", "lastname"),
     "name": ("имя", "имя и отчество", "имя отчество", "name", "first name", "firstname"),
     "patronymic": ("отчество", "middle name"),
-    "full": ("фио", "ф и о", "фио студента", "ф и о студента", "студент", "обучающийся", "student",
+    "full": ("фио", "ф и о", "студент", "студенты", "обучающийся", "обучающиеся", "student",
              "full name", "полное имя", "фамилия и о", "фамилия имя", "фамилия и имя",
              "фамилия имя отчество", "фамилия имя и отчество"),
-    "group": ("группа", "group", "groups", "группы"),
+    "group": ("группа", "group", "groups", "группы", "номер группы", "№ группы"),
     "id": ("номер", "шифр", "id", "id number", "индивидуальный номер", "логин", "login",
-           "username", "имя пользователя", "зачетка", "зачётка", "номер зачетки", "номер зачётки",
-           "номер зачетной книжки", "номер зачётной книжки", "№ зачетки", "№ зачётки"),
+           "username", "имя пользователя", "зачетка", "номер зачетки", "номер зачетной книжки",
+           "№ зачетки", "№ зачетной книжки"),
     "email": ("email", "e-mail", "почта", "адрес электронной почты", "email address"),
 }  # fmt: skip
+# What a head says besides, and what stands among the people and is none.
+_BESIDES = frozenset(("студента", "студентов", "обучающегося", "полностью", "учебная"))
+_NOBODY = frozenset(("группа", "итого", "всего", "куратор", "староста", "преподаватель"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,6 +97,12 @@ def _headed(listing: Listing) -> _List | None:
     if True not in named[: _TITLES + 1]:
         return None
     first = named.index(True)
+    head = listing.lines[first]
+    names = [cell for cell in head.cells if _columns([cell]).keys() & {"full", "surname"}]
+    if len(set(names)) < len(names):  # another list stands beside this one
+        what = f"столбец «{names[0]}» назван дважды"
+        hint = "поставьте списки один под другим"
+        raise InputError(Problem(listing.place(head, 0), what, hint))
     last = first + 1 if named[first + 1 : first + 2] == [True] else first
     repeated = [line.cells for line in listing.lines[first : last + 1]]  # on each printed page
     people = [
@@ -139,8 +148,10 @@ def _students(made: _List) -> list[Student]:
             where = made.listing.place(line, faults[0])
             problems.append(Problem(where, line.faults[faults[0]], "впишите текст"))
             continue
-        if not surname:
-            problems.append(Problem(where, "нет фамилии", "впишите её или удалите строку"))
+        nobody = surname.split(" ")[0].rstrip(":").casefold() in _NOBODY
+        if nobody or not surname:
+            what = f"«{surname}» — не фамилия" if nobody else "нет фамилии"
+            problems.append(Problem(where, what, "впишите её или удалите строку"))
             continue
         if any(len(value) > MAX_FIELD for value in given.values()):
             problems.append(Problem(where, "слишком длинный текст", "это не список группы"))
@@ -162,8 +173,9 @@ def _students(made: _List) -> list[Student]:
 def _columns(head: list[str]) -> dict[str, int]:
     found: dict[str, int] = {}
     for index, cell in enumerate(head):
-        word = " ".join(re.split(r"[\s.,*:]+", cell.casefold())).strip()
-        for key, words in _HEADS.items():
-            if word in words:
+        words = re.split(r"[\s.,*:()]+", cell.casefold().replace("ё", "е"))
+        word = " ".join(word for word in words if word and word not in _BESIDES)
+        for key, heads in _HEADS.items():
+            if word in heads:
                 found.setdefault(key, index)
     return found

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import re
-import tomllib
-from datetime import datetime
+from datetime import date, datetime
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
+from pydantic_core import PydanticCustomError
 
 from reports.inputs import messages
-from reports.inputs.source import read_text, refuse_bomb
+from reports.inputs.load import tables_of
+from reports.inputs.source import read_text
 from reports.shared.errors import InputError, Problem, one_line
 
 Share = Annotated[float, Field(ge=0, le=1)]
@@ -77,6 +78,14 @@ class Late(_Part):
     least: Share = 0.0
     rules: tuple[LateRule, ...] = (LateRule(after_hours=0, factor=0.9),)
 
+    @field_validator("deadline", mode="before")
+    @classmethod
+    def _with_its_hour(cls, value: object) -> object:
+        """A day alone would end as it begins: who hands in on that day would be late."""
+        if type(value) is date:
+            raise PydanticCustomError("datetime_parsing", "no hour")
+        return value
+
 
 class Attempts(_Part):
     """[attempts]: which of several files counts."""
@@ -119,18 +128,7 @@ def load_rubric(path: Path | None) -> Rubric:
     """
     if path is None:
         return Rubric()
-    text = read_text(path)
-    refuse_bomb(path.name, text)
-    try:
-        raw = tomllib.loads(text)
-    except (ValueError, RecursionError) as error:
-        what, hint = (
-            messages.toml_error(error, text)
-            if isinstance(error, ValueError)
-            else ("слишком глубокая вложенность", "уберите лишние скобки")
-        )
-        raise InputError(Problem(path.name, what, hint)) from None
-    return rubric_of(raw, path.name)
+    return rubric_of(tables_of(read_text(path), source=path.name), path.name)
 
 
 def rubric_of(raw: dict[str, Any], source: str) -> Rubric:
@@ -174,10 +172,11 @@ _WANTED = {
     "int_parsing": "нужно целое число",
     "tuple_type": "нужен список",
     "dict_type": "нужен раздел",
+    "model_type": "нужен раздел",
     "string_type": "нужен текст",
     "missing": "ключ обязателен",
-    "datetime_from_date_parsing": "нужна дата и время: 2026-12-20T23:59:00+03:00",
-    "datetime_parsing": "нужна дата и время: 2026-12-20T23:59:00+03:00",
+    "datetime_from_date_parsing": "нужна дата и время: 2026-12-20T23:59:00",
+    "datetime_parsing": "нужна дата и время: 2026-12-20T23:59:00",
 }
 
 

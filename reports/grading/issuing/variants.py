@@ -7,15 +7,15 @@ import itertools
 import json
 import math
 import random
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from reports.inputs.diagram_file import with_points
 from reports.inputs.fields import set_value
-from reports.inputs.load import Loaded, load_mapping
-from reports.inputs.ranges import Range, read_ranges, split_ranges
+from reports.inputs.load import Loaded, load_mapping, load_text, tables_of
+from reports.inputs.ranges import SECTION, Range, read_ranges, split_ranges
 from reports.inputs.source import read_text
 from reports.shared.errors import InputError, Problem
 
@@ -53,20 +53,17 @@ def load_base(path: Path, beside: Path | None = None) -> Base:
     Raises:
         InputError: everything that is wrong with it.
     """
-    import tomllib
-
-    from reports.inputs.load import load_text
-
     text = read_text(path)
     loaded = load_text(text, source=path.name, folder=path.parent)
-    raw, section = split_ranges(tomllib.loads(text))
+    raw, section = split_ranges(tables_of(text, source=path.name))
     raw = with_points(raw, path.parent, path.name)
     source = path.name
     if beside is not None:
         if section is not None:
             what = "диапазоны заданы и в разделе [variants], и ключом --ranges"
             raise InputError(Problem(path.name, what, "оставьте одно"))
-        section, source = _ranges_file(beside), beside.name
+        data, source = tables_of(read_text(beside), source=beside.name), beside.name
+        section = data.get(SECTION, data)
     if section is None:
         what = "нет раздела [variants] с диапазонами параметров"
         hint = 'пример: [variants] и строка "geometry.bore_mm" = {min = 84, max = 92, step = 1}'
@@ -77,20 +74,6 @@ def load_base(path: Path, beside: Path | None = None) -> Base:
     return Base(path.name, raw, tuple(ranges), loaded)
 
 
-def _ranges_file(path: Path) -> object:
-    import tomllib
-
-    from reports.inputs.messages import toml_error
-
-    text = read_text(path)
-    try:
-        data = tomllib.loads(text)
-    except ValueError as error:
-        what, hint = toml_error(error, text)
-        raise InputError(Problem(path.name, what, hint or "исправьте строку")) from None
-    return data.get("variants", data)
-
-
 def draw_variants(base: Base, students: Sequence[str], seed: int) -> list[Variant]:
     """A variant for each student, the same for the same seed and student.
 
@@ -99,53 +82,58 @@ def draw_variants(base: Base, students: Sequence[str], seed: int) -> list[Varian
     """
     total = math.prod(len(item.values) for item in base.ranges)
     if total < len(students):
-        what = f"диапазоны дают только {total} вариантов, а студентов {len(students)}"
+        what = f"вариантов в диапазонах {total}, а студентов {len(students)}"
         raise InputError(Problem(base.source, what, "расширьте диапазоны или уменьшите шаги"))
     taken: set[str] = set()
     variants: list[Variant] = []
     for student in students:
-        variant = _draw(base, random.Random(f"{seed}:{student}"), taken, total)
-        if variant is None:
+        variant = _draw(base, random.Random(f"{seed}:{student}"), taken)
+        if isinstance(variant, str):
             what = (
                 f"различных вариантов, проходящих проверку, хватило только на {len(variants)} "
                 f"из {len(students)} студентов"
             )
-            raise InputError(Problem(base.source, what, "расширьте диапазоны или сузьте к базе"))
+            what += f"; один из отказов — {variant}" if variant else ""
+            raise InputError(Problem(base.source, what, "уменьшите шаги или приблизьте их к базе"))
         taken.add(variant.key)
         variants.append(variant)
     return variants
 
 
-def _draw(base: Base, rng: random.Random, taken: set[str], total: int) -> Variant | None:
-    for _ in range(TRIES):
-        variant = _variant(base, [rng.choice(item.values) for item in base.ranges], taken)
-        if variant is not None:
-            return variant
-    if total > MAX_COMBINATIONS:
-        return None
-    combinations = list(itertools.product(*(item.values for item in base.ranges)))
-    rng.shuffle(combinations)
-    for values in combinations:
+def _draw(base: Base, rng: random.Random, taken: set[str]) -> Variant | str:
+    """A variant that nobody has, or why one of those tried is none."""
+    why = ""
+    for values in _values(base.ranges, rng):
         variant = _variant(base, values, taken)
-        if variant is not None:
+        if isinstance(variant, Variant):
             return variant
-    return None
+        why = why or variant
+    return why
 
 
-def _variant(base: Base, values: Sequence[float | int | str], taken: set[str]) -> Variant | None:
-    """The variant, or None where it is taken, not accepted by the check or without a result."""
+def _values(ranges: Sequence[Range], rng: random.Random) -> Iterator[Sequence[float | int | str]]:
+    """Values by chance, then all there are."""
+    for _ in range(TRIES):
+        yield [rng.choice(item.values) for item in ranges]
+    if math.prod(len(item.values) for item in ranges) <= MAX_COMBINATIONS:
+        combinations = list(itertools.product(*(item.values for item in ranges)))
+        rng.shuffle(combinations)
+        yield from combinations
+
+
+def _variant(base: Base, values: Sequence[float | int | str], taken: set[str]) -> Variant | str:
+    """The variant, or why the check does not accept it; nothing where it is taken."""
     drawn = {item.key: value for item, value in zip(base.ranges, values, strict=True)}
     if json.dumps(drawn, ensure_ascii=False, sort_keys=True) in taken:
-        return None
+        return ""
     raw = copy.deepcopy(base.raw)
     for item, value in zip(base.ranges, values, strict=True):
         set_value(raw, item.path, value)
     try:
         loaded = load_mapping(raw, source=base.source)
-    except InputError:
-        return None
+    except InputError as error:
+        return error.lines()[0]
     # A variant may be as odd as its base, but not odder.
     known = {problem.where for problem in base.loaded.warnings}
-    if any(problem.where not in known for problem in loaded.warnings):
-        return None
-    return Variant(raw, drawn, loaded)
+    odd = [problem.line() for problem in loaded.warnings if problem.where not in known]
+    return odd[0] if odd else Variant(raw, drawn, loaded)

@@ -40,9 +40,9 @@ from reports.spec.evaluation import Evaluation
 from reports.spec.graph import node_of
 
 _FACTORS = (10.0, 100.0, 1000.0, 1e4, 1e5, 1e6, 1e9)
-
 _OTHERS = 200  # variants that are tried
 _PI = re.compile(r"\bpi\b")
+_ENOUGH, _SAME = 3, 1e-7  # of fewer wrong rows the values must be the very same
 _CLEAR = 50  # tolerances that a number has at least which tells its cause alone
 _VARIED = 4  # different values of a column that tells anything
 
@@ -146,6 +146,8 @@ class Causes:
             values, attempt, right = values[at], attempt[at], right[at]
             if (np.abs(values) < _CLEAR * allowed).any():
                 return False  # so few digits may come of anything
+            if len(rows) < _ENOUGH:  # and among so many columns there is always one that is near
+                allowed = min(allowed, _SAME * float(np.abs(values).max()))
         there = np.isfinite(values)
         if there.sum() < max(1, len(values) // 2):
             return False
@@ -209,10 +211,8 @@ class Causes:
             if name == "pi":
                 continue
             symbol = self._symbol(item, name)
-            yield (
-                f"пропущен множитель {symbol}",
-                self._rewritten(item, run, WithoutFactor(name).visit),
-            )
+            words = f"пропущен множитель {symbol}"
+            yield words, self._rewritten(item, run, WithoutFactor(name).visit)
             words = f"{symbol} не возведено в квадрат"
             yield words, self._rewritten(item, run, WithoutPower(name).visit)
         for value in numbers(self._tree(item.nodes[0])):
@@ -268,19 +268,15 @@ class Causes:
         return "·".join(self._symbol(item, name) for name in sorted(names(ast.unparse(tree))))
 
     def _names(self, node: str) -> frozenset[str]:
-        text = self.student.assignment.graph.expression(node)
-        return names(text) if text is not None else frozenset()
+        return names(self.student.assignment.graph.expression(node) or "0")
 
     def _rewritten(
         self, item: Item, run: Evaluation, change: Callable[[ast.expr], Any]
     ) -> Array | None:
-        graph = self.student.assignment.graph
         parts = []
         changed = False
         for node in item.nodes:
-            text = graph.expression(node)
-            assert text is not None
-            tree = parse(text)
+            tree = self._tree(node)
             other = change(ast.parse(ast.unparse(tree), mode="eval").body)
             changed = changed or ast.unparse(other) != ast.unparse(tree)
             with np.errstate(all="ignore"):

@@ -43,8 +43,3 @@ class Judgement:
     origins: tuple[str, ...] = ()  # items that it is carried from
     paid: float = 0.0  # share of the points, before the rubric's share for the verdict
     coarse: bool = False  # rounded more than the book prints
-
-    @property
-    def finite(self) -> bool:
-        """Whether there is any number."""
-        return bool(np.isfinite(self.values).any())

@@ -38,14 +38,14 @@ def feedback_line(
     share = judgement.paid
     if judgement.verdict == CARRIED:
         share *= assignment.rubric.credit.carried
-    tables = assignment.model.tables
+    heading, short = _headings(item, assignment)
     cause = causes.find(judgement) if judgement.verdict == WRONG else ""
     line: dict[str, Any] = {
         "id": item.id,
         "block": item.block,
-        "table": tables[item.block].number if item.block in tables else "",
-        "heading": _heading(item, assignment),
-        "label": f"{_short_heading(item, assignment)} {item.symbol}",
+        "table": short if item.block in assignment.model.tables else "",
+        "heading": heading,
+        "label": f"{short} {item.symbol}",
         "title": item.title,
         "symbol": item.symbol,
         "unit": item.quantity.unit_label,
@@ -74,18 +74,13 @@ def feedback_line(
     return line
 
 
-def _heading(item: Item, assignment: Assignment) -> str:
-    """The table or list of an item as a person calls it."""
+def _headings(item: Item, assignment: Assignment) -> tuple[str, str]:
+    """The table or list of an item as a person calls it, in full and in short."""
+    table = assignment.model.tables.get(item.block)
+    if table is not None:
+        return f"Таблица {table.number}", table.number
     block = next(block for block in assignment.fill if block.id == item.block)
-    if item.block in assignment.model.tables:
-        return f"Таблица {assignment.model.tables[item.block].number}"
-    return f"{block.title} ({block.sheet})"
-
-
-def _short_heading(item: Item, assignment: Assignment) -> str:
-    block = next(block for block in assignment.fill if block.id == item.block)
-    tables = assignment.model.tables
-    return tables[item.block].number if item.block in tables else block.sheet
+    return f"{block.title} ({block.sheet})", block.sheet
 
 
 def _cells(student: Student, judgement: Judgement) -> list[dict[str, Any]]:

@@ -203,15 +203,12 @@ class Marker:
         mine = {key for key, name in names.items() if name in typed}
         if not mine:
             return ""
+        drawn = {**book.drawn, **{key: typed[names[key]] for key in mine}}
         found = [
             f"{other.number} ({other.student.full})"
             for other in self.register.books
             if other.number != book.number
-            and all(
-                (typed[names[key]] if key in mine else book.drawn[key]) == str(value)
-                or _equal(typed[names[key]] if key in mine else book.drawn[key], value)
-                for key, value in other.drawn.items()
-            )
+            and all(_equal(drawn[key], value) for key, value in other.drawn.items())
         ]
         return ", ".join(found[:4])
 
@@ -243,9 +240,9 @@ class Marker:
 def _equal(text: object, value: object) -> bool:
     """Whether a cell, as it is shown, holds a value."""
     try:
-        return abs(float(str(text)) - float(str(value))) <= 1e-9 * max(1.0, abs(float(str(value))))
+        return math.isclose(float(str(text)), float(str(value)), rel_tol=1e-9, abs_tol=1e-9)
     except ValueError:
-        return False
+        return text == str(value)
 
 
 def _take_match(result: Result, match: Match) -> None:

@@ -22,6 +22,7 @@ from reports.grading.judging.tolerances import close, tolerance
 from reports.grading.judging.trials import Trial
 from reports.grading.reading.student import Student
 from reports.recalculation.bench import (
+    ROUNDINGS,
     Bench,
     Cells,
     full,
@@ -93,7 +94,7 @@ class Response:
             if any(
                 run.formula is not None and rounds(run.formula) for run in self._with_helpers(node)
             )
-            or (self._full_constants and _has_pi(self.student.own_numbers(node)))
+            or (self._full_constants and any(full(v) != v for v in self.student.own_numbers(node)))
         ]
         return self._run(wanted, rounded=False) if wanted else {}
 
@@ -280,6 +281,7 @@ class Response:
         right = self._right(node)
         good = self._good(item, values, right)
         roughly = self._rounded_good(item, node, values, right)
+        others = good[1] if roughly is None else good[1] | roughly[2]
         for run in self.student.runs(node):
             at = [index[row] for row in range(run.first, run.last + 1) if row in index]
             word = ""
@@ -289,9 +291,9 @@ class Response:
                 word = ROUNDED
             coarse = roughly is not None and all(roughly[0][i] for i in at)
             for i in at:
-                letter = self._word(i, word, values, right, good, listed=id(run) in lists)
+                letter = self._word(i, word, values, right, others, listed=id(run) in lists)
                 letter = COARSE if coarse and letter == PARTLY else letter
-                if letter in (PARTLY, COARSE) or (letter == word and not good[1][i]):
+                if letter in (PARTLY, COARSE) or (letter == word and not others[i]):
                     pasted = reads_a_list(self.student, node) if pasted is None else pasted
                     letter = PASTED if pasted else letter
                 letters[i] = letter
@@ -303,7 +305,7 @@ class Response:
         word: str,
         values: Sequence[Array],
         right: Sequence[Array],
-        good: tuple[NDArray[np.bool_], NDArray[np.bool_]],
+        others: NDArray[np.bool_],
         *,
         listed: bool,
     ) -> str:
@@ -313,8 +315,7 @@ class Response:
         if word:
             # What all variants have in common is a number or a list of numbers only where
             # nothing follows from anything.
-            everything = good[1][i]
-            return STILL if not everything and (stands or listed) and moves else word
+            return STILL if not others[i] and (stands or listed) and moves else word
         if not np.isfinite(values[0][i]):
             return WRONG
         return STILL if (stands and moves) or listed else PARTLY
@@ -339,22 +340,23 @@ class Response:
 
     def _rounded_good(
         self, item: Item, node: str, values: Sequence[Array], right: Sequence[Array]
-    ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]] | None:
-        """Where a formula would be right without its roundings, and where they are fine enough."""
+    ) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]] | None:
+        """Where it is right without its roundings, where they are fine, where the others agree."""
         plain = self._unrounded.get(node)
         if not plain or isinstance(plain, str):
             return None
-        exact = self._good(item, plain, right)[0]
+        exact, others = self._good(item, plain, right)
         found = exact.copy()
         half = self.student.assignment.rubric.tolerance.units * 10.0**-item.quantity.digits.decimals
-        whole = [rounded_to(r.formula) for r in self.student.runs(node) if r.formula is not None]
-        coarse = any(d is not None and d < item.quantity.digits.decimals for d in whole)
+        coarse = rounds_coarsely(self.student, item, node)
+        formulas = (run.formula for run in self._with_helpers(node) if run.formula is not None)
+        inside = any(not formula.functions.isdisjoint(ROUNDINGS) for formula in formulas)
         for trial, own, wanted in zip(self.trials, values, right, strict=True):
-            if trial.decides:
+            if trial.decides and inside:  # digits of π cost what they cost
                 largest = float(np.nanmax(np.abs(wanted))) if wanted.size else 0.0
                 allowed = half if coarse else max(half, _INSIDE * largest)
                 found &= close(item, own, wanted, allowed * (1 + 1e-9))
-        return exact, found
+        return exact, found, others
 
     @cached_property
     def tampered(self) -> list[str]:
@@ -380,8 +382,10 @@ class Response:
         return True
 
 
-def _has_pi(numbers: Sequence[float]) -> bool:
-    return any(full(number) != number for number in numbers)
+def rounds_coarsely(student: Student, item: Item, node: str) -> bool:
+    """Whether a column is rounded more than the book prints."""
+    digits = [rounded_to(run.formula) for run in student.runs(node) if run.formula is not None]
+    return any(d is not None and d < item.quantity.digits.decimals for d in digits)
 
 
 def _differ(first: float, second: float) -> bool:

@@ -54,7 +54,8 @@ def without_ground(found: dict[str, Judgement], student: Student, response: Resp
         at = round_ & set(judgement.item.nodes)
         if at and judgement.verdict != UNKNOWN:
             verdict, reason = (UNKNOWN, _ROUND_HERE) if at <= held else (BROKEN, _ROUND)
-            found[id_] = replace(judgement, verdict=verdict, paid=0.0, reason=reason)
+            rows = tuple(range(len(judgement.values)))
+            found[id_] = replace(judgement, verdict=verdict, rows=rows, paid=0.0, reason=reason)
     for id_, judgement in found.items():
         if judgement.paid > 0 and hidden & set(judgement.item.nodes):
             found[id_] = replace(judgement, verdict=UNKNOWN, paid=0.0, reason=_ROUND_ELSEWHERE)
@@ -166,40 +167,44 @@ def _going_back(judgement: Judgement, source: Judgement | None, student: Student
 
 
 def carried(found: dict[str, Judgement], student: Student) -> None:
-    """Right formulas on earlier values that are not right name the columns these came from."""
+    """Right formulas on earlier values that are wrong name the columns these came from.
+
+    Roundings on the way, and values that are not known, are nobody's mistake.
+    """
     owner = {node: j.item.id for j in found.values() for node in j.item.nodes}
+    wrong: set[str] = set()
+    off: dict[str, tuple[int, ...]] = {}
+    near: dict[str, list[str]] = {}
     for id_, judgement in found.items():
-        if judgement.verdict != RIGHT or np.isnan(judgement.expected).all():
-            continue
         allowed = tolerance(judgement.item, judgement.expected, student)
         good = close(judgement.item, judgement.values, judgement.expected, allowed)
-        if good.all():
+        if good.all() or judgement.verdict == UNKNOWN:
             continue
-        names = frozenset().union(*(student.precedents(n) for n in judgement.item.nodes))
-        near = sorted({owner[n] for n in names if n in owner} - {id_})
-        live = [n for n in names if n in student.assignment.live_nodes]
-        through = student.assignment.graph
-        for name in live:
-            near += sorted({owner[n] for n in through.ancestors(name) if n in owner} - set(near))
-        guilty = [
-            n
-            for n in near
-            if found[n].verdict not in (RIGHT, UNKNOWN) or _is_off(found[n], student)
-        ]
-        if not guilty:
-            continue  # roundings on the way, or a value that is not known
-        wrong = [n for n in guilty if found[n].verdict not in (RIGHT, CARRIED)]
-        found[id_] = replace(judgement, verdict=CARRIED,
-                             rows=tuple(np.flatnonzero(~good).tolist()),
-                             origins=tuple((wrong or guilty)[:4]), precedents=names)  # fmt: skip
+        if judgement.verdict != RIGHT:
+            wrong.add(id_)
+        elif not np.isnan(judgement.expected).all():
+            off[id_] = tuple(np.flatnonzero(~good).tolist())
+            near[id_] = _earlier(judgement, owner, student)
+    moved: set[str] = set()
+    while more := {n for n in off.keys() - moved if not (wrong | moved).isdisjoint(near[n])}:
+        moved |= more
+    for id_ in moved:
+        guilty = [n for n in near[id_] if n in wrong] or [n for n in near[id_] if n in moved]
+        found[id_] = replace(found[id_], verdict=CARRIED, rows=off[id_], origins=tuple(guilty[:4]),
+                             precedents=_names(found[id_], student))  # fmt: skip
 
 
-def _is_off(judgement: Judgement, student: Student) -> bool:
-    """Whether a right formula's values are not the right ones for more than roundings."""
-    if judgement.verdict != RIGHT:
-        return judgement.verdict != UNKNOWN
-    allowed = 20 * tolerance(judgement.item, judgement.expected, student)
-    return not close(judgement.item, judgement.values, judgement.expected, allowed).all()
+def _names(judgement: Judgement, student: Student) -> frozenset[str]:
+    return frozenset().union(*(student.precedents(node) for node in judgement.item.nodes))
+
+
+def _earlier(judgement: Judgement, owner: Mapping[str, str], student: Student) -> list[str]:
+    """Items that a formula reads, by way of given formulas too."""
+    names, graph = _names(judgement, student), student.assignment.graph
+    near = sorted({owner[n] for n in names if n in owner} - {judgement.item.id})
+    for name in (n for n in names if n in student.assignment.live_nodes):
+        near += sorted({owner[n] for n in graph.ancestors(name) if n in owner} - set(near))
+    return near
 
 
 def _depending(nodes: Sequence[str], on: str, response: Response) -> dict[str, bool]:

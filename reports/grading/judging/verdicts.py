@@ -29,7 +29,6 @@ from reports.grading.judging.tolerances import close, tolerance
 from reports.grading.reading.ground import filled_copy
 from reports.grading.reading.student import LOST, Answer, Student, known_values
 from reports.grading.reading.typed import TEXT_NUMBER
-from reports.recalculation.bench import rounded_to
 from reports.recalculation.evaluate import BLANK, ERROR, TEXT
 from reports.recalculation.language import UnknownFormula
 
@@ -74,7 +73,8 @@ def _of_cells(item: Item, student: Student, response: Response) -> Judgement:
     letters = response.letters(item)
     if say.UNKNOWN in letters:
         why = next(filter(None, map(response.problem, item.nodes)), "")
-        return replace(made, verdict=UNKNOWN, reason=f"формулу не удалось пересчитать: {why}")
+        rows, why = tuple(range(len(values))), f"формулу не удалось пересчитать: {why}"
+        return replace(made, verdict=UNKNOWN, rows=rows, reason=why)
     if LOST in kinds:
         rows = _where([kind == LOST for kind in kinds])
         return replace(made, verdict=UNKNOWN, rows=rows, reason="ячейки не найдены в книге")
@@ -156,8 +156,9 @@ def _by_rows(
     reason = _reason(verdict, words, kinds, letters, unlinked=unlinked)
     if verdict == BROKEN:
         reason = shown_errors(item, student)
+    coarse = any(say.rounds_coarsely(student, item, node) for node in item.nodes)
     return replace(made, verdict=verdict, rows=rows, paid=paid, reason=reason,
-                   coarse=say.COARSE in letters or _coarse(item, student))  # fmt: skip
+                   coarse=say.COARSE in letters or coarse)  # fmt: skip
 
 
 def _word(kind: str, letter: str, good: bool, fixed: bool) -> str:
@@ -197,17 +198,6 @@ def _reason(verdict: str, words: Sequence[str], kinds: str, letters: str, *, unl
     if verdict == WRONG and TEXT in kinds and set(words) == {WRONG}:
         return "вместо числа стоит текст"
     return ""
-
-
-def _coarse(item: Item, student: Student) -> bool:
-    """Whether a column is wrong only because it is rounded more than the book prints."""
-    digits = [
-        rounded_to(run.formula)
-        for node in item.nodes
-        for run in student.runs(node)
-        if run.formula is not None
-    ]
-    return any(d is not None and d < item.quantity.digits.decimals for d in digits)
 
 
 def _judge_text(item: Item, student: Student, answers: list[Answer]) -> Judgement:

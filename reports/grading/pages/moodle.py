@@ -23,7 +23,7 @@ from typing import Any, TypeVar
 from reports.exports.numbers import neutralised
 from reports.grading.pages.summary import HELD
 from reports.shared.errors import InputError, Problem
-from reports.shared.files import reason
+from reports.shared.reading import read_bytes
 
 MAX_BYTES = 20_000_000
 FEEDBACK = "feedback.html"
@@ -71,15 +71,8 @@ def read_worksheet(path: Path) -> str:
     Raises:
         InputError: it cannot be read, or is none.
     """
+    data = read_bytes(path, MAX_BYTES, "это не ведомость Moodle")
     try:
-        data = path.read_bytes()
-    except OSError as error:
-        hint = "скачайте её в задании Moodle: «Скачать ведомость с оценками»"
-        what = f"ведомость не читается: {reason(error)}"
-        raise InputError(Problem(str(path), what, hint)) from None
-    try:
-        if len(data) > MAX_BYTES:
-            raise UnicodeError
         text = data.decode("utf-8-sig")
     except UnicodeError:
         hint = "возьмите файл таким, каким его отдал Moodle"

@@ -65,6 +65,7 @@ def student_page(result: dict[str, Any], rubric: Rubric) -> str:
         counts={key: n for key, n in counts.items() if n},
         words=WORDS,
         full=full,
+        share=rubric.credit.carried,
         title=rubric.work.title,
     )
 

@@ -18,6 +18,8 @@ from reports.shared.russian import short
 _BESIDE = (".doc", ".docx", ".odt", ".rtf", ".txt", ".md", ".pdf", ".jpg", ".jpeg", ".png", ".heic",
            ".dwg", ".dxf", ".cdw", ".frw", ".pptx", ".xmcd", ".html")  # fmt: skip
 HELD = "ждёт решения"  # the state of a work that may be another's
+_NOBODYS = {"number": None, "group": "", "id": "", "email": "", "moodle_id": "", "points": None,
+            "provisional": None, "manual": True, "decision": None}  # fmt: skip
 _BAR = 160  # px of the longest bar
 _STEPS = 10
 
@@ -25,7 +27,8 @@ _STEPS = 10
 def choose(results: Sequence[Work], count: str = "last") -> dict[int, Work]:
     """The result that counts for each student: of several graded files the last or the best.
 
-    One's own file comes before one that came under another's name.
+    Of files of the same time, as in one zip, none is the last: the best counts.  One's own file
+    comes before one that came under another's name.
     """
     chosen: dict[int, Work] = {}
 
@@ -36,6 +39,7 @@ def choose(results: Sequence[Work], count: str = "last") -> dict[int, Work]:
             result.status == "graded",
             points if count == "best" else 0.0,
             result.time,
+            points,
             result.key,
         )
 
@@ -70,11 +74,10 @@ def table_rows(register: Register, results: Sequence[Work]) -> list[dict[str, An
     """A row for each student of the register, then one for each file without an owner."""
     count = register.rubric.attempts.count
     chosen, held = choose(results, count), suspicions(results)
-    copies = Counter(
-        r.number
-        for r in results
-        if r.number is not None and r.submitter is None and not _is_beside(r, chosen)
-    )
+    times: dict[int | None, list[str]] = {}
+    for r in results:
+        if r.submitter is None and not _is_beside(r, chosen):
+            times.setdefault(r.number, []).append(r.time)
     strange = {r.submitter: r for r in results if r.submitter is not None}
     rows = []
     for book in register.books:
@@ -90,7 +93,7 @@ def table_rows(register: Register, results: Sequence[Work]) -> list[dict[str, An
             doubts = list(result.manual)
         points = result.points if result else None
         unread = _unread(result, results, chosen) if result is not None else []
-        remarks = [*unread, *_remarks(result, copies[book.number], count)]
+        remarks = [*unread, *_remarks(result, times.get(book.number, []), count)]
         if other is not None:
             remarks = list(doubts)
         remarks = list(dict.fromkeys([*doubts, *remarks]))
@@ -118,13 +121,9 @@ def table_rows(register: Register, results: Sequence[Work]) -> list[dict[str, An
     for result in results:
         if result.number is None and result.submitter is None:
             rows.append(
-                {
-                    "number": None, "student": f"? ({result.file})", "group": "", "id": "",
-                    "email": "", "moodle_id": "", "file": result.file,
-                    "status": _status(result), "points": None, "provisional": None,
-                    "result": result, "page": result.page,
-                    "manual": True, "remark": "; ".join(result.manual), "decision": None,
-                }
+                _NOBODYS | {"student": f"? ({result.file})", "file": result.file,
+                            "status": _status(result), "result": result, "page": result.page,
+                            "remark": "; ".join(result.manual)}
             )  # fmt: skip
     return rows
 
@@ -138,7 +137,8 @@ def _status(result: Work | None, unread: Sequence[str] = ()) -> str:
     return "нужна ручная проверка" if asked else word
 
 
-def _remarks(result: Work | None, copies: int, count: str) -> list[str]:
+def _remarks(result: Work | None, times: Sequence[str], count: str) -> list[str]:
+    """Remarks on the work that counts; ``times`` are those of all files of its student."""
     if result is None:
         return ["работа не сдана"]
     found = [*result.manual, *result.notes]
@@ -146,9 +146,11 @@ def _remarks(result: Work | None, copies: int, count: str) -> list[str]:
     for entry in result.decisions:
         what = f" ({labels.get(entry['item'], entry['item'])})" if entry["item"] else ""
         found.append(f"решение преподавателя{what}: {entry['remark'] or 'без примечания'}")
-    if copies > 1:
-        which = "лучший" if count == "best" else "последний"
-        found.append(f"сдано файлов: {copies}, оценён {which} ({result.file})")
+    if len(times) > 1:
+        which = "последний" if count == "last" else "лучший"
+        if count == "last" and times.count(result.time) > 1:
+            which = "лучший из сданных в то же время"
+        found.append(f"сдано файлов: {len(times)}, оценён {which} ({result.file})")
     return found
 
 

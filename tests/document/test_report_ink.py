@@ -19,6 +19,7 @@ from reports.inputs.load import load_mapping
 from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from tests.conftest import sample, sample_names
+from tests.cover import examples
 from tests.document import ink
 from tests.document.pdftools import pages_of
 from tests.document.report_samples import (
@@ -32,7 +33,7 @@ from tests.document.report_samples import (
 from tests.layouts import MAKERS
 
 FIELD = ink.Field()
-ENGINES = int(os.environ.get("KSHM_ENGINES", "2"))  # random engines; 30 for a thorough look
+ENGINES = int(os.environ.get("KSHM_ENGINES", examples(1, 2)))  # random; 30 for a thorough look
 # A page takes a fifth of a second to look at: all samples with the thorough look only.
 SAMPLES = [("ecoboost-10", "course"), ("gots-diesel", "full"), ("yamz-236", "shipped")]
 if ENGINES >= 30:

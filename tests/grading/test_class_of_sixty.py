@@ -1,4 +1,4 @@
-"""A generated class of sixty: every seeded defect is found, and nothing right is marked wrong."""
+"""A class of seeded defects, of sixty with --all: each is found, nothing right is marked wrong."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from reports.grading.reading.submissions import Submission
 from reports.spec.blocks import TableSpec
 from reports.spec.evaluation import Values, evaluate_model
 from reports.workbook.layout import Cell, Layout
+from tests.cover import ALL
 from tests.grading.classroom import opened, registered
 from tests.grading.defects import DEFECTS, Defect
 from tests.grading.fill import filled_book, solved_formulas
@@ -28,15 +29,16 @@ RUBRIC = """
 fill = ["geometry", "masses", "P3_1", "P3_2", "P4_1", "P4_2"]
 """
 FORMS = ("own", "office", "excel")
-FORMS_OF_EACH = 2
+FORMS_OF_EACH = 2 if ALL else 1
 COUNT = FORMS_OF_EACH * len(DEFECTS)
 
 
 def plan() -> list[tuple[int, Defect, str]]:
-    """Each defect is a student's, who hands it in in two of the three forms."""
+    """Each defect is a student's, who hands it in in one of the three forms, or in two."""
     found = []
     for index, defect in enumerate(DEFECTS):
-        forms = [form for form in FORMS[index % 3 :] + FORMS[: index % 3] if form in defect.forms]
+        at = (index + 1) % 3  # the right book as another program saves it
+        forms = [form for form in FORMS[at:] + FORMS[:at] if form in defect.forms]
         found += [(index + 1, defect, form) for form in forms[:FORMS_OF_EACH]]
     return found
 
@@ -111,7 +113,7 @@ def graded_class(libreoffice: LibreOffice):
     """Number of the student and form → defect, result and file."""
     register = classroom()
     works = plan()
-    assert len(works) == COUNT == FORMS_OF_EACH * len(register.books) == 60
+    assert len(works) == COUNT == FORMS_OF_EACH * len(register.books) >= 30
     books = {number: book_of(number, defect) for number, defect in enumerate(DEFECTS, 1)}
     office = [number for number, _, form in works if form == "office"]
     saved = dict(

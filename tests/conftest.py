@@ -87,6 +87,7 @@ SLOW = (
     "tests/grading/test_moodle.py",
     "tests/grading/test_other_bases.py",
     "tests/grading/test_real_class.py",
+    "tests/grading/test_roster.py::test_a_cell_at_the_edge",
     "tests/grading/test_selfcheck.py",
     "tests/grading/test_similarity.py::test_a_class_of_a_thousand",
     "tests/grading/test_typed.py::test_a_number_as_a_text_is_worth_a_number[.",
@@ -145,6 +146,7 @@ SLOW = (
     "tests/workbook/test_schema.py",
     "tests/workbook/test_shared_form.py::test_our_book",
     "tests/workbook/test_wrong_inputs.py::test_points_out",
+    "tests/workbook/test_wrong_inputs.py::test_what_is_odd",
 )
 # Files of which the first test alone is quick: the others need the same costly things again.
 FIRST_ALONE = (

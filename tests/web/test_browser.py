@@ -231,17 +231,21 @@ def typed(page: Any, text: str) -> None:
     page.keyboard.type(text)
 
 
-def taken(page: Any, kind: str, name: str) -> bytes:
-    """A file ordered and downloaded by the keyboard."""
-    tab_to(page, f"[data-kind={kind}]")
-    before = page.locator("#jobs li").count()
-    page.keyboard.press("Enter")
-    until(page, f"document.querySelectorAll('#jobs li').length === {before + 1}")
-    page.wait_for_selector(f"#jobs li:first-child a[download='{name}']", timeout=120_000)
-    tab_to(page, f"#jobs li:first-child a[download='{name}']")
-    with page.expect_download() as download:
+def taken(page: Any, *kinds: str) -> list[bytes]:
+    """Files ordered one after another and downloaded, the last one first, by the keyboard."""
+    for count, kind in enumerate(kinds, page.locator("#jobs li").count() + 1):
+        tab_to(page, f"[data-kind={kind}]")
         page.keyboard.press("Enter")
-    return Path(download.value.path()).read_bytes()
+        until(page, f"document.querySelectorAll('#jobs li').length === {count}")
+    found = []
+    for place, kind in enumerate(reversed(kinds), 1):
+        link = f"#jobs li:nth-child({place}) a[download='engine.{kind}']"
+        page.wait_for_selector(link, timeout=120_000)
+        tab_to(page, link)
+        with page.expect_download() as download:
+            page.keyboard.press("Enter")
+        found.append(Path(download.value.path()).read_bytes())
+    return found
 
 
 def test_an_own_engine_by_the_keyboard_alone_to_workbook_and_pdf(
@@ -275,10 +279,15 @@ def test_an_own_engine_by_the_keyboard_alone_to_workbook_and_pdf(
     until(page, "kshm.raw.geometry.bore_mm > 84.5 && !kshm.running")
     tab_to(page, "[data-key=report] summary")
     page.keyboard.press("Enter")
-    tab_to(page, "[id='f-report.detail']")
-    page.keyboard.press("End")  # the short report: less to wait for
-    until(page, "kshm.raw.report.detail === 'short' && !kshm.running")
-    book, pdf = taken(page, "xlsx", "engine.xlsx"), taken(page, "pdf", "engine.pdf")
+    tab_to(page, "[data-key='report.chapters'] summary")
+    page.keyboard.press("Enter")
+    tab_to(page, "[data-key='report.chapters'] button")
+    page.keyboard.press("Enter")
+    until(page, "kshm.raw.report.chapters?.length === 1 && !kshm.running")
+    page.keyboard.press("Shift+Tab")
+    page.keyboard.press("ArrowDown")  # one chapter: the less to wait for
+    until(page, "kshm.raw.report.chapters[0] === 'kinematics' && !kshm.running")
+    pdf, book = taken(page, "xlsx", "pdf")
     assert pdf.startswith(b"%PDF")
 
     # The workbook is edited elsewhere, comes back, and makes another report.
@@ -292,7 +301,7 @@ def test_an_own_engine_by_the_keyboard_alone_to_workbook_and_pdf(
     tab_to(page, "#upload")  # its dialog is the browser's own
     page.set_input_files("#upload", tmp_path / "edited.xlsx")
     until(page, "kshm.raw.geometry.bore_mm === 91.25 && !kshm.running")
-    assert "91,25" in taken(page, "html", "engine.html").decode()
+    assert "91,25" in taken(page, "html")[0].decode()
     tab_to(page, "#undo")
     page.keyboard.press("Enter")
     until(page, "kshm.raw.geometry.bore_mm < 90 && !kshm.running")

@@ -10,8 +10,7 @@ from reports.document import report
 from reports.document.chapters import closing, opening
 from reports.document.page import render, writer
 from reports.document.text.mathsvg import Formula
-
-BOX = '<svg class="fig" viewBox="0 0 2 1" style="width:120.0mm" data-size="2/1"></svg>'
+from tests.document.report_samples import BOX
 
 
 @cache

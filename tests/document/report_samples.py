@@ -17,6 +17,8 @@ from tests.conftest import sample
 from tests.kept import kept
 from tests.workbook.made import book
 
+# In the place of a figure that nobody looks at.
+BOX = '<svg class="fig" viewBox="0 0 2 1" style="width:120.0mm" data-size="2/1"></svg>'
 ONE = """
 [report]
 year = 2024

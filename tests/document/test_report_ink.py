@@ -23,6 +23,7 @@ from tests.cover import examples
 from tests.document import ink
 from tests.document.pdftools import pages_of
 from tests.document.report_samples import (
+    BOX,
     pdf,
     print_page,
     shipped_pdf,
@@ -38,7 +39,6 @@ ENGINES = int(os.environ.get("KSHM_ENGINES", examples(1, 2)))  # random; 30 for 
 SAMPLES = [("ecoboost-10", "course"), ("gots-diesel", "full"), ("yamz-236", "shipped")]
 if ENGINES >= 30:
     SAMPLES = [(name, detail) for name in sample_names() for detail in ("course", "full")]
-BOX = '<svg class="fig" viewBox="0 0 2 1" style="width:120.0mm" data-size="2/1"></svg>'
 NUMBER = re.compile(r"[−+]?[\d\u00a0]+(,\d+)?")
 # Blank share at the foot of a page that is not the last of a chapter: the largest and the mean.
 MOST_BLANK = (0.30, 0.06)

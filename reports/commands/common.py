@@ -72,4 +72,4 @@ def notes_of(loaded: Loaded) -> tuple[str, ...]:
         return ()  # without loading the tables
     from reports.tables.overview.left_out import left_out_note
 
-    return (left_out_note(loaded.model, keys=True),)
+    return (left_out_note(loaded.model),)

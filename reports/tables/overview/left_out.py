@@ -31,23 +31,19 @@ def left_out(model: InputFile) -> tuple[Block, ...]:
     return tuple(block for block in blocks if block.id not in known)
 
 
-def left_out_note(model: InputFile, *, keys: bool = False) -> str:
-    """What is not calculated and why, in a line; empty where all is.
-
-    ``keys`` names the tables as files of numbers do.
-    """
-    blocks = left_out(model)
-    if not blocks:
+def left_out_note(model: InputFile) -> str:
+    """What is not calculated and why, in a line that names the sheets; empty where all is."""
+    sheets = list(dict.fromkeys(block.sheet for block in left_out(model)))
+    if not sheets:
         return ""
     shape = Shape.of(model)
     reasons = [
         *(["смещения оси цилиндра или пальца"] if shape.offset else []),
         *(["прицепных шатунов"] if shape.articulated else []),
     ]
-    tables = "; ".join(
-        f"{block.id} «{block.title}»" if keys else f"«{block.title}»" for block in blocks
-    )
+    # «Уравновешивание» stands for «Уравновешивание, итоги» too.
+    named = [f"«{s}»" for s in sheets if (base := s.partition(", ")[0]) == s or base not in sheets]
     return (
         f"Не рассчитано из-за {' и '.join(reasons)} (ряды по порядкам описывают центральный "
-        f"механизм с одинаковыми шатунами): {tables}"
+        f"механизм с одинаковыми шатунами), в книге нет листов {', '.join(named)}"
     )

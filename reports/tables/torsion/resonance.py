@@ -303,8 +303,9 @@ def _forced() -> TableSpec:
 
 def _main_orders(scope: Scope) -> range:
     """Whole orders to draw: those at which the cylinders of a common engine add up."""
-    half = scope.shape.cylinders / scope.shape.strokes
-    step = max(2, round(2 * half)) if half < 3 else round(half)
+    count, strokes = scope.shape.cylinders, scope.shape.strokes
+    whole = count if 2 * count % strokes else 2 * count // strokes
+    step = max(2, whole) if whole < 6 or whole % 2 else whole // 2
     return range(min(step, RAYS), RAYS + 1, step)
 
 

@@ -324,7 +324,7 @@ def _fresh() -> ScalarTable:
         "Значения этого листа",
         FORCED,
         scalar_list(f"""
-            tor_fresh = {text} | метка данных при сборке
+            tor_fresh = {text}
             tor_top_MPa = col_max({t}.tor_tau_MPa) | {most}
             tor_top_rpm = element({t}.tor_speed_rpm, first_largest({t}.tor_tau_MPa)) | {most}
             tor_top_damped_MPa = col_max({t}.tor_tau_damped_MPa) | {most}

@@ -198,4 +198,3 @@ def test_the_orders_of_the_campbell_diagram_are_those_that_add_up(cylinders, str
     turns = np.arange(cylinders) * strokes * np.pi / cylinders  # evenly firing
     together = np.abs(np.exp(1j * np.outer(drawn[-1:], turns)).sum(axis=1))
     assert together == pytest.approx(cylinders)
-

@@ -27,8 +27,8 @@ _WHOLE = re.compile(
 def rich(text: str) -> str | Markup:
     """Clean a text; «мин⁻¹» gets a superscript, because STIX has no raised minus.
 
-    No line ends within «φ = 0», «1-го», «2-е изд.», «V-образный» and «6ЧН 11/12,5».  Text without any of it
-    and of raised signs stays a plain string, to be escaped by Jinja.
+    No line ends within «φ = 0», «1-го», «2-е изд.», «V-образный» and «6ЧН 11/12,5».  Text
+    without any of it and of raised signs stays a plain string, to be escaped by Jinja.
     """
     text = _RELATION.sub(f"{NBSP}={NBSP}", text)
     if not (_RUN.search(text) or _WHOLE.search(text)):

@@ -12,7 +12,6 @@ from reports.tables.balance.torque_orders import torque_orders
 from reports.tables.motion.neiman import neiman
 from reports.tables.motion.segal import segal
 
-_OF_CHARTS = ("_sizes", "_box")  # what only keeps the axes of charts equal
 _BY_ORDERS: tuple[PartOf, ...] = (segal, neiman, balance, inertia, torque_orders)
 
 
@@ -27,7 +26,6 @@ def left_out(model: InputFile) -> tuple[Block, ...]:
     plain = model.model_copy(update={"geometry": geometry, "articulated": None})
     blocks = joined(Scope(plain), _BY_ORDERS).blocks
     known = {block.id for block in joined(Scope(model), _BY_ORDERS).blocks}
-    known |= {block.id for block in blocks if block.id.endswith(_OF_CHARTS)}
     return tuple(block for block in blocks if block.id not in known)
 
 

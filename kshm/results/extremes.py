@@ -6,10 +6,10 @@ import numpy as np
 
 from kshm.arrays import Array
 from kshm.mechanics.wear import ray_angles
-from kshm.nomenclature.quantity import UNITS
 
 # Values this close to the extreme count as equal: the first angle or number is reported.
 TIE = 1e-9
+RAY_TIE = 1.0  # Pa: sums of rays that differ by less are alike, whatever their size
 UNLOADED = 1e-3  # Pa: specific forces below are rounding noise of zero
 
 
@@ -76,7 +76,7 @@ def least_loaded(sums: Array) -> tuple[Array, Array]:
     """
     count = sums.shape[-1]
     least = sums.min(axis=-1, keepdims=True)
-    tied = sums <= least + TIE * np.maximum(UNITS["MPa"].si, least)
+    tied = sums < least + RAY_TIE
     places = np.arange(2 * count + 1)  # two turns: an arc may pass the first ray
     broken = np.where(tied[..., places % count], -1, places)
     arcs = (places - np.maximum.accumulate(broken, axis=-1))[..., count:]  # ending at each ray

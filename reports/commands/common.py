@@ -43,15 +43,15 @@ def load(source: Path) -> Loaded:
     from reports.exports.build import load_input
 
     loaded = load_input(source)
-    tell(loaded)
+    tell(loaded, source)
     return loaded
 
 
-def tell(loaded: Loaded) -> None:
+def tell(loaded: Loaded, source: Path) -> None:
     """What is odd about an input, and what it explains itself."""
     from reports.exports.build import remarks_of
 
-    for line in (*remarks_of(loaded), *notes_of(loaded)):
+    for line in (*remarks_of(loaded), *(f"{source.name}: {note}" for note in notes_of(loaded))):
         click.echo(line, err=True)
 
 
@@ -72,4 +72,4 @@ def notes_of(loaded: Loaded) -> tuple[str, ...]:
         return ()  # without loading the tables
     from reports.tables.overview.left_out import left_out_note
 
-    return (left_out_note(loaded.model, keys=True),)
+    return (left_out_note(loaded.model),)

@@ -131,7 +131,7 @@ def check(source: Path, as_json: bool) -> int:
             ]
         click.echo(json.dumps(data, ensure_ascii=False, indent=1))
         return BAD if problems else (LOOK if warnings else DONE)
-    tell(loaded)
+    tell(loaded, source)
     click.echo(f"{source}: ошибок нет")
     odd = tell_solved(loaded)
     return LOOK if warnings or odd else DONE

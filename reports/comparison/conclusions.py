@@ -53,7 +53,7 @@ def _volumes(names: Sequence[str], rows: Mapping[str, Row]) -> Iterator[str]:
 
 
 def _litres(volume: float) -> str:
-    return fixed(volume, 2) if volume >= 1 else short(volume, 3)
+    return fixed(volume, 2) if 1 <= volume < 100 else short(volume, 4)
 
 
 def _greatest(names: Sequence[str], rows: Mapping[str, Row]) -> Iterator[str]:

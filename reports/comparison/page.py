@@ -30,7 +30,7 @@ from reports.shared.russian import MINUS, NBSP, comma, fixed, grouped, short
 
 _TITLE = "Сравнение двигателей"
 _MOST_PERCENT = 900
-_NONE_LEFT = -99.9999  # and here nothing is left that a table could show
+_NONE_LEFT = -99.99  # and here hardly anything is left that a table could show
 _FEW = 4  # engines that fit beside the words at the usual size
 
 
@@ -120,10 +120,10 @@ def _change(percent: float | None) -> str:
         return ""
     if percent >= _MOST_PERCENT or _NONE_LEFT < percent < LEAST_PERCENT:
         return f"(×{NBSP}{grouped(short(float(f'{1 + percent / 100:.3g}')))})"
-    text = fixed(percent, 1)
     if not float(f"{percent:.1f}"):
         return ""  # alike: the numbers themselves say so
-    return f"({text} %)" if text.startswith(MINUS) else f"(+{text} %)"
+    shown = fixed(percent, 1)
+    return f"({'' if shown.startswith(MINUS) else '+'}{shown}{NBSP}%)"
 
 
 def _titled(title: str, unit: str) -> str | Markup:

@@ -234,6 +234,9 @@ def row(key, *values):
         ([row("V_engine", 0.0363, 40.0)],
          "Рабочие объёмы разные: от 0,0363 л (А) до 40,00 л (Б); силы и моменты сравниваются с "
          "этой оговоркой."),
+        ([row("V_engine", 4998.73, 0.030869)],
+         "Рабочие объёмы разные: от 0,03087 л (Б) до 4999 л (А); силы и моменты сравниваются с "
+         "этой оговоркой."),
         ([row("F1_before_max", 0.04, 0.04), row("Rpin_max_kN", 1e2, 2.0)],
          "Уравновешены силы инерции 1-го порядка: А; у остальных — нет."),
         ([row("F1_before_max", 2.0, 3.0)],
@@ -266,6 +269,8 @@ def test_the_page_says_where_its_numbers_come_from():
     page = comparison_page(engines(), media="screen")
     for words in ("Чем отличаются исходные данные", "Выводы", "файл d-240.toml", "(+"):
         assert words in page
+    ends = re.findall(r"файл [^<]*\.toml(.)</li>", page.replace("\u00a0", " "))
+    assert set(ends[:-1]) <= {";"} and ends[-1] == "."
 
 
 @pytest.mark.parametrize(
@@ -273,6 +278,7 @@ def test_the_page_says_where_its_numbers_come_from():
     [
         (0.4, 0.0001, "(× 0,00025)"),  # not −100,0 %: something is left
         (0.4, 0.0, "(−100,0 %)"),
+        (0.4, 0.0000007, "(−100,0 %)"),  # and here nothing that anyone would see
         (0.4, 0.0004, "(−99,9 %)"),
         (-131.0, 2.0, ""),  # of the other sign
         (131.0, -2.0, ""),

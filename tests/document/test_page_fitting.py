@@ -3,6 +3,7 @@
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from markupsafe import Markup
 
 from reports.document.page.blocks import Column, symbol_head, table_block
 from reports.document.page.fitting import fitted, least_width, type_pt
@@ -18,6 +19,14 @@ def block(columns: int, value: float, rows: int = 30):
     heads += [Column(symbol_head(rf"M_{{{i}}}", "Н·м")) for i in range(1, columns)]
     return table_block(heads, [[str(i), *[fixed(-value - i, 3)] * (columns - 1)]
                                for i in range(rows)])  # fmt: skip
+
+
+def test_a_cell_of_two_lines_is_as_wide_as_the_longer_one():
+    def needed(*lines):
+        cells = [["Ход поршня", Markup("<br>").join(lines)]]
+        return least_width(table_block([Column("Величина"), Column("А")], cells))
+
+    assert needed("0,005039", "(+455,0\xa0%)") == needed("(+455,0\xa0%)")
 
 
 @settings(max_examples=40)

@@ -119,7 +119,7 @@ def test_clearances_are_called_accepted_only_if_they_are():
 def test_an_oil_hole_that_the_fine_step_puts_elsewhere_is_told_in_every_chapter():
     text = text_of(in_line([1, 3, 2], calculation={"step_deg": 30.0}))
     assert "αм = 270° (при шаге 1° — 300°) от колена" in text
-    assert "по диаграмме износа (при шаге 1° — 300°: моменты при шаге 1° относятся" in text
+    assert "угол отверстия взят по диаграмме износа:" in text  # all moments are of 270°
     assert "под углом 270° (при шаге 1° — 300°) от колена" in text
 
 

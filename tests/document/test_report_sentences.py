@@ -231,6 +231,21 @@ UNIT = r"%|°C|с\.|(?:мин|м|мм|мкм|кг|л|Гц|Дж|кДж|Вт|кВ�
 PARTED = re.compile(rf".{{0,30}}\d (?:{UNIT}).{{0,10}}")
 
 
+BESIDE = (
+    r"скорость поршня (NUMBER) м/с при φ = [^,;]*,\d+°, средняя (NUMBER) м/с",
+    r"газов по таблице (NUMBER) МПа [^;]*достигает (NUMBER) МПа",
+    r"мёртвые точки — при (NUMBER)° и (NUMBER)°",
+    r"средней нагрузки — (NUMBER)°, по условному износу — (NUMBER)°",
+)
+
+
+def assert_decimals_agree(text):
+    """Values of one quantity beside each other have the same decimals."""
+    for said in BESIDE:
+        for pair in re.findall(said.replace("NUMBER", r"−?[\d ]+(?:,\d+)?"), text):
+            assert len({len(number.partition(",")[2]) for number in pair}) == 1, pair
+
+
 def assert_set_well(page):
     """Every sign is in the report's font, and no number leaves its unit."""
     bare = re.sub(r"<(style|svg).*?</\1>", "", page, flags=re.DOTALL)
@@ -247,6 +262,7 @@ def test_no_sentence_of_a_sample_is_denied(name):
     assert_claims_hold(model, page)
     assert_nothing_is_empty(page, drawn)
     assert_symbols_mean_one_number(page)
+    assert_decimals_agree(plain(page))
     assert_set_well(page)
 
 
@@ -268,6 +284,7 @@ def test_no_sentence_of_a_random_engine_is_denied(layout, step, speed, method, d
     assert_claims_hold(model, page)
     assert_nothing_is_empty(page, drawn)
     assert_symbols_mean_one_number(page)
+    assert_decimals_agree(plain(page))
     assert_set_well(page)
 
 

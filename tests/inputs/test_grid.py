@@ -88,6 +88,13 @@ def test_an_oil_hole_that_the_fine_step_puts_elsewhere_is_told():
     assert np.isinf(found.percent)  # no share of an angle
     assert replace(found, first=True).title.endswith("шейки 1, от колена против вращения")
     assert not [e for e in grid_errors(stepped("yamz-236", 10.0)) if "hole" in e.key]
+    # The pin's bending is held against the fine step's in the same plane of the hole.
+    hole = {"oil_hole_deg": coarse["alpha_oil_deg"]}
+    crankshaft = model.crankshaft.model_copy(update=hole)
+    same = scalars(stepped("gots-diesel", 1.0).model_copy(update={"crankshaft": crankshaft}))
+    bent = {e.key: e.fine for e in grid_errors(model) if e.key.startswith("Malpha")}
+    assert bent and bent == {key: same[key] for key in bent}
+    assert bent["Malpha_max"] != fine["Malpha_max"]
 
 
 def test_of_alike_pins_the_first_is_named_and_goes_first():

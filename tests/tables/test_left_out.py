@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ import pytest
 
 from kshm import solve
 from kshm.nomenclature.quantity import quantity
-from reports.commands.common import notes_of
+from reports.commands.common import notes_of, tell
 from reports.exports.numbers import export_tables, json_text
 from reports.inputs.load import load_mapping
 from reports.inputs.to_si.engine import engine_and_cycle
@@ -52,11 +53,13 @@ def test_an_offset_of_zero_may_be_changed_in_the_book() -> None:
     assert fields["geometry_crank_offset_mm"].structural
 
 
-def test_an_offset_names_every_table_that_it_costs() -> None:
+def test_an_offset_names_every_sheet_that_it_costs(capsys: pytest.CaptureFixture[str]) -> None:
     raw = with_offset(crank_offset_mm=6.0)
     loaded = load_mapping(raw, source="f")
     (note,) = notes_of(loaded)
     assert note.startswith("Не рассчитано из-за смещения оси цилиндра или пальца")
+    tell(loaded, Path("data") / "v.toml")  # of several files a person knows which
+    assert f"v.toml: {note}" in capsys.readouterr().err.splitlines()
     central = build_model(load_mapping(with_offset(), source="f").model)
     model = build_model(loaded.model)
     lost = set(central.tables) - set(model.tables)
@@ -64,10 +67,11 @@ def test_an_offset_names_every_table_that_it_costs() -> None:
     # What needs no series of a central mechanism is there.
     assert {"inertia", "tangential", "torque_orders"} <= set(model.tables)
     assert {"I_flywheel", "delta_speed", "rod_model_mass"} <= set(model.scalars)
-    for table in lost:
-        assert f"{table} «" in note
-    # A person reads the titles alone, the command names the tables too.
-    assert re.sub(r"[a-z_0-9]+ «", "«", note) in model.remarks
+    # Sheets are what a reader meets; one that has lost a part of its tables would not be named.
+    sheets = {table.sheet for table in central.tables.values() if table.id in lost}
+    assert sheets.isdisjoint(block.sheet for block in model.blocks)
+    assert all(f"«{sheet}»" in note for sheet in sheets) and not re.search("[a-z]", note)
+    assert note in model.remarks and len(note) < 400
     solution = solve(*engine_and_cycle(loaded.model))
     assert json.loads(json_text(loaded.model, solution, notes_of(loaded)))["notes"] == [note]
     assert "notes" not in json.loads(json_text(loaded.model, solution))

@@ -6,6 +6,7 @@ import pytest
 from kshm.results.extremes import least_loaded
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
+from reports.spec import extremes
 from tests.conftest import sample
 from tests.tables.test_two_statements import assert_agree
 
@@ -28,6 +29,15 @@ def test_the_middle_of_the_widest_unloaded_arc_is_taken(unloaded, ray):
     found, place = least_loaded(np.stack([sums, sums]))
     assert found.tolist() == [ray, ray]
     assert np.degrees(place) == pytest.approx((30 * (ray - 1) + 180) % 360)
+
+
+@pytest.mark.parametrize("size", [0.0, 5e6, 5e9])
+def test_a_tie_is_the_same_in_both_statements_whatever_the_sums(size):
+    tie = float(extremes.TIE) * 1e6  # of the formula, which counts in MPa
+    for apart, ray in ((0.5 * tie, 4), (1.5 * tie, 3)):
+        sums = np.full(12, size + 1e6)
+        sums[[2, 3, 4]] = size, size + apart, size + apart
+        assert least_loaded(sums)[0] == ray
 
 
 def test_both_statements_take_it_whatever_the_step():

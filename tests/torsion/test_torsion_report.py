@@ -34,7 +34,7 @@ def page(name: str, *pairs: tuple[str, float | str]) -> str:
 
 def test_the_dangerous_order_is_named() -> None:
     text = page("mwm-6")
-    assert "самый опасный порядок — 6 (форма 1, 2165,8" in text
+    assert "самый опасный порядок — 6 (форма 1, 2166 мин" in text
     assert "превышает допускаемую 40 МПа" in text
     assert "Более лёгкий маховик сдвигает первую частоту вверх на 4,9 %" in text
     # What is left with the damper stands elsewhere than the peak without it.

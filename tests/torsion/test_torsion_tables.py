@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -22,6 +23,7 @@ from reports.spec.rename import substituted
 from reports.tables.motion.mechanism import dimensions
 from reports.tables.registry import build_model, stand_ins
 from reports.tables.torsion.free import free
+from reports.tables.torsion.resonance import _main_orders
 from reports.tables.torsion.train import train
 from reports.workbook.layout import FIRST_ROW, Layout
 from reports.workbook.write import workbook_bytes
@@ -181,3 +183,18 @@ def test_values_of_a_changed_workbook_are_told_to_be_old() -> None:
     ):
         known = mark | {change: 1.01 * run.value(change)}
         assert "ИЗМЕНЕНЫ" in run.fork(known).value("tor_fresh")
+
+
+@pytest.mark.parametrize(
+    ("cylinders", "strokes", "drawn"),
+    [
+        (3, 4, [3, 6, 9, 12]), (4, 4, [2, 4, 6, 8, 10, 12]), (5, 4, [5, 10]), (7, 2, [7]),
+        (6, 4, [3, 6, 9, 12]), (7, 4, [7]), (8, 4, [4, 8, 12]), (12, 4, [3, 6, 9, 12]),
+    ],
+)  # fmt: skip
+def test_the_orders_of_the_campbell_diagram_are_those_that_add_up(cylinders, strokes, drawn):
+    shape = SimpleNamespace(cylinders=cylinders, strokes=strokes)
+    assert [*_main_orders(SimpleNamespace(shape=shape))] == drawn
+    turns = np.arange(cylinders) * strokes * np.pi / cylinders  # evenly firing
+    together = np.abs(np.exp(1j * np.outer(drawn[-1:], turns)).sum(axis=1))
+    assert together == pytest.approx(cylinders)

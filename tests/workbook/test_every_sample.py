@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import re
 import zipfile
+from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from lxml import etree
 
 from reports.inputs.fields import to_mapping
 from reports.inputs.sections.input_file import InputFile
+from reports.spec.blocks import ScalarTable
 from reports.tables.registry import build_model
 from reports.workbook import motion, what_if
 from reports.workbook.caches import sheet_parts
@@ -98,3 +100,17 @@ def test_no_expression_depends_on_the_values_of_the_input(name: str) -> None:
     data, share = with_every_value_changed(model.input)
     assert share > 0.9
     assert expressions(build_model(data)) == expressions(model)
+
+
+@pytest.mark.parametrize("name", samples_with(formulas))
+def test_rows_of_a_list_are_told_apart_and_whole(name: str) -> None:
+    for block in coarse_model(name).blocks:
+        listed = isinstance(block, ScalarTable) and not block.id.endswith("_sizes")
+        scalars = block.scalars if listed else ()
+        looks = [(s.note or s.quantity.title, s.quantity.symbol, s.source)
+                 for s in scalars if s.of not in ("check", "verdict")]  # fmt: skip
+        assert [look for look, count in Counter(looks).items() if count > 1] == []
+        # A long text runs over the next cells: they are free.
+        worded = [s for s in scalars if s.quantity.digits.kind == "text" and s.of != "check"]
+        said = {s.key: max(map(len, re.findall('"([^"]*)"', s.expr)), default=0) for s in worded}
+        assert [s.key for s in worded if said[s.key] > 12 and (s.source or s.quantity.unit)] == []

@@ -36,9 +36,6 @@ def bearings(chapter: Chapter) -> Markup:
         several=len(chapter.shape.pins[0]) > 1,
         worst=chapter.worst("worst_main_load"),
         given=chapter.input.crankshaft.oil_hole_deg is not None,
-        moved=next(
-            (chapter.fine(error) for error in terms.grid_errors if error.key == "hole_pin_deg"), ""
-        ),
         bending=chapter.scalars(f"Изгиб шатунной шейки{first}", _BENDING, keep=True),
         schemes=schemes,
         shown=shown,

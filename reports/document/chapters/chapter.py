@@ -190,7 +190,8 @@ class Chapter:
 
     def fine(self, error: GridError) -> Markup:
         """The value by the fine step with its unit."""
-        return with_unit(of_digits(error.fine, error.quantity.digits), self.terms.unit(error.key))
+        digits = error.quantity.digits.within(error.coarse)
+        return with_unit(of_digits(error.fine, digits), self.terms.unit(error.key))
 
     def worst(self, key: str) -> int:
         """Number of the most loaded journal by a scalar that holds it."""

@@ -68,7 +68,6 @@ SOURCES = {
 # Chapters whose results the conclusion repeats.
 _CONCLUDED = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "running"}
 _TEXTBOOKS = re.compile(r"П[\d.]+")  # numbers of the textbook's tables
-_LONG_LIST = 3  # names of tables in a remark that the workbook had better hold
 _MOST_PERCENT = 1000.0  # of a value near zero a difference in percent says nothing
 
 
@@ -96,18 +95,10 @@ def _remarks(chapter: Chapter) -> list[Markup]:
     if "torque" in chosen(chapter.input):
         told.append(reasons_of(chapter.input).get("power", ""))
     return [
-        remark_html(_without_list(line))
+        remark_html(line)
         for line in chapter.terms.model.remarks
         if not any(part and line.endswith(part) for part in told)
     ]
-
-
-def _without_list(remark: str) -> str:
-    """A remark without a list of tables that its reader has never seen."""
-    said, _, names = remark.partition(": «")
-    if names.count("«") < _LONG_LIST:
-        return remark
-    return f"{said}; перечень таблиц, которых поэтому нет, стоит в книге Excel"
 
 
 def _grid_table(chapter: Chapter) -> TableBlock:

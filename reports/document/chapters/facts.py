@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from markupsafe import Markup
 
-from reports.document.text.terms import Terms
+from reports.document.text.terms import Terms, with_unit
+from reports.shared.russian import fixed
 from reports.spec.shape import Shape, pin_name
 
 _PEAK_MPA = 0.005  # half a unit of the last digit that the conclusion prints
@@ -35,7 +36,8 @@ def missed_peak(terms: Terms) -> Markup | str:
     """The greatest pressure of the diagram where no row of the table has it."""
     names = [name for name in ("cyc_p_z", "gas_max_pressure_mpa") if terms.has(name)]
     shown = float(terms.column("gas.p_MPa").max())
-    return terms.val(names[0]) if names and terms.value(names[0]) > shown + _PEAK_MPA else ""
+    most = terms.value(names[0]) if names else 0.0
+    return with_unit(fixed(most, 2), "МПа") if most > shown + _PEAK_MPA else ""
 
 
 def worst_running(terms: Terms, throws: int) -> tuple[list[int], list[int]]:

@@ -75,7 +75,7 @@ def _cell_em(cell: str, column: Column) -> float:
 
 def _pieces(text: str) -> Sequence[str]:
     """What a line may not be broken within; tags have no spaces here but in attributes."""
-    return re.split(r" (?![^<]*>)|(?<=-)(?=[А-яё])", text)
+    return re.split(r" (?![^<]*>)|<br>|(?<=-)(?=[А-яё])", text)
 
 
 def _width(piece: str) -> float:

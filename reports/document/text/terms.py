@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -170,16 +170,20 @@ class Terms:
         rows = np.asarray(self.model.tables[table].rows)
         return int(np.abs(rows - at).argmin())
 
-    def num(self, name: str, at: float | None = None) -> str:
-        """Number alone, with the decimals of its quantity."""
+    def num(self, name: str, at: float | None = None, beside: str = "") -> str:
+        """Number alone, with the decimals of its quantity, no more than one ``beside`` it has."""
         value = self.value(name, at)
         if name in self.model.fields:
             return plain_number(value)
-        return numbers.of_digits(value, self._digits(name))
+        digits = self._digits(name)
+        if beside:
+            other = self._digits(beside).within(self.value(beside))
+            digits = replace(digits, decimals=min(digits.decimals, other.decimals))
+        return numbers.of_digits(value, digits)
 
-    def val(self, name: str, at: float | None = None) -> Markup:
+    def val(self, name: str, at: float | None = None, beside: str = "") -> Markup:
         """Number with unit: ``829 Н·м``, ``30°``."""
-        return with_unit(self.num(name, at), self.unit(name))
+        return with_unit(self.num(name, at, beside), self.unit(name))
 
     def eqv(self, name: str, at: float | None = None) -> Markup:
         """Symbol, equals sign, number and unit for running text."""

@@ -17,15 +17,18 @@ _LOWER = str.maketrans(_RAISED, _LEVEL)
 _RUN = re.compile(f"[{_RAISED}]+")
 _RELATION = re.compile("(?<=[α-ω]) = (?=[−\\d])")
 # A line may end at a hyphen, unlike at a no-break space.
-_WHOLE = re.compile(r"(?<![\w-])(\d+-[а-яё]{1,3}(?: изд\.)?|[A-ZА-ЯЁ]-[а-яё]+)(?![\w-])")
+_WHOLE = re.compile(
+    r"(?<![\w-])(\d+-[а-яё]{1,3}(?: изд\.)?|[A-ZА-ЯЁ]-[а-яё]+"
+    r"|\d*[ДЧ][А-Я]* \d+(?:,\d+)?/\d+(?:,\d+)?)(?![\w-])"
+)
 
 
 @functools.lru_cache(maxsize=8192)
 def rich(text: str) -> str | Markup:
     """Clean a text; «мин⁻¹» gets a superscript, because STIX has no raised minus.
 
-    No line ends within «φ = 0», «1-го», «2-е изд.» and «V-образный».  Text without any of it
-    and of raised signs stays a plain string, to be escaped by Jinja.
+    No line ends within «φ = 0», «1-го», «2-е изд.», «V-образный» and «6ЧН 11/12,5».  Text
+    without any of it and of raised signs stays a plain string, to be escaped by Jinja.
     """
     text = _RELATION.sub(f"{NBSP}={NBSP}", text)
     if not (_RUN.search(text) or _WHOLE.search(text)):

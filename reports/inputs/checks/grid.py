@@ -103,10 +103,15 @@ def grid_errors(model: InputFile) -> tuple[GridError, ...]:
 
 
 def refined(model: InputFile) -> InputFile:
-    """The same engine with tables at the fine step, less what has no angles or steps of its own."""
+    """The same engine with tables at the fine step, less what has no angles or steps of its own.
+
+    Its oil hole stays where the model's own tables put it: in another plane is another moment.
+    """
     calculation = model.calculation.model_copy(update={"step_deg": FINE})
-    other = {"calculation": calculation, "torsion": None, "bearings": None}
-    return model.model_copy(update=other)
+    hole = {"oil_hole_deg": solved(model).scalars.get("alpha_oil_deg")}
+    crankshaft = model.crankshaft.model_copy(update=hole)
+    other = {"torsion": None, "bearings": None}
+    return model.model_copy(update={"calculation": calculation, "crankshaft": crankshaft, **other})
 
 
 def fine_columns(model: InputFile) -> Tables:

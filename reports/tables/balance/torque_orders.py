@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from kshm.nomenclature.quantity import quantity
 from reports.inputs.sections.gas import TableGasSection
 from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
@@ -108,9 +109,10 @@ def _coefficients(model: InputFile) -> ScalarTable:
     def second(of: str, curve: str) -> str:
         """Both parts of a curve's second order and its size."""
         waves = f"(tangential.t_{curve}_MPa, tangential.phi_deg, 2)"
+        series = f"ряд Фурье: {quantity(of).symbol}"
         return f"""
-            {of}_cos of t_part_cos = fourier_cos{waves} | ряд Фурье
-            {of}_sin of t_part_sin = fourier_sin{waves} | ряд Фурье
+            {of}_cos of t_part_cos = fourier_cos{waves} | {series}
+            {of}_sin of t_part_sin = fourier_sin{waves} | {series}
             {of} = sqrt({of}_cos**2 + {of}_sin**2) | Чудаков (1)
         """
 

@@ -5,6 +5,7 @@ The last column of each row names the regime that governs: the one with the grea
 
 from __future__ import annotations
 
+from kshm.nomenclature.quantity import quantity
 from kshm.results.regimes import regime_key
 from reports.inputs.sections.input_file import InputFile
 from reports.spec.blocks import Block, Grid, GridRow, Scalar, ScalarTable
@@ -35,17 +36,19 @@ def comparison(model: InputFile, further: tuple[RegimeModel, ...]) -> Part:
     numbers = tuple(range(1, len(further) + 2))
     keys = {scalar for block in further[0].blocks_to_copy for scalar in _keys(block)}
     rows = [_row(key, key, numbers, model, low=low) for key, low in _compared(keys)]
-    extremes, force_rows = [], []
+    titles, extremes, force_rows = regime_titles(model), [], []
     for column, name in _FORCES:
         for way in ("max", "min"):
             key = f"{name}_{way}"
-            cells = [
-                Scalar(_key(key, n), f"col_{way}({_key('P4_1', n)}.{column})", "Гоц, 2.4", of=key)
+            extremes += [
+                Scalar(
+                    _key(key, n), f"col_{way}({_key('P4_1', n)}.{column})", "Гоц, 2.4", of=key,
+                    note=f"{quantity(key).title}: {titles[n - 1]}",
+                )
                 for n in numbers
-            ]
-            extremes += cells
+            ]  # fmt: skip
             force_rows.append(_row(key, key, numbers, model, low=way == "min"))
-    labels = (*regime_titles(model), "определяющий режим")
+    labels = (*titles, "определяющий режим")
     listed = ScalarTable("regime_forces", "Крайние значения удельных сил", f"{SHEET}, силы",
                          tuple(extremes))  # fmt: skip
     grid = Grid(

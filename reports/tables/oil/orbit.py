@@ -87,7 +87,7 @@ def _fresh() -> ScalarTable:
     text = f'"{yes}" if round(col_max(oil_orbits.oil_changed), 8) == 0 else "{no}"'
     return ScalarTable(
         "oil_fresh", "Значения орбит", SUMMARY,
-        scalar_list(f"oil_fresh = {text} | метка данных при сборке"),
+        scalar_list(f"oil_fresh = {text}"),
     )  # fmt: skip
 
 

@@ -12,7 +12,6 @@ from reports.tables.balance.torque_orders import torque_orders
 from reports.tables.motion.neiman import neiman
 from reports.tables.motion.segal import segal
 
-_OF_CHARTS = ("_sizes", "_box")  # what only keeps the axes of charts equal
 _BY_ORDERS: tuple[PartOf, ...] = (segal, neiman, balance, inertia, torque_orders)
 
 
@@ -27,27 +26,22 @@ def left_out(model: InputFile) -> tuple[Block, ...]:
     plain = model.model_copy(update={"geometry": geometry, "articulated": None})
     blocks = joined(Scope(plain), _BY_ORDERS).blocks
     known = {block.id for block in joined(Scope(model), _BY_ORDERS).blocks}
-    known |= {block.id for block in blocks if block.id.endswith(_OF_CHARTS)}
     return tuple(block for block in blocks if block.id not in known)
 
 
-def left_out_note(model: InputFile, *, keys: bool = False) -> str:
-    """What is not calculated and why, in a line; empty where all is.
-
-    ``keys`` names the tables as files of numbers do.
-    """
-    blocks = left_out(model)
-    if not blocks:
+def left_out_note(model: InputFile) -> str:
+    """What is not calculated and why, in a line that names the sheets; empty where all is."""
+    sheets = list(dict.fromkeys(block.sheet for block in left_out(model)))
+    if not sheets:
         return ""
     shape = Shape.of(model)
     reasons = [
         *(["смещения оси цилиндра или пальца"] if shape.offset else []),
         *(["прицепных шатунов"] if shape.articulated else []),
     ]
-    tables = "; ".join(
-        f"{block.id} «{block.title}»" if keys else f"«{block.title}»" for block in blocks
-    )
+    # «Уравновешивание» stands for «Уравновешивание, итоги» too.
+    named = [f"«{s}»" for s in sheets if (base := s.partition(", ")[0]) == s or base not in sheets]
     return (
         f"Не рассчитано из-за {' и '.join(reasons)} (ряды по порядкам описывают центральный "
-        f"механизм с одинаковыми шатунами): {tables}"
+        f"механизм с одинаковыми шатунами), в книге нет листов {', '.join(named)}"
     )

@@ -303,8 +303,9 @@ def _forced() -> TableSpec:
 
 def _main_orders(scope: Scope) -> range:
     """Whole orders to draw: those at which the cylinders of a common engine add up."""
-    half = scope.shape.cylinders / scope.shape.strokes
-    step = max(2, round(2 * half)) if half < 3 else round(half)
+    count, strokes = scope.shape.cylinders, scope.shape.strokes
+    whole = count if 2 * count % strokes else 2 * count // strokes
+    step = max(2, whole) if whole < 6 or whole % 2 else whole // 2
     return range(min(step, RAYS), RAYS + 1, step)
 
 
@@ -323,7 +324,7 @@ def _fresh() -> ScalarTable:
         "Значения этого листа",
         FORCED,
         scalar_list(f"""
-            tor_fresh = {text} | метка данных при сборке
+            tor_fresh = {text}
             tor_top_MPa = col_max({t}.tor_tau_MPa) | {most}
             tor_top_rpm = element({t}.tor_speed_rpm, first_largest({t}.tor_tau_MPa)) | {most}
             tor_top_damped_MPa = col_max({t}.tor_tau_damped_MPa) | {most}

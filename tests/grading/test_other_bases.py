@@ -213,7 +213,8 @@ ONE = Base(
     {"cyl_theta1": "=0*firing_offset_1_deg"},
 )  # fmt: skip
 
-BASES = {"regimes": REGIMES, "one": ONE, "cycle": CYCLE, "V6": V6, "torsion": TORSION, "bearings": BEARINGS}
+BASES = {"cycle": CYCLE, "V6": V6, "torsion": TORSION, "bearings": BEARINGS, "regimes": REGIMES,
+         "one": ONE}  # fmt: skip
 
 
 @pytest.fixture(

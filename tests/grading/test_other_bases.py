@@ -249,3 +249,10 @@ def test_cheats_earn_nothing(base):
     items = {lines[node]["id"] for node in cheated}
     others = {x["id"]: x["verdict"] for x in lines.values() if x["id"] not in items}
     assert set(others.values()) <= {"right"}, others
+
+
+def test_a_copy_of_the_throws_may_be_honest():
+    """Angles on a sheet of one's own are no less input data for being alike in all variants."""
+    line = REGIMES.marks({}, {"firing_orders.theta2_deg": "={p}"})["firing_orders.theta2_deg"]
+    assert (line["verdict"], line["points"]) == ("unknown", 0)
+    assert "исходные данные или ответ" in line["reason"]

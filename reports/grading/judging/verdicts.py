@@ -34,6 +34,7 @@ from reports.recalculation.language import UnknownFormula
 
 _PASTED = "считает от столбца вписанных чисел, и не для всех исходных данных верно: откуда они?"
 _IDLE = "одно и то же, какие бы числа ни стояли там, куда ссылается формула: вычислено ли это?"
+_OWN = "считает от чисел вне таблиц, одних и тех же у всех: это исходные данные или ответ?"
 _ENOUGH = 0.5  # share of right rows from which a column is paid by rows, of formulas among numbers
 
 
@@ -135,13 +136,13 @@ def _by_rows(
     # What has followed other input data refers to them, if only by a copy.
     follows = any(w == RIGHT and not f for w, f in zip(words, still, strict=True))
     unlinked = not follows and not _is_linked(item, student)
-    if unlinked:  # nothing to respond to: numbers, or references to pasted ones
-        runs = [run for node in item.nodes for run in student.runs(node)]
-        plain = not any(True for run in runs for _ in student.grid.located(run))
-        words = [(TYPED if plain else STILL) if w in (RIGHT, STILL) else w for w in words]
-    idle = set(formulas) == {say.IDLE} and not unlinked
+    runs = [run for node in item.nodes for run in student.runs(node)]
+    plain = unlinked and not any(True for run in runs for _ in student.grid.located(run))
+    idle = set(formulas) == {say.IDLE} and not plain
     if idle and not response.shaking.is_idle_by_nature(item):
-        return replace(made, verdict=UNKNOWN, typed=(), reason=_IDLE)
+        return replace(made, verdict=UNKNOWN, typed=(), reason=_OWN if unlinked else _IDLE)
+    if unlinked:  # nothing to respond to: numbers, or references to pasted ones
+        words = [(TYPED if plain else STILL) if w in (RIGHT, STILL) else w for w in words]
     if any(good[i] and not still[i] for i, let in enumerate(letters) if let == say.PASTED):
         return replace(made, verdict=UNKNOWN, typed=(), reason=_PASTED)
     counts = {word: words.count(word) for word in dict.fromkeys(words)}

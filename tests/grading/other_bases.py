@@ -83,10 +83,10 @@ class Base:
         book = register.books[0]
         values = evaluate_model(self.assignment.model)
 
-        def numbers(node: str) -> list[float]:
+        def numbers(node: str) -> list[float | str]:
             table, _, key = node.partition(".")
-            return [float(v) for v in (values.columns[table][key] if key else
-                                       [values.scalars[node]])]  # fmt: skip
+            found = values.columns[table][key] if key else [values.scalars[node]]
+            return [v if isinstance(v, str) else float(v) for v in found]
 
         changes: dict[str, list[Formula]] = {}
         for node, text in texts.items():

@@ -224,6 +224,11 @@ def test_the_sample_of_a_class_can_be_issued(tmp_path):
         ("x = [", "rubric.toml"),
         ("[late]\ndeadline = 'завтра'\n", "late.deadline"),
         ("[late]\ndeadline = 2026-12-20\n", "нужна дата и время: 2026-12-20T23:59"),  # begins then
+        (
+            "[late]\nper_day = 0.1\n",
+            "late.per_day: без ключа deadline",
+        ),
+        ("[late]\ndeadline = 2026-12-20T23:59:00\nleast = 0.5\n", "late.least: без ключа per_day"),
         ("[[work]]\n", "work: недопустимое значение список; нужен раздел"),
     ],
 )

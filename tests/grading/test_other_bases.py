@@ -175,7 +175,46 @@ CYCLE = Base(
     {"speed.speed_Me": "={p}+0*{speed.speed_n}"},
 )  # fmt: skip
 
-BASES = {"cycle": CYCLE, "V6": V6, "torsion": TORSION, "bearings": BEARINGS}
+# Much is alike for all engines with these throws, and results in words stand beside numbers.
+REGIMES = Base(
+    "gots-regimes",
+    {"geometry.bore_mm": {"min": 86.0, "max": 90.0, "step": 0.5},
+     "regime.speed_rpm": {"min": 4200, "max": 4400, "step": 50}},
+    ("geometry", "firing_orders", "regime_loads"),
+    {
+        "firing_orders.first_sin": "=SUM(SIN(PI()*{firing_orders.theta1_deg}/180),"
+        "SIN({firing_orders.theta2_deg}*PI()/180),SIN(RADIANS({firing_orders.theta3_deg})))",
+        "firing_orders.half_order_sum": "=ROUND(SQRT(SUMSQ({firing_orders.half_cos},"
+        "{firing_orders.half_sin})),6)",
+        "governs_omega": "=INDEX('Режимы'!$C$4:$E$4,MATCH(MAX({cmp1_omega}:{cmp3_omega}),"
+        "{cmp1_omega}:{cmp3_omega},0))",
+    },
+    {
+        "cmp2_omega": ("={cmp3_omega}", ""),
+        "governs_M_e": ("=regime_name_R3", ""),
+        "firing_orders.unevenness": ("=({firing_orders.gap_max_deg}+{firing_orders.gap_min_deg})"
+         "/240", ""),
+    },
+    {
+        "firing_orders.first_cos": "=0+0*{firing_orders.theta1_deg}",
+        "firing_orders.gap1_deg": "={v}+{firing_orders.theta1_deg}-{firing_orders.theta1_deg}",
+        "firing_orders.place2": "=IFERROR({v}+0*SQRT({firing_orders.theta1_deg}),{v})",
+        "firing_orders.order_code": "={v}+0*ACOS({firing_orders.place1}/1000)",
+    },
+)  # fmt: skip
+
+ONE = Base(
+    "two-stroke",
+    {"regime.speed_rpm": {"min": 5000, "max": 5600, "step": 50}},
+    ("scheme", "torque_orders"),
+    {"torque_orders.cylinders_sum": "=SIN({torque_orders.order})^2+COS({torque_orders.order})^2",
+     "cyl_rank1": "=1+0*{cyl_theta1}"},
+    {},
+    {"cyl_theta1": "=0*firing_offset_1_deg"},
+)  # fmt: skip
+
+BASES = {"cycle": CYCLE, "V6": V6, "torsion": TORSION, "bearings": BEARINGS, "regimes": REGIMES,
+         "one": ONE}  # fmt: skip
 
 
 @pytest.fixture(
@@ -210,3 +249,10 @@ def test_cheats_earn_nothing(base):
     items = {lines[node]["id"] for node in cheated}
     others = {x["id"]: x["verdict"] for x in lines.values() if x["id"] not in items}
     assert set(others.values()) <= {"right"}, others
+
+
+def test_a_copy_of_the_throws_may_be_honest():
+    """Angles on a sheet of one's own are no less input data for being alike in all variants."""
+    line = REGIMES.marks({}, {"firing_orders.theta2_deg": "={p}"})["firing_orders.theta2_deg"]
+    assert (line["verdict"], line["points"]) == ("unknown", 0)
+    assert "исходные данные или ответ" in line["reason"]

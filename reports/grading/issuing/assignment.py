@@ -11,7 +11,7 @@ from functools import cached_property
 from math import sqrt
 
 from kshm.nomenclature.quantity import Quantity
-from reports.formula.parse import parse
+from reports.formula.parse import names, parse
 from reports.grading.issuing.given import LIVE, NUMBER, states, with_own_shifts
 from reports.grading.issuing.rubric import Rubric
 from reports.inputs.messages import likely_word
@@ -305,16 +305,18 @@ def _items(block: Block) -> Iterator[Item]:
                 yield _column_item(block, column)
     elif isinstance(block, Grid):
         for row in block.rows:
-            cells = [
-                (label, cell)
-                for label, cell in zip(block.labels, row.cells, strict=True)
-                if cell is not None
-            ]
-            nodes, labels = tuple(c.key for _, c in cells), tuple(label for label, _ in cells)
+            named = zip(block.labels, row.cells, strict=True)
+            cells = [(label, cell) for label, cell in named if cell is not None]
             about = row.quantity
-            source = cells[0][1].source
-            yield Item(f"{block.id}.{row.of}", block.id, about.title, about.symbol, about, nodes,
-                       labels, source, False)  # fmt: skip
+            words = [(label, c) for label, c in cells if c.quantity.digits.kind == "text"]
+            labels, numbers = zip(*(pair for pair in cells if pair not in words), strict=True)
+            yield Item(f"{block.id}.{row.of}", block.id, about.title, about.symbol, about,
+                       tuple(cell.key for cell in numbers), labels, cells[0][1].source,
+                       False)  # fmt: skip
+            for label, cell in words:  # where the number is the greatest
+                title, symbol = f"{about.title}: {label}", f"{about.symbol}, {cell.quantity.symbol}"
+                yield Item(f"{block.id}.{cell.key}", block.id, title, symbol, cell.quantity,
+                           (cell.key,), (label,), cell.source, False)  # fmt: skip
     else:
         for scalar in block.scalars:
             yield _scalar_item(block.id, scalar)
@@ -345,7 +347,7 @@ def _outcomes(tree: ast.expr) -> Iterator[ast.expr]:
 
 
 def _is_constant(tree: ast.expr) -> bool:
-    return not any(isinstance(part, (ast.Name, ast.Attribute)) for part in ast.walk(tree))
+    return not names(ast.unparse(tree))  # sines of numbers are no calculation either
 
 
 def _column_item(table: TableSpec, column: Column) -> Item:

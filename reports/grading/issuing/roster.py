@@ -17,15 +17,19 @@ _HEADS = {
     "surname": ("фамилия", "surname", "last name", "lastname"),
     "name": ("имя", "имя и отчество", "имя отчество", "name", "first name", "firstname"),
     "patronymic": ("отчество", "middle name"),
-    "full": ("фио", "ф и о", "студент", "студенты", "обучающийся", "обучающиеся", "student",
-             "full name", "полное имя", "фамилия и о", "фамилия имя", "фамилия и имя",
-             "фамилия имя отчество", "фамилия имя и отчество"),
+    "full": ("фио", "ф и о", "студент", "студенты", "обучающийся", "обучающиеся", "фамилия и о",
+             "фамилия имя", "фамилия и имя", "фамилия имя отчество", "фамилия имя и отчество",
+             "surname name", "last name first name"),
+    "turned": ("имя фамилия", "имя и фамилия", "имя отчество фамилия", "имя отчество и фамилия",
+               "и о фамилия", "name surname", "first name surname", "first name last name"),
+    "either": ("полное имя", "full name", "student", "students"),
     "group": ("группа", "group", "groups", "группы", "номер группы", "№ группы"),
     "id": ("номер", "шифр", "id", "id number", "индивидуальный номер", "логин", "login",
            "username", "имя пользователя", "зачетка", "номер зачетки", "номер зачетной книжки",
            "№ зачетки", "№ зачетной книжки"),
     "email": ("email", "e-mail", "почта", "адрес электронной почты", "email address"),
 }  # fmt: skip
+_SURNAMES = ("surname", "full", "turned", "either")  # columns with a surname, the plainest first
 # What a head says besides, and what stands among the people and is none.
 _BESIDES = frozenset(("студента", "студентов", "обучающегося", "полностью", "учебная"))
 _NOBODY = frozenset(("группа", "итого", "всего", "куратор", "староста", "преподаватель"))
@@ -87,18 +91,20 @@ class _List:
 
     def where(self, line: Line) -> str:
         """The cell of a surname, for messages."""
-        return self.listing.place(line, self.columns.get("surname", self.columns.get("full", 0)))
+        return self.listing.place(
+            line, next(self.columns[k] for k in _SURNAMES if k in self.columns)
+        )
 
 
 def _headed(listing: Listing) -> _List | None:
     """The list of a sheet or file; titles may stand above its head, and a head has two lines."""
     heads = [_columns(line.cells) for line in listing.lines[: _TITLES + 2]]
-    named = ["full" in head or "surname" in head for head in heads]
+    named = [not head.keys().isdisjoint(_SURNAMES) for head in heads]
     if True not in named[: _TITLES + 1]:
         return None
     first = named.index(True)
     head = listing.lines[first]
-    names = [cell for cell in head.cells if _columns([cell]).keys() & {"full", "surname"}]
+    names = [cell for cell in head.cells if not _columns([cell]).keys().isdisjoint(_SURNAMES)]
     if len(set(names)) < len(names):  # another list stands beside this one
         what = f"столбец «{names[0]}» назван дважды"
         hint = "поставьте списки один под другим"
@@ -110,7 +116,31 @@ def _headed(listing: Listing) -> _List | None:
         for line in listing.lines[last + 1 :]
         if line.cells not in repeated and not _is_number(line)
     ]
-    return _List(listing, heads[first] | heads[last], people)
+    made = _List(listing, heads[first] | heads[last], people)
+    if made.columns.keys() & set(_SURNAMES) != {"either"}:
+        return made
+    column = made.columns.pop("either")
+    made.columns[_order(made, head, column)] = column
+    return made
+
+
+def _order(made: _List, head: Line, column: int) -> str:
+    """Which of a surname and a name comes first under a head that does not say it.
+
+    A patronymic stands behind a name; how a site writes one name it writes them all.
+    """
+    names = [line.cells[column].split() for line in made.people if column < len(line.cells)]
+    marks = [[_is_patronymic(word) for word in words[1:]] for words in names if len(words) == 3]
+    second = {first for first, last in marks if first != last}
+    if len(second) == 1 or not names:
+        return "turned" if second == {True} else "full"
+    what = f"столбец «{head.cells[column]}»: не видно, где фамилия, а где имя"
+    hint = "назовите его «Фамилия Имя» или «Имя Фамилия», как в нём написано"
+    raise InputError(Problem(made.listing.place(head, column), what, hint))
+
+
+def _is_patronymic(word: str) -> bool:
+    return re.fullmatch(r"\w+(ич|вна|чна)", word.casefold()) is not None
 
 
 def _is_number(line: Line) -> bool:
@@ -132,7 +162,9 @@ def _refuse_another(path: Path, lists: list[_List]) -> None:
 def _named(given: dict[str, str]) -> tuple[str, str]:
     """Surname and names."""
     surname, name = given.get("surname", ""), given.get("name", "")
-    if not surname:
+    if not surname and "turned" in given:
+        name, _, surname = given["turned"].rpartition(" ")
+    elif not surname:
         surname, _, name = given.get("full", "").partition(" ")
     return surname, f"{name} {given.get('patronymic', '')}".strip()
 
@@ -148,10 +180,15 @@ def _students(made: _List) -> list[Student]:
             where = made.listing.place(line, faults[0])
             problems.append(Problem(where, line.faults[faults[0]], "впишите текст"))
             continue
-        nobody = surname.split(" ")[0].rstrip(":").casefold() in _NOBODY
+        words = given.get("turned", "").split()
+        nobody = (words or surname.split(" "))[0].rstrip(":").casefold() in _NOBODY
         if nobody or not surname:
             what = f"«{surname}» — не фамилия" if nobody else "нет фамилии"
             problems.append(Problem(where, what, "впишите её или удалите строку"))
+            continue
+        if len(words) > 2 and not _is_patronymic(words[-2]):
+            what, hint = "не видно, где кончается имя", "разделите их столбцами «Имя» и «Фамилия»"
+            problems.append(Problem(where, f"«{' '.join(words)}»: {what}", hint))
             continue
         if any(len(value) > MAX_FIELD for value in given.values()):
             problems.append(Problem(where, "слишком длинный текст", "это не список группы"))
@@ -173,7 +210,7 @@ def _students(made: _List) -> list[Student]:
 def _columns(head: list[str]) -> dict[str, int]:
     found: dict[str, int] = {}
     for index, cell in enumerate(head):
-        words = re.split(r"[\s.,*:()]+", cell.casefold().replace("ё", "е"))
+        words = re.split(r"[\s.,*:()/]+", cell.casefold().replace("ё", "е"))
         word = " ".join(word for word in words if word and word not in _BESIDES)
         for key, heads in _HEADS.items():
             if word in heads:

@@ -128,7 +128,15 @@ def load_rubric(path: Path | None) -> Rubric:
     """
     if path is None:
         return Rubric()
-    return rubric_of(tables_of(read_text(path), source=path.name), path.name)
+    rubric = rubric_of(tables_of(read_text(path), source=path.name), path.name)
+    late = rubric.late
+    needed = "deadline" if late.deadline is None else "per_day"
+    idle = [key for key in ("per_day", "free_days", "least") if getattr(late, key)]
+    if idle and not getattr(late, needed):
+        what = f"без ключа {needed} за опоздание ничего не снимается"
+        hint = f"впишите {needed} или удалите {', '.join(idle)}"
+        raise InputError(Problem(f"{path.name}: late.{idle[0]}", what, hint))
+    return rubric
 
 
 def rubric_of(raw: dict[str, Any], source: str) -> Rubric:

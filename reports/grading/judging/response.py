@@ -7,7 +7,7 @@ it costs it nothing, and a number in the guise of a formula does not follow.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -18,8 +18,9 @@ from reports.grading.issuing.assignment import Item
 from reports.grading.judging.copied import known_numbers
 from reports.grading.judging.lists import listed, reads_a_list
 from reports.grading.judging.settled import EXACT, settled
+from reports.grading.judging.shaking import Shaking
 from reports.grading.judging.tolerances import close, tolerance
-from reports.grading.judging.trials import Trial
+from reports.grading.judging.trials import Trial, fixed
 from reports.grading.reading.student import Student
 from reports.recalculation.bench import (
     ROUNDINGS,
@@ -37,7 +38,7 @@ from reports.recalculation.language import UnknownFormula
 Array = NDArray[np.float64]
 
 # What is said of a cell.
-RIGHT, ROUNDED, COARSE, PARTLY, STILL, WRONG, NOTHING, UNKNOWN, PASTED = "prctsw-ul"
+RIGHT, ROUNDED, COARSE, PARTLY, STILL, WRONG, NOTHING, UNKNOWN, PASTED, IDLE = "prctsw-uli"
 _INSIDE = 2e-3  # share of a column that roundings inside a formula may cost
 
 
@@ -127,13 +128,7 @@ class Response:
                     found[node] = str(error) or "?"
         return found
 
-    def cells(
-        self,
-        trial: Trial,
-        *,
-        everything: bool,
-        changed: Mapping[str, Array] | None = None,
-    ) -> list[Cells]:
+    def cells(self, trial: Trial, *, everything: bool) -> list[Cells]:
         """The cells of inputs and nodes with the right values of a trial."""
         made = self._inputs(trial)
         student, assignment = self.student, self.student.assignment
@@ -141,8 +136,6 @@ class Response:
             right = trial.expected.value(node)
             if isinstance(right, str) and not everything:
                 continue
-            if changed is not None and node in changed:
-                right = changed[node]
             made += student.cells_of(node, right)
         return made
 
@@ -212,15 +205,17 @@ class Response:
 
     def fixed(self, item: Item) -> NDArray[np.bool_]:
         """Where the right value is the same whatever the engine: 0 at dead centre."""
-        parts = []
-        for node in item.nodes:
-            own = np.ravel(np.asarray(self.student.expected.value(node), dtype=float))
-            largest = float(np.nanmax(np.abs(own))) if own.size else 0.0
-            same = np.ones(len(own), dtype=bool)
-            for right in self._right(node):
-                same &= np.abs(right - own) <= 1e-9 * largest
-            parts.append(same & (len(self.trials) > 0))
-        return np.concatenate(parts)
+        return np.concatenate([self._fixed(node) for node in item.nodes])
+
+    def _fixed(self, node: str) -> NDArray[np.bool_]:
+        return fixed(node, self.student.expected, self.trials)
+
+    @cached_property
+    def _idle(self) -> dict[str, NDArray[np.bool_]]:
+        """Where formulas react to nothing, of the tried nodes that no engine tells apart."""
+        nodes = [n for n, made in self._values.items() if not isinstance(made, str)]
+        nodes = [node for node in nodes if self._fixed(node).all()]
+        return self.shaking.idle(nodes) if nodes else {}
 
     def holds_somewhere(self, item: Item, node: str) -> bool:
         """Whether a node's formulas are right for an engine that has other values there."""
@@ -233,6 +228,12 @@ class Response:
             and bool(close(item, made, right, tolerance(item, right, self.student)).all())
             for made, right in zip(values, self._right(node), strict=True)
         )
+
+    @cached_property
+    def shaking(self) -> Shaking:
+        """The work on nobody's variant: what tells its own from others is not seen."""
+        cells = self.cells(self.trials[-1], everything=True)
+        return Shaking(self.student, self.trials[-1], pinned(self.student.grid, cells))
 
     def problem(self, node: str) -> str:
         """Why a node's formulas cannot be tried, empty where they can."""
@@ -282,6 +283,8 @@ class Response:
         good = self._good(item, values, right)
         roughly = self._rounded_good(item, node, values, right)
         others = good[1] if roughly is None else good[1] | roughly[2]
+        same = self._fixed(node)
+        idle = self._idle.get(node, same & False)
         for run in self.student.runs(node):
             at = [index[row] for row in range(run.first, run.last + 1) if row in index]
             word = ""
@@ -291,12 +294,12 @@ class Response:
                 word = ROUNDED
             coarse = roughly is not None and all(roughly[0][i] for i in at)
             for i in at:
-                letter = self._word(i, word, values, right, others, listed=id(run) in lists)
+                letter = self._word(i, word, values, same, others, listed=id(run) in lists)
                 letter = COARSE if coarse and letter == PARTLY else letter
                 if letter in (PARTLY, COARSE) or (letter == word and not others[i]):
                     pasted = reads_a_list(self.student, node) if pasted is None else pasted
                     letter = PASTED if pasted else letter
-                letters[i] = letter
+                letters[i] = IDLE if idle[i] and letter in (RIGHT, ROUNDED) else letter
         return "".join(letters)
 
     def _word(
@@ -304,21 +307,20 @@ class Response:
         i: int,
         word: str,
         values: Sequence[Array],
-        right: Sequence[Array],
+        same: NDArray[np.bool_],
         others: NDArray[np.bool_],
         *,
         listed: bool,
     ) -> str:
         """The letter of a cell whose run has passed as ``word``, or not at all."""
-        moves = any(_differ(right[0][i], other[i]) for other in right[1:])
         stands = all(not _differ(values[0][i], other[i]) for other in values[1:])
         if word:
             # What all variants have in common is a number or a list of numbers only where
             # nothing follows from anything.
-            return STILL if not others[i] and (stands or listed) and moves else word
+            return STILL if not others[i] and (stands or listed) and not same[i] else word
         if not np.isfinite(values[0][i]):
             return WRONG
-        return STILL if (stands and moves) or listed else PARTLY
+        return STILL if (stands and not same[i]) or listed else PARTLY
 
     def _right(self, node: str) -> list[Array]:
         return [np.ravel(np.asarray(t.expected.value(node), dtype=float)) for t in self.trials]

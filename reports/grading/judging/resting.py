@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -16,7 +16,6 @@ from reports.grading.judging.judgement import (
     STILL,
     TYPED,
     UNKNOWN,
-    Array,
     Judgement,
 )
 from reports.grading.judging.response import Response
@@ -31,8 +30,6 @@ from reports.grading.reading.ground import (
     through,
 )
 from reports.grading.reading.student import Student
-from reports.recalculation.bench import Bench, pinned
-from reports.recalculation.language import UnknownFormula
 
 _ROUND = "круговая ссылка: величина считается через саму себя"
 _ROUND_HERE = "круговая ссылка, а верные числа сохранены: поиск во всём столбце или вставка?"
@@ -137,10 +134,10 @@ def backwards(found: dict[str, Judgement], student: Student, response: Response)
                     if verdict:
                         suspects.setdefault((name, verdict), []).append(node)
         for (name, verdict), nodes in sorted(suspects.items()):
-            depends = _depending(nodes, name, response)
+            depends = response.shaking.depending(nodes, name) if response.trials else {}
             for node in nodes:
                 judgement = found[owner[node]]
-                if depends[node] and judgement.paid > 0:
+                if depends.get(node) and judgement.paid > 0:
                     found[judgement.item.id] = replace(
                         judgement, verdict=verdict, paid=0.0, rows=(),
                         origins=(owner[name],) if name in owner else (),
@@ -205,30 +202,3 @@ def _earlier(judgement: Judgement, owner: Mapping[str, str], student: Student) -
     for name in (n for n in names if n in student.assignment.live_nodes):
         near += sorted({owner[n] for n in graph.ancestors(name) if n in owner} - set(near))
     return near
-
-
-def _depending(nodes: Sequence[str], on: str, response: Response) -> dict[str, bool]:
-    """Whether the values of some nodes change with those of another."""
-    if not response.trials:
-        return dict.fromkeys(nodes, False)
-    trial = response.trials[-1]  # nobody's variant: what tells its own from others is not seen
-    right = np.ravel(np.asarray(trial.expected.value(on), dtype=float))
-    student = response.student
-    grid = pinned(student.grid, response.cells(trial, everything=True))
-    bench = Bench(grid, {node: student.runs(node) for node in nodes})
-    before = {node: _values_at(bench, node, student) for node in nodes}
-    bench.put(response.cells(trial, everything=False, changed={on: right * 1.37 + 1.0}))
-    found = {}
-    for node in nodes:
-        after, was = _values_at(bench, node, student), before[node]
-        found[node] = (
-            after is None or was is None or not np.allclose(after, was, 1e-12, equal_nan=True)
-        )
-    return found
-
-
-def _values_at(bench: Bench, node: str, student: Student) -> Array | None:
-    try:
-        return bench.values(node, student.placement.places[node].rows)
-    except UnknownFormula:
-        return None

@@ -14,6 +14,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.register import Issued
@@ -46,6 +47,17 @@ def trials_of(assignment: Assignment, books: Sequence[Issued], seed: str) -> tup
     start = found[-1].inputs if found[-1] is not None else {}
     found.append(_first(assignment, _everything(assignment, start, rng), decides=False))
     return tuple(trial for trial in found if trial is not None)
+
+
+def fixed(node: str, own: Evaluation, trials: Sequence[Trial]) -> NDArray[np.bool_]:
+    """Where the right value is the same whatever the engine: 0 at dead centre."""
+    right, *others = [
+        np.ravel(run.value(node)) for run in (own, *(trial.expected for trial in trials))
+    ]
+    if not others or right.dtype.kind == "U":
+        return np.zeros(len(right), dtype=bool)
+    allowed = 1e-9 * float(np.nanmax(np.abs(right)))
+    return np.asarray(np.logical_and.reduce([np.abs(other - right) <= allowed for other in others]))
 
 
 def _first(

@@ -33,7 +33,9 @@ from reports.recalculation.evaluate import BLANK, ERROR, TEXT
 from reports.recalculation.language import UnknownFormula
 
 _PASTED = "считает от столбца вписанных чисел, и не для всех исходных данных верно: откуда они?"
-_ENOUGH = 0.5  # share of right rows from which a column is paid by rows
+_IDLE = "одно и то же, какие бы числа ни стояли там, куда ссылается формула: вычислено ли это?"
+_OWN = "считает от чисел вне таблиц, одних и тех же у всех: это исходные данные или ответ?"
+_ENOUGH = 0.5  # share of right rows from which a column is paid by rows, of formulas among numbers
 
 
 def judge_all(student: Student, response: Response) -> list[Judgement]:
@@ -63,8 +65,8 @@ def _judged(item: Item, student: Student, response: Response) -> Judgement:
 def _of_cells(item: Item, student: Student, response: Response) -> Judgement:
     answers = [student.answers[node] for node in item.nodes]
     right = [student.expected.value(node) for node in item.nodes]
-    if any(isinstance(value, str) for value in right):
-        return _judge_text(item, student, answers)
+    if item.quantity.digits.kind == "text":
+        return _judge_text(item, student, answers[0])
     expected = np.asarray(np.concatenate([np.ravel(value) for value in right]), dtype=float)
     values = np.concatenate([answer.values for answer in answers])
     kinds = "".join(answer.kinds for answer in answers)
@@ -128,14 +130,18 @@ def _by_rows(
     good = close(item, made.values, made.expected, allowed)
     # A nought typed in among formulas is one; a column typed in is numbers throughout.
     still = response.fixed(item)
-    fixed = still & any(letter != say.NOTHING for letter in letters)
+    formulas = [letter for letter in letters if letter != say.NOTHING]
+    fixed = still & (len(formulas) >= _ENOUGH * len(letters))
     words = [_word(kinds[i], letters[i], bool(good[i]), bool(fixed[i])) for i in range(len(kinds))]
     # What has followed other input data refers to them, if only by a copy.
     follows = any(w == RIGHT and not f for w, f in zip(words, still, strict=True))
     unlinked = not follows and not _is_linked(item, student)
+    runs = [run for node in item.nodes for run in student.runs(node)]
+    plain = unlinked and not any(True for run in runs for _ in student.grid.located(run))
+    idle = set(formulas) == {say.IDLE} and not plain
+    if idle and not response.shaking.is_idle_by_nature(item):
+        return replace(made, verdict=UNKNOWN, typed=(), reason=_OWN if unlinked else _IDLE)
     if unlinked:  # nothing to respond to: numbers, or references to pasted ones
-        runs = [run for node in item.nodes for run in student.runs(node)]
-        plain = not any(True for run in runs for _ in student.grid.located(run))
         words = [(TYPED if plain else STILL) if w in (RIGHT, STILL) else w for w in words]
     if any(good[i] and not still[i] for i, let in enumerate(letters) if let == say.PASTED):
         return replace(made, verdict=UNKNOWN, typed=(), reason=_PASTED)
@@ -171,7 +177,7 @@ def _word(kind: str, letter: str, good: bool, fixed: bool) -> str:
         if kind == ERROR:
             return BROKEN
         return (RIGHT if fixed else TYPED) if good else WRONG
-    if letter in (say.RIGHT, say.ROUNDED):
+    if letter in (say.RIGHT, say.ROUNDED, say.IDLE):
         return RIGHT
     if kind == ERROR:
         return BROKEN
@@ -200,23 +206,24 @@ def _reason(verdict: str, words: Sequence[str], kinds: str, letters: str, *, unl
     return ""
 
 
-def _judge_text(item: Item, student: Student, answers: list[Answer]) -> Judgement:
-    """Results in words are compared as words."""
-    nothing = np.full(len(answers), np.nan)
-    wrong, empty = [], []
-    for i, (node, answer) in enumerate(zip(item.nodes, answers, strict=True)):
-        place = answer.place
-        if place is None or place.rows[0] is None or answer.problem:
-            why = answer.problem or "ячейки не найдены в книге"
-            return Judgement(item, UNKNOWN, nothing, nothing, reason=why)
-        found = student.engine.shown(place.sheet, place.column, place.rows[0])
-        if found is None:
-            empty.append(i)
-        elif str(found).casefold() != str(student.expected.value(node)).casefold():
-            wrong.append(i)
-    verdict = EMPTY if empty else WRONG if wrong else RIGHT
-    return Judgement(item, verdict, nothing, nothing, tuple(empty or wrong),
-                     paid=float(verdict == RIGHT))  # fmt: skip
+def _judge_text(item: Item, student: Student, answer: Answer) -> Judgement:
+    """A result in words is compared as words."""
+    nothing, place, (node,) = np.full(1, np.nan), answer.place, item.nodes
+    made = Judgement(item, WRONG, nothing, nothing, (0,))
+    if place is None or place.rows[0] is None or answer.problem:
+        why = answer.problem or "ячейки не найдены в книге"
+        return replace(made, verdict=UNKNOWN, rows=(), reason=why)
+    found = student.engine.shown(place.sheet, place.column, place.rows[0])
+    if found is None:
+        return replace(made, verdict=EMPTY)
+    read = student.precedents(node)
+    own = student.expected.fork(known_values(student.answers, read))
+    verdicts = {str(own.value(node)).casefold(): CARRIED}
+    verdicts[str(student.expected.value(node)).casefold()] = RIGHT
+    verdict = verdicts.get(str(found).casefold(), WRONG)
+    if verdict == RIGHT and not read and student.assignment.formulas_demanded(item):
+        return replace(made, verdict=TYPED, paid=student.assignment.rubric.credit.typed)
+    return replace(made, verdict=verdict, rows=(), paid=float(verdict != WRONG))
 
 
 def _where(flags: Sequence[bool] | NDArray[np.bool_]) -> tuple[int, ...]:

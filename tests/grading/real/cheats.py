@@ -253,7 +253,6 @@ ODD = {
 
 _CIRCLE = {"P3_1.s1_mm": "=D{r}-C{r}", "P3_1.s_mm": "=B{r}+C{r}"}
 _RING = {"P3_1.v1_m_s": "=G{r}-F{r}", "P3_1.v2_m_s": "=G{r}-E{r}", "P3_1.v_m_s": "=E{r}+F{r}"}
-_ALL = tuple(node for node in COLUMNS if not node.endswith("sin_MPa"))  # γ1 is nought
 _OF_OMEGA = ("P3_1.v1_m_s", "P3_1.j1_m_s2", "P3_2.omega_rod_approx_1_s", "P4_1.j_m_s2",
              "P3_1.v_m_s", "P4_1.Pj_MPa", "P4_1.T_MPa", "P4_2.Msum_Nm")  # fmt: skip
 
@@ -322,7 +321,7 @@ CHEATS = (
     Work("digits of other cells, scaled", edit=_hidden("x", "{d}/10^6"), unpaid=(V1,)),
     Work("formulas of numbers, scaled", edit=_times("={v}*1", J1), unpaid=(J1,)),
     Work("names of numbers", edit=_name_constant, unpaid=(S1,)),
-    Work("everything pasted", edit=_solved_with_ticket, unpaid=_ALL),
+    Work("everything pasted", edit=_solved_with_ticket, unpaid=tuple(COLUMNS)),
     Work("a circle", lambda here: _CIRCLE, unpaid=tuple(_CIRCLE)),
     Work("a ring of three", lambda here: _RING, unpaid=tuple(_RING)),
     Work("itself", lambda here: {S1: "=B{r}"}, unpaid=(S1, "P3_1.s_mm")),

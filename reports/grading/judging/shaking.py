@@ -1,0 +1,107 @@
+"""Formulas tried on cells that are changed each by itself, as no engine changes them."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from zlib import crc32
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reports.grading.issuing.assignment import Item
+from reports.grading.judging.trials import Trial
+from reports.grading.reading.student import Student
+from reports.recalculation.bench import Bench
+from reports.recalculation.grid import Grid
+from reports.recalculation.language import UnknownFormula
+
+Array = NDArray[np.float64]
+_LEAST, _NOISE = 1e-6, 1e-9  # share of a number, and what is left of A − A
+# By what the numbers are multiplied and what is added: noughts move too, roots and arcs have a
+# value for some, and what is cut off at a limit is not for all.
+_SHAKES = ((0.7, 0.0), (1.5, 0.0), (0.8, 1.0), (-1.0, -1.0), (0.1, 0.1), (-0.3, 0.5))
+
+
+@dataclass(frozen=True)
+class Shaking:
+    """A work on the right numbers of an engine; ``grid`` has them in its cells."""
+
+    student: Student
+    trial: Trial
+    grid: Grid
+
+    def idle(self, nodes: Sequence[str]) -> dict[str, NDArray[np.bool_]]:
+        """Where formulas give one and the same number whatever stands in the cells they refer to.
+
+        A number in the guise of a formula, where no engine gives another one: ``=0+0*B8``.
+        """
+        shakes = self._shakes(frozenset().union(*map(self.student.precedents, nodes)))
+        found = self._tried(nodes, shakes)
+        return {node: ~_moved(made) for node, made in found.items() if made is not None}
+
+    def is_idle_by_nature(self, item: Item) -> bool:
+        """Whether the textbook's formulas are no better: which of one bearings is the worst."""
+        names = frozenset().union(*map(self.student.assignment.graph.references, item.nodes))
+        runs = [self.trial.expected] + [
+            self.trial.expected.fork({n: v if "." in n else v[0] for n, v in shake.items()})
+            for shake in self._shakes(names)
+        ]
+        with np.errstate(all="ignore"):
+            return not any(
+                _moved([np.ravel(np.asarray(run.value(node), dtype=float)) for run in runs]).any()
+                for node in item.nodes
+            )
+
+    def depending(self, nodes: Sequence[str], on: str) -> dict[str, bool]:
+        """Whether the values of some nodes change with those of another, or may."""
+        change = {name: own * 1.37 + 1.0 for name, own in self._values({on}).items()}
+        return {
+            node: made is None or not np.allclose(made[1], made[0], 1e-12, equal_nan=True)
+            for node, made in self._tried(nodes, [change]).items()
+        }
+
+    def _shakes(self, names: Collection[str]) -> list[dict[str, Array]]:
+        """Each cell otherwise than the one beside it, but the same whoever refers to it."""
+        shakes: list[dict[str, Array]] = [{} for _ in _SHAKES]
+        for name, own in self._values(names).items():
+            rng = np.random.default_rng(crc32(name.encode()))
+            for shake, (times, more) in zip(shakes, _SHAKES, strict=True):
+                shake[name] = own * times * rng.uniform(0.8, 1.2, own.size) + more * rng.uniform(
+                    1, 2, own.size
+                )
+        return shakes
+
+    def _values(self, names: Collection[str]) -> dict[str, Array]:
+        """The right numbers of nodes and inputs."""
+        found = {name: self.trial.expected.value(name) for name in sorted(names)}
+        return {
+            name: np.ravel(np.asarray(value, dtype=float))
+            for name, value in found.items()
+            if not isinstance(value, str)
+        }
+
+    def _tried(
+        self, nodes: Sequence[str], changes: Sequence[Mapping[str, Array]]
+    ) -> dict[str, list[Array] | None]:
+        """Values of nodes before and after each change of others; None where they are unknown."""
+        student = self.student
+        bench = Bench(self.grid, {node: student.runs(node) for node in nodes})
+        found: dict[str, list[Array] | None] = {node: [] for node in nodes}
+        for change in ({}, *changes):
+            bench.put(part for name in change for part in student.cells_of(name, change[name]))
+            for node in nodes:
+                made = found[node]
+                try:
+                    if made is not None:
+                        made.append(bench.values(node, student.placement.places[node].rows))
+                except UnknownFormula:
+                    found[node] = None
+        return found
+
+
+def _moved(values: Sequence[Array]) -> NDArray[np.bool_]:
+    """Where some value is not the first one: an error is no other value."""
+    first, others = values[0], np.array(values[1:])
+    moved = np.isfinite(others) & ~np.isclose(others, first, _LEAST, _NOISE)
+    return np.asarray(moved.any(axis=0))

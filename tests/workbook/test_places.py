@@ -215,7 +215,7 @@ def test_a_header_too_long_for_its_column_is_seen() -> None:
     assert header_problems("M по статике шейки 1, Н·м", 70, 64) == ["4 lines"]
 
 
-@pytest.mark.parametrize("name", sample_names())
+@pytest.mark.parametrize("name", samples_with(charts, quantities))
 def test_every_group_of_input_data_has_its_title(name: str) -> None:
     made, sheet = coarse_model(name), coarse_opened(name)[INPUT_SHEET]
     layout = Layout.of(made)

@@ -14,7 +14,7 @@ from openpyxl import load_workbook
 from reports.workbook.layout import HEADER_ROW
 from reports.workbook.paper import PAPER
 from reports.workbook.places import column_px, extent, top_of
-from tests.conftest import sample_names
+from tests.cover import charts, quantities, samples_with
 from tests.workbook.made import book, coarse_opened
 from tests.workbook.test_places import boxes_of
 from tools.referees.by_libreoffice import LibreOffice
@@ -41,7 +41,7 @@ def test_tables_repeat_their_headers() -> None:
     assert all(sheet.oddFooter.center.text for sheet in sheets)
 
 
-@pytest.mark.parametrize("name", sample_names())
+@pytest.mark.parametrize("name", samples_with(charts, quantities))
 def test_no_page_begins_within_a_table_beside_others(name: str) -> None:
     """Its rest would stand under the beginning of the first one's title."""
     for sheet in coarse_opened(name).worksheets:
@@ -68,7 +68,7 @@ def test_no_page_begins_within_a_table_beside_others(name: str) -> None:
 def test_no_chart_is_cut_by_the_end_of_a_page(name: str) -> None:
     """Where charts take several pages: fitted to pages these would end anywhere."""
     ended = []
-    for sheet in load_workbook(io.BytesIO(book(name))).worksheets:
+    for sheet in coarse_opened(name).worksheets:
         boxes, page = boxes_of(sheet), sheet.page_setup
         if not boxes or (page.fitToWidth, page.fitToHeight) == (1, 1):
             continue

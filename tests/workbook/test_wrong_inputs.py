@@ -24,7 +24,8 @@ from reports.workbook.pairs import conditions
 from reports.workbook.verdict import ODD
 from reports.workbook.what_if import SHEET
 from reports.workbook.write import workbook_bytes
-from tests.conftest import sample, sample_names
+from tests.conftest import sample
+from tests.cover import charts, quantities, samples_with
 from tests.referee.changes import without_charts
 from tests.workbook.made import (
     book,
@@ -242,7 +243,7 @@ def test_what_is_odd_at_the_start_is_so_in_the_caches() -> None:
     assert verdict(live) == "не все, см. «Проверки»"  # of the coarse grid, not of what is odd
 
 
-@pytest.mark.parametrize("name", sample_names())
+@pytest.mark.parametrize("name", samples_with(charts, quantities))
 def test_every_cell_with_a_range_turns_red_beyond_it(name: str) -> None:
     sheet = coarse_opened(name)[INPUT_SHEET]
     found = {
@@ -278,7 +279,7 @@ def test_a_symbol_is_no_word_to_begin_with_a_large_letter() -> None:
     assert uncapital("Частота вращения") == "частота вращения"
 
 
-@pytest.mark.parametrize("name", sample_names())
+@pytest.mark.parametrize("name", samples_with(charts, quantities))
 def test_a_list_of_a_cell_offers_what_the_cell_holds(name: str) -> None:
     """A step chosen as «10°» would be a text, and every table without a number."""
     sheet = coarse_opened(name)[INPUT_SHEET]

@@ -168,7 +168,7 @@ def random_bearings(count: int):
 
 
 def test_random_bearings_close_within_their_clearance() -> None:
-    load, width = random_bearings(examples(60, 200))
+    load, width = random_bearings(examples(30, 200))
     found = orbits(PHI, load, np.broadcast_to(STILL, load.shape).copy(), width)
     assert np.isfinite(found.centre).all()
     assert np.abs(found.centre).max() < 1

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from pydantic import BaseModel
@@ -21,8 +21,8 @@ _DRAWINGS = {"throw_angles_deg": "phases", "webs": "signs", "arms": "arms"}  # o
 def groups(raw: Mapping[str, Any]) -> Iterator[Data]:
     """Groups of fields in the order of the file, its lists among them, with keys not given.
 
-    A list has its ``path`` and what a new entry begins with where there is none to repeat;
-    ``whole`` is the path of what may be taken away.
+    A list has its ``path`` and what one more entry begins with: the last one again, of a list of
+    choices one that is not taken; ``whole`` is the path of what may be taken away.
     """
     for name, section in SECTIONS.items():
         if name in raw or not section.absent:
@@ -72,15 +72,24 @@ def _section(
             continue
         own = lists[key].title if name == path[0] else f"{title}: {lists[key].title.lower()}"
         two_banks = key == "arms" and "bank_angle_deg" in part
-        given, pair = part.get(key), len(about.metas) > 1
+        given = part.get(key)
         shown = given[:_MOST_ENTRIES] if isinstance(given, list | tuple) else ()
         yield {
             "title": own, "key": key_text((*path, key)), "path": (*path, key), "whole": whole,
             "drawing": "arms-v" if two_banks else _DRAWINGS.get(key, ""),
             "entries": [list(_entry(item, about, (*path, key, index)))
                         for index, item in enumerate(shown)],
-            "blank": {} if about.inner else [""] * len(about.metas) if pair else "",
+            "more": _one_more(shown, about),
         }  # fmt: skip
+
+
+def _one_more(shown: Sequence[object], about: Key) -> object:
+    if about.metas and about.metas[0].choices:
+        free = (choice for choice in about.metas[0].choices if choice not in shown)
+        return next(free, "")
+    if shown:
+        return shown[-1]
+    return {} if about.inner else [""] * len(about.metas) if len(about.metas) > 1 else ""
 
 
 def _record(

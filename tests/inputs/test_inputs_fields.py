@@ -6,9 +6,12 @@ from collections import Counter
 import pytest
 
 from reports.inputs import fields
+from reports.inputs.described import groups
 from reports.inputs.load import load_mapping, load_toml
+from reports.inputs.sections.report import CHAPTERS
 from reports.inputs.template import list_samples
 from reports.shared.resources import samples_dir
+from tests.conftest import sample
 
 TABLE = {"source": "table", "points": [[0, 0.1], [180, 0.2], [720, 0.1]]}
 
@@ -147,3 +150,15 @@ def test_set_value_reaches_every_depth(raw):
     model = load_mapping(mapping, source="f").model
     assert model.gas.points[1] == (180, 0.3)
     assert model.crankshaft.webs[2].mass_kg == 0.5
+
+
+def test_one_more_entry_is_the_last_again_or_a_choice_that_is_not_taken() -> None:
+    """An empty choice looks like the first one in a list, and is refused."""
+    raw = fields.to_mapping(sample("gots-diesel"))
+    raw["report"]["chapters"] = ["cycle", "dynamics"]
+    more = {group["key"]: group.get("more") for group in groups(raw)}
+    assert more["report.chapters"] == "kinematics"
+    assert more["report.formats"] == "xlsx"
+    assert more["crankshaft.webs"] == raw["crankshaft"]["webs"][-1]
+    raw["report"]["chapters"] = list(CHAPTERS)
+    assert {g["key"]: g.get("more") for g in groups(raw)}["report.chapters"] == ""

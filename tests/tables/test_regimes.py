@@ -173,4 +173,3 @@ def test_a_wrong_value_names_its_regime() -> None:
     first, second = caught.value.lines()
     assert first.startswith("r.toml: regimes[1].speed_rpm: значение 0 вне допустимых пределов")
     assert second.startswith("r.toml: regimes[2].gas.max_pressure_mpa: p_z = 1 МПа ниже")
-

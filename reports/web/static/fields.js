@@ -20,10 +20,10 @@ function meant({number}, text) {
   return number && /^-?\d+(\.\d+)?$/.test(plain) ? Number(plain) : text.trim();
 }
 
-export function section({title, key, path, entries, blank, drawing, whole}, change) {
+export function section({title, key, path, entries, more, drawing, whole}, change) {
   const wanted = state.find.trim().toLowerCase(), all = entries.flat();
   const found = f => `${f.title} ${f.key} ${f.symbol}`.toLowerCase().includes(wanted);
-  const list = path?.reduce((part, each) => part?.[each], state.raw) ?? []; // it grows by its last entry
+  const list = path?.reduce((part, each) => part?.[each], state.raw) ?? [];
   const button = (label, at, value) => html`<button onClick=${() => change(key, at, value, true)}>${label}</button>`;
   const fields = entry => entry.filter(found).map(f => field(f, change));
   return html`
@@ -36,7 +36,7 @@ export function section({title, key, path, entries, blank, drawing, whole}, chan
         <legend>${`№ ${i + 1} `}${button(`Убрать ${i + 1}`, [...path, i])}</legend>
         ${fields(entry)}
       </fieldset>`)}
-      <p class="tool-bar">${path && button("Добавить", [...path, list.length], list.at(-1) ?? blank)}
+      <p class="tool-bar">${path && button("Добавить", [...path, list.length], more)}
         ${whole && button("Убрать раздел", whole)}</p>
     </details>`;
 }

@@ -1,6 +1,6 @@
-"""Open Word files in LibreOffice, renew fields and contents, save each as PDF, tell its counts.
+"""Open a Word file in LibreOffice, renew fields and contents, save it as PDF, tell its counts.
 
-Run by the system's Python, which has ``uno``: ``renewed.py PROFILE FILE PDF FILE PDF…``.
+Run by the system's Python, which has ``uno``: ``renewed.py PROFILE FILE PDF``.
 """
 
 import contextlib
@@ -39,7 +39,7 @@ def renew(desktop, source, target):
     return counts
 
 
-def main(profile, *files):
+def main(profile, source, target):
     pipe = f"kshm{abs(hash(profile))}"
     office = subprocess.Popen(
         ["soffice", "--headless", "--norestore", f"-env:UserInstallation=file://{profile}",
@@ -59,8 +59,7 @@ def main(profile, *files):
     desktop = context.ServiceManager.createInstanceWithContext(
         "com.sun.star.frame.Desktop", context
     )
-    for source, target in zip(files[::2], files[1::2], strict=True):
-        print(json.dumps(renew(desktop, source, target)))
+    print(json.dumps(renew(desktop, source, target)))
     with contextlib.suppress(Exception):  # the bridge breaks when the office goes
         desktop.terminate()
     office.wait(30)

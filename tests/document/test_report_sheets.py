@@ -29,12 +29,14 @@ due = "20.12.2026"
 frame = "eskd"
 detail = "course"
 """
+# Chapters of the report whose sheets are looked at: the less is set.
+FEW = 'chapters = ["kinematics", "dynamics", "torque", "appendices"]\n'
 
 
 @pytest.fixture(scope="module")
 def framed(tmp_path_factory):
     text = ONE.replace("step_deg = 30", "step_deg = 10").replace('detail = "full"\n', "")
-    t = terms_of(text.replace("[report]\n", DATA))
+    t = terms_of(text.replace("[report]\n", DATA + FEW))
     result = render(report_page(t.model, t.values, media="print"))
     assert result.warnings == ()
     folder = tmp_path_factory.mktemp("framed")
@@ -209,7 +211,7 @@ def test_every_figure_and_formula_is_told_in_words(framed):
     said = [bytes.fromhex(hex_[4:].decode()).decode("utf-16-be")
             for hex_ in re.findall(rb"/Alt\s*<(feff[0-9a-f]+)>", data)]  # fmt: skip
     figures, formulas = data.count(b"/S /Figure"), data.count(b"/S /Formula")
-    assert data.count(b"/Alt ") == figures + formulas and formulas > 80 > figures > 15
+    assert data.count(b"/Alt ") == figures + formulas and formulas > 40 > figures > 10
     (torque,) = [text for text in said if text.startswith("Индикаторный крутящий момент")]
     assert "наибольшее" in torque and "при φ = " in torque and "Н·м" in torque
 
@@ -247,7 +249,7 @@ def test_outline_language_and_metadata_are_in_the_file(framed):
               for hex_ in re.findall(rb"/Title\s*<(feff[0-9a-f]+)>", data)]  # fmt: skip
     for title in ("Введение", "Заключение", "Список использованных источников"):
         assert title in titles
-    assert len([t for t in titles if re.match(r"\d+(\.\d+)*\s", t)]) > 15
+    assert len([t for t in titles if re.match(r"\d+(\.\d+)*\s", t)]) > 8
     info = poppler("pdfinfo", str(framed[2] / "text.pdf"))
     assert re.search(r"Author:\s+Иванов И\. И\.", info) and "Creator:         kshm" in info
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from functools import cache
+from pathlib import Path
 
 import pytest
 from click import Option
@@ -20,9 +22,11 @@ from reports.tables.registry import build_model
 from tests.browser import measure
 from tests.manual.pages import DOCS, PAGES
 from tools.manual import build
-from tools.manual.build import pages
+from tools.manual.build import pages as made_pages
 from tools.manual.links import broken_links, slug
 from tools.manual.site import write_site
+
+pages = cache(made_pages)  # looked at by several tests
 
 
 def test_generated_pages_are_current():
@@ -115,14 +119,20 @@ def test_headings_make_the_anchors_of_code_hosts():
     assert slug("1. Возьмите похожий двигатель") == "1-возьмите-похожий-двигатель"
 
 
-@pytest.mark.parametrize("width", [390, 1280])
-def test_html_fits_the_window(tmp_path, width):
-    written = write_site(DOCS, tmp_path / "site")
+@pytest.fixture(scope="module")
+def site(tmp_path_factory) -> Path:
+    folder = tmp_path_factory.mktemp("site")
+    written = write_site(DOCS, folder)
     assert {path.stem for path in written} == {page.stem for page in DOCS.glob("*.md")} | {"readme"}
     for path in written:
         for link in re.findall(r'(?:href|src)="([^"]*)"', path.read_text(encoding="utf-8")):
             assert "://" in link or (path.parent / link.partition("#")[0]).exists(), link
-    page = (tmp_path / "site" / "sheets.html").read_text(encoding="utf-8")
+    return folder
+
+
+@pytest.mark.parametrize("width", [390, 1280])
+def test_html_fits_the_window(site, tmp_path, width):
+    page = (site / "sheets.html").read_text(encoding="utf-8")
     assert 'href="input.html"' in page
     found = measure(page, width, tmp_path / "browser", boxes="table, pre")
     assert found["scroll"] <= found["width"]

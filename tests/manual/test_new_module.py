@@ -47,7 +47,7 @@ def changed(tmp_path_factory):
     """A copy of the program with the changes of the page."""
     copy = tmp_path_factory.mktemp("program")
     for room in ("kshm", "reports", "templates"):
-        shutil.copytree(ROOT / room, copy / room, ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copytree(ROOT / room, copy / room)  # with what is compiled
     change = "".join(blocks(DOCS / "new-module.md", "diff"))
     applied = subprocess.run(
         ["git", "apply", "-"],
@@ -64,8 +64,12 @@ def test_a_module_touches_a_handful_of_files(changed):
     assert all((copy / file).exists() for file in files)
 
 
-def test_it_is_in_the_workbook_the_report_and_the_results(changed):
-    sample = ROOT / "samples" / "ecoboost-10.toml"  # an offset has a term of its own
+def test_it_is_in_the_workbook_the_report_and_the_results(changed, tmp_path):
+    text = (ROOT / "samples" / "ecoboost-10.toml").read_text(encoding="utf-8")
+    sample = tmp_path / "engine.toml"  # an offset has a term of its own
+    assert "step_deg = 10" in text and "[report]\n" in text
+    text = text.replace("[report]\n", '[report]\nchapters = ["dynamics"]\n')
+    sample.write_text(text.replace("step_deg = 10", "step_deg = 15"), encoding="utf-8")
     told = subprocess.run(
         [sys.executable, "-P", "-c", TRY, str(sample)],
         env=os.environ | {"PYTHONPATH": str(changed[0])},

@@ -12,7 +12,7 @@ from reports.formula.excel import compile_formula
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.handout import fill_cells
 from reports.spec.blocks import TableSpec
-from reports.workbook.layout import Layout, RowReferences, at_row
+from reports.workbook.layout import Cell, Layout, RowReferences, at_row
 from tests.referee.changes import without_charts
 
 Formula = str | float | None
@@ -53,10 +53,8 @@ def filled_book(
     layout = Layout.of(assignment.model)
     formulas = {**solved_formulas(assignment, layout), **(changes or {})}
     texts = tuple(
-        ((block.sheet, cell.row, cell.column), text)
-        for block in assignment.fill
-        for node, cells in fill_cells(block, layout).items()
-        for cell, text in zip(cells, formulas[node], strict=True)
+        ((cell.sheet, cell.row, cell.column), text)
+        for cell, text in filled_cells(assignment, layout, formulas).items()
     )
     if isinstance(handout, bytes) and edit is None and not charts:
         return _saved_with(handout, texts)
@@ -67,6 +65,18 @@ def filled_book(
     if edit is not None:
         edit(book, layout)
     return _saved(book)
+
+
+def filled_cells(
+    assignment: Assignment, layout: Layout, formulas: Mapping[str, list[Formula]]
+) -> dict[Cell, Formula]:
+    """The formulas of the nodes in their cells."""
+    return {
+        cell: text
+        for block in assignment.fill
+        for node, cells in fill_cells(block, layout).items()
+        for cell, text in zip(cells, formulas[node], strict=True)
+    }
 
 
 def _write(book: Workbook, texts: Iterable[tuple[tuple[str, int, int], Formula]]) -> None:

@@ -5,9 +5,12 @@ from __future__ import annotations
 import io
 import zipfile
 from collections.abc import Callable
+from dataclasses import replace
+from functools import lru_cache
 
 from openpyxl import Workbook
 from openpyxl.worksheet.formula import ArrayFormula
+from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.grading.issuing.handout import TICKET_NAME
 from reports.tables.registry import build_model
@@ -34,15 +37,21 @@ def _pasted(formula: str, node: str) -> Callable[[Workbook, Desk], None]:
     """A look-up on a sheet of pasted numbers."""
 
     def edit(book: Workbook, here: Desk) -> None:
-        sheet = book.create_sheet("Расчёт")
+        sheet = own_sheet(book)
         sheet.sheet_state = "veryHidden"
         for row, value in zip(rows(), here.column(node), strict=False):
             sheet.cell(row, 1).value = f"='П4.1'!A{row}"
             sheet.cell(row, 2).value = value
             place = here.layout.columns[node]
-            book[place[0].sheet].cell(row, place[1]).value = formula.replace("{r}", str(row))
+            text = formula.replace("{r}", str(row)).replace("Расчёт", sheet.title)
+            book[place[0].sheet].cell(row, place[1]).value = text
 
     return edit
+
+
+def own_sheet(book: Workbook) -> Worksheet:
+    """One more sheet of numbers: a book may hold several cheats."""
+    return book.create_sheet(f"Числа_{len(book.sheetnames)}_")
 
 
 def _scaled(by: str, key: str) -> Callable[[Desk], dict[str, object]]:
@@ -61,13 +70,13 @@ def _times(
     def edit(book: Workbook, here: Desk) -> None:
         owner = desk(here.other.number) if friend else here
         speed = owner.issued.drawn["regime.speed_rpm"]
-        sheet, place = book.create_sheet("Числа"), here.layout.columns[node]
+        sheet, place = own_sheet(book), here.layout.columns[node]
         for row, value in zip(rows(), owner.column(node), strict=False):
             sheet.cell(row, 1).value = text.replace("{v}", repr(round(value, digits)))
             if "=" not in text:
                 sheet.cell(row, 1).value = round(value, digits)
             power = 1 if node == V1 else 2
-            formula = f"=Числа!A{row}*(regime_speed_rpm/{speed})^{power}"
+            formula = f"={sheet.title}!A{row}*(regime_speed_rpm/{speed})^{power}"
             book[place[0].sheet].cell(row, place[1]).value = formula
 
     return edit
@@ -81,7 +90,7 @@ def _hidden(cell: str, formula: str) -> Callable[[Workbook, Desk], None]:
     """
 
     def edit(book: Workbook, here: Desk) -> None:
-        sheet, place = book.create_sheet("Числа"), here.layout.columns[V1]
+        sheet, place = own_sheet(book), here.layout.columns[V1]
         for digit in range(10):
             sheet.cell(digit + 1, 3).value = digit
         for row, value in zip(rows(), here.column(V1), strict=False):
@@ -89,9 +98,9 @@ def _hidden(cell: str, formula: str) -> Callable[[Workbook, Desk], None]:
             sheet.cell(row, 1).value = cell.replace("{v}", whole).replace(
                 "~", "x" * round(abs(value) * 100)
             )
-            digits = "+".join(f"Числа!$C${int(d) + 1}*10^{len(whole) - 1 - i}"
+            digits = "+".join(f"{sheet.title}!$C${int(d) + 1}*10^{len(whole) - 1 - i}"
                               for i, d in enumerate(whole))  # fmt: skip
-            text = formula.replace("{c}", f"Числа!A{row}").replace("{d}", f"({digits})")
+            text = formula.replace("{c}", f"{sheet.title}!A{row}").replace("{d}", f"({digits})")
             text = text.replace("{r}", f"{max(1, round(abs(value) * 1000))}")
             text = f"={sign}{text}*regime_speed_rpm/{here.issued.drawn['regime.speed_rpm']}"
             book[place[0].sheet].cell(row, place[1]).value = text
@@ -199,10 +208,15 @@ def _foreign(where: str) -> Callable[[bytes, Desk], bytes]:
         friend = desk(here.other.number)
         mine = {"own": here.issued.ticket, "altered": here.issued.ticket[:-2] + "AA",
                 "none": "", "friend": friend.issued.ticket}[where]  # fmt: skip
-        book = saved(friend, WRITTEN)
-        return reticketed(book, friend.issued.ticket, mine)
+        return reticketed(_written(friend.issued.number), friend.issued.ticket, mine)
 
     return after
+
+
+@lru_cache(maxsize=1)
+def _written(number: int) -> bytes:
+    """The book of a student as written."""
+    return saved(desk(number), WRITTEN)
 
 
 def reticketed(data: bytes, old: str, new: str) -> bytes:
@@ -216,8 +230,8 @@ def reticketed(data: bytes, old: str, new: str) -> bytes:
 
 
 def _solved(data: bytes, here: Desk) -> bytes:
-    """The program's own solved book of the variant."""
-    return workbook_bytes(build_model(here.assignment.model.input))
+    """The program's own solved book of the variant; charts, half of the time, tell nothing."""
+    return workbook_bytes(replace(build_model(here.assignment.model.input), charts=()))
 
 
 def _solved_with_ticket(book: Workbook, here: Desk) -> None:
@@ -318,7 +332,12 @@ CHEATS = (
     Work("formulas of texts, scaled", edit=_hidden('="{v}"', "{c}/10^6"), unpaid=(V1,)),
     Work("lengths of texts, scaled", edit=_hidden("~", "LEN({c})/100"), unpaid=(V1,)),
     Work("rows of blank cells, scaled", edit=_hidden("x", "(ROW(Z{r})-1)/1000"), unpaid=(V1,)),
-    Work("digits of other cells, scaled", edit=_hidden("x", "{d}/10^6"), unpaid=(V1,)),
+    Work(
+        "digits of other cells, scaled",
+        edit=_hidden("x", "{d}/10^6"),
+        unpaid=(V1,),
+        alone=True,
+    ),
     Work("formulas of numbers, scaled", edit=_times("={v}*1", J1), unpaid=(J1,)),
     Work("names of numbers", edit=_name_constant, unpaid=(S1,)),
     Work("everything pasted", edit=_solved_with_ticket, unpaid=tuple(COLUMNS)),

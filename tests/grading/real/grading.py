@@ -9,16 +9,24 @@ from pathlib import Path
 from tempfile import mkdtemp
 from typing import Any
 
-from reports.grading.batch.grade import Options, grade
+import pytest
+
+from reports.grading.batch import grade as grading
+from tests.grading.classroom import graded_here
 from tests.grading.forms import as_excel
 from tests.grading.real.books import Work, made
 from tests.grading.real.cheats import CHEATS
 from tests.grading.real.desk import classroom, desk
 from tests.grading.real.honest import HONEST
 from tests.grading.real.mistakes import MISTAKES
+from tests.grading.real.together import NAMES, paired, together
 from tools.referees.by_libreoffice import LibreOffice
 
-WORKS: tuple[Work, ...] = (*HONEST, *MISTAKES, *CHEATS)
+
+@lru_cache(maxsize=1)
+def works() -> tuple[Work, ...]:
+    """What is handed in, in the order of the students."""
+    return (*paired(HONEST), *together(MISTAKES), *together(CHEATS))
 
 
 @dataclass(frozen=True)
@@ -38,11 +46,11 @@ class Marked:
 
 def books() -> dict[int, bytes]:
     """Number of the student → the file handed in."""
-    found = {number: made(number, work) for number, work in enumerate(WORKS, 1)}
-    office = [number for number, work in enumerate(WORKS, 1) if work.form == "office"]
+    found = {number: made(number, work) for number, work in enumerate(works(), 1)}
+    office = [number for number, work in enumerate(works(), 1) if work.form == "office"]
     saved = LibreOffice().converted([found[number] for number in office])
     found |= dict(zip(office, saved, strict=True))
-    for number, work in enumerate(WORKS, 1):
+    for number, work in enumerate(works(), 1):
         if work.form == "excel":
             found[number] = as_excel(found[number])
         if work.after is not None:
@@ -60,12 +68,14 @@ def marked() -> dict[str, Marked]:
         for number, data in books().items():
             issued = register.books[number - 1]
             (submitted / issued.file).write_bytes(data)
-    done = grade(folder / "issued", submitted, out, secret_file=folder / "secret.key",
-                 options=Options(workers=2))  # fmt: skip
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(grading, "grade_all", graded_here)
+        done = grading.grade(folder / "issued", submitted, out, secret_file=folder / "secret.key")
     rows = {row["number"]: row for row in done.summary["rows"] if row["number"]}
     results = [json.loads(p.read_text(encoding="utf-8")) for p in (out / "results").glob("*.json")]
     by_file = {result["key"]: result for result in results if "key" in result}
     return {
-        work.name: Marked(number, work, rows[number], by_file[register.books[number - 1].file])
-        for number, work in enumerate(WORKS, 1)
+        name: Marked(number, work, rows[number], by_file[register.books[number - 1].file])
+        for number, work in enumerate(works(), 1)
+        for name in work.name.split(NAMES)
     }

@@ -35,20 +35,21 @@ _CELL = re.compile(rb'(<c r="([A-Z]+[0-9]+)"(?: s="[0-9]+")?)[^>]*?(?:/>|>.*?</c
 _PROPERTIES = "docProps/custom.xml"
 
 
-@lru_cache(maxsize=1)
-def _first() -> tuple[dict[str, bytes], dict[str, str]]:
-    """Parts of the first student's empty book, and where its sheets are."""
-    here, stream = desk(1), io.BytesIO()
+@lru_cache(maxsize=2)
+def _parts(here: Desk) -> tuple[dict[str, bytes], dict[str, str]]:
+    """Parts of a student's empty book, and where its sheets are."""
+    stream = io.BytesIO()
     opened(here.assignment, here.issued.ticket).save(stream)
     with zipfile.ZipFile(stream) as source:
         places = sheet_parts(source)
         return {name: source.read(name) for name in source.namelist()}, places
 
 
-def typed(here: Desk, values: Mapping[Cell, Value]) -> bytes:
-    """The book of a desk with values in its cells."""
-    parts, places = _first()
-    first, fields = desk(1), here.assignment.model.fields
+def typed(here: Desk, values: Mapping[Cell, Value], first: Desk | None = None) -> bytes:
+    """The book of a desk with values in its cells; ``first`` is the first of the class."""
+    first = first or desk(1)
+    parts, places = _parts(first)
+    fields = here.assignment.model.fields
     drawn = {
         name: shown(item)
         for name, item in fields.items()

@@ -38,6 +38,11 @@ def part(book: bytes, name: str, change: Callable[[bytes], bytes]) -> bytes:
     return rewritten(book, lambda found, data: change(data) if found == name else data)
 
 
+def bare(data: bytes) -> bytes:
+    """A part without its declaration, which not every program writes."""
+    return data[data.index(b"?>") + 2 :] if data.startswith(b"<?xml") else data
+
+
 def rows(xml: str) -> Callable[[bytes], bytes]:
     """More rows at the end of a sheet."""
     return lambda data: data.replace(b"</sheetData>", xml.encode() + b"</sheetData>")
@@ -129,16 +134,16 @@ def hostile_files(book: bytes, ticket: str, other: str) -> Iterator[tuple[str, b
     yield "links.xlsx", more(book, {"xl/externalLinks/externalLink1.xml": b"<x/>"})
     yield "locked.xlsx", flagged(book)
     yield "method.xlsx", method(book)
-    yield "doctype.xlsx", part(book, sheet, lambda d: LAUGHS + d)
-    yield "laughs.xlsx", part(book, "xl/workbook.xml", lambda d: LAUGHS + d)
+    yield "doctype.xlsx", part(book, sheet, lambda d: LAUGHS + bare(d))
+    yield "laughs.xlsx", part(book, "xl/workbook.xml", lambda d: LAUGHS + bare(d))
     late = b"<!--" + b"x" * 5000 + b"-->" + XXE
     yield (
         "late-entity.xlsx",
-        part(book, sheet, lambda d: late + d.partition(b"?>")[2].replace(b"</v>", b"&e;</v>", 1)),
+        part(book, sheet, lambda d: late + bare(d).replace(b"</v>", b"&e;</v>", 1)),
     )
     yield "utf16.xlsx", part(
         book, sheet,
-        lambda d: (XXE.decode() + d.partition(b"?>")[2].decode()).encode("utf-16"),
+        lambda d: (XXE.decode() + bare(d).decode()).encode("utf-16"),
     )  # fmt: skip
     yield "corner.xlsx", part(book, sheet, rows(cell("XFD1048576", "<v>1</v>")))
     yield "deep-row.xlsx", part(book, sheet, rows(cell("A1048576", "<v>1</v>")))

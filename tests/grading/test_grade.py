@@ -5,14 +5,14 @@ from __future__ import annotations
 import csv
 import io
 import os
-import subprocess
-import sys
 import zipfile
 from datetime import datetime
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner, Result
 
+from reports.cli import main
 from reports.grading.batch import grade as room
 from reports.grading.batch.grade import Options, decide, grade
 from reports.grading.issuing.rubric import rubric_of
@@ -21,8 +21,6 @@ from reports.grading.reading.submissions import collect
 from reports.shared.errors import InputError
 from tests.grading import classroom
 from tests.grading.fill import filled_book
-
-ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(autouse=True)
@@ -200,12 +198,9 @@ def test_wrong_places_are_refused(tmp_path):
               secret_file=tmp_path / "no.key")  # fmt: skip
 
 
-def kshm(*arguments: object) -> subprocess.CompletedProcess[str]:
-    environment = {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONIOENCODING": "utf-8"}
-    return subprocess.run(
-        [sys.executable, "-m", "reports", *map(str, arguments)],
-        capture_output=True, text=True, cwd=ROOT, env=environment, check=False,
-    )  # fmt: skip
+def kshm(*arguments: object) -> Result:
+    """The command in this process; as one of its own it runs in tests/manual/test_commands.py."""
+    return CliRunner().invoke(main, [*map(str, arguments)])
 
 
 def test_the_command_explains_a_verdict(tmp_path):
@@ -217,7 +212,7 @@ def test_the_command_explains_a_verdict(tmp_path):
     common = ("--secret", folder / "secret.key", "--explain", file)
     # Windows leaves the quotes of the manual's line where they are.
     done = kshm("grade", folder / "issued", *common, "'П3.1!E'")
-    assert done.returncode == 0, done.stderr
+    assert done.exit_code == 0, done.stderr
     for words in ("P3_1.v1_m_s", "=r_crank*omega*SIN(RADIANS(A6))", "по его предыдущим значениям",
                   "omega", "Вердикт: верно по вашим предыдущим значениям"):  # fmt: skip
         assert words in done.stdout
@@ -225,11 +220,11 @@ def test_the_command_explains_a_verdict(tmp_path):
     assert "Вердикт: неверно" in done.stdout
     assert "вдвое меньше" in done.stdout
     done = kshm("grade", folder / "issued", *common, "П3.1!Z")
-    assert done.returncode == 2
+    assert done.exit_code == 2
     assert len(done.stderr.splitlines()) == 1
     assert "Traceback" not in done.stderr
     done = kshm("grade", folder / "issued")
-    assert done.returncode == 2
+    assert done.exit_code == 2
     assert "нужны папка выдачи" in done.stderr
 
 

@@ -27,7 +27,7 @@ def everything(name: str) -> Assignment:
 def test_every_row_has_the_formula_that_the_book_is_written_with(name):
     made = everything(name)
     layout = Layout.of(made.model)
-    book = load_workbook(io.BytesIO(workbook_bytes(made.model)))
+    book = load_workbook(io.BytesIO(workbook_bytes(replace(made.model, charts=()))))
     cells = {n: c for block in made.blocks for n, c in fill_cells(block, layout).items()}
     formulas = own_formulas(made, layout, cells)
     assert len(formulas) > 200

@@ -17,6 +17,7 @@ import pytest
 from reports.cli import main
 from reports.shared import files, interrupt
 from reports.shared.aside import can_split
+from tests.cover import ALL
 from tests.robustness.command import leftovers, small_input, started
 
 OLD, NEW = b"old" * 1000, b"new" * 2000
@@ -167,12 +168,18 @@ __main__.start()
 
 INT, TERM, KILL = signal.SIGINT, signal.SIGTERM, signal.SIGKILL
 SOLVE, BUILD = ("solve", "--csv"), ("build", "--only", "xlsx", "-o")
+SHARES = (0.4, 0.7, 0.9)  # of the time that a command takes
+MOMENTS = (
+    [(number, share) for number in (INT, TERM, KILL) for share in SHARES]
+    if ALL
+    else [*zip((INT, TERM, KILL), SHARES, strict=True), (TERM, SHARES[-1])]
+)
 
 
 @pytest.mark.parametrize(
     ("number", "command", "share"),
     [
-        *((number, SOLVE, share) for number in (INT, TERM, KILL) for share in (0.4, 0.7, 0.9)),
+        *((number, SOLVE, share) for number, share in MOMENTS),
         (INT, BUILD, 0.3),
         (TERM, BUILD, 0.6),
     ],

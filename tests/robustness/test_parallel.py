@@ -5,7 +5,7 @@ from __future__ import annotations
 from tests.cover import examples
 from tests.robustness.command import leftovers, small_input, started
 
-COUNT = examples(10, 20)
+COUNT = examples(6, 20)
 
 
 def test_many_commands_in_one_folder(tmp_path):

@@ -12,8 +12,9 @@ from openpyxl.worksheet.formula import ArrayFormula
 from reports.grading.issuing.handout import fill_cells
 from reports.workbook.layout import Cell
 from tests.grading.classroom import opened
+from tests.grading.fill import Value
 from tests.grading.real.desk import Desk, desk
-from tests.grading.real.typed import Value, typed
+from tests.grading.real.typed import typed
 from tests.grading.real.written import FIRST, ROWS, WRITTEN
 
 # What is written into the cells of a node: one template for all rows, or a list.

@@ -11,19 +11,15 @@ import re
 import zipfile
 from collections.abc import Mapping
 from functools import lru_cache
-from html import escape
-
-from openpyxl.compat import safe_string
-from openpyxl.worksheet.formula import ArrayFormula
 
 from reports.grading.issuing.handout import input_mark
 from reports.workbook.caches import sheet_parts
 from reports.workbook.inputs import shown
 from reports.workbook.layout import CONTENTS_SHEET, Cell
 from tests.grading.classroom import opened
+from tests.grading.fill import Value, with_values
 from tests.grading.real.desk import Desk, desk
 
-Value = str | float | ArrayFormula | None
 # What the first sheet repeats of the input data.
 _CONTENTS = {
     Cell(CONTENTS_SHEET, 4, 2): "report_student",
@@ -31,7 +27,6 @@ _CONTENTS = {
     Cell(CONTENTS_SHEET, 11, 3): "geometry_bore_mm",
     Cell(CONTENTS_SHEET, 14, 3): "regime_speed_rpm",
 }
-_CELL = re.compile(rb'(<c r="([A-Z]+[0-9]+)"(?: s="[0-9]+")?)[^>]*?(?:/>|>.*?</c>)')
 _PROPERTIES = "docProps/custom.xml"
 
 
@@ -60,7 +55,7 @@ def typed(here: Desk, values: Mapping[Cell, Value], first: Desk | None = None) -
     of_part: dict[str, dict[str, Value]] = {places[CONTENTS_SHEET]: {}}
     for cell, value in {**of_inputs, **of_contents, **values}.items():
         of_part.setdefault(places[cell.sheet], {})[cell.coordinate] = value
-    changed = {part: _with_values(parts[part], cells) for part, cells in of_part.items()}
+    changed = {part: with_values(parts[part], cells) for part, cells in of_part.items()}
     changed[_PROPERTIES] = _marked(parts[_PROPERTIES], drawn)
     for part in (_PROPERTIES, places[CONTENTS_SHEET]):
         changed[part] = changed[part].replace(first.issued.ticket.encode(),
@@ -77,32 +72,3 @@ def _marked(data: bytes, drawn: Mapping[str, object]) -> bytes:
     for name, value in drawn.items():
         data = re.sub(rf"\b{name}=\w\w".encode(), f"{name}={input_mark(value)}".encode(), data)
     return data
-
-
-def _with_values(data: bytes, values: Mapping[str, Value]) -> bytes:
-    left = set(values)
-
-    def replaced(match: re.Match[bytes]) -> bytes:
-        at = match[2].decode()
-        if at not in values:
-            return match[0]
-        left.discard(at)
-        return match[1] + _spelled(values[at]).encode("ascii", "xmlcharrefreplace")
-
-    made = _CELL.sub(replaced, data)
-    assert not left, left  # all that is filled in has a look of its own
-    return made
-
-
-def _spelled(value: Value) -> str:
-    if isinstance(value, ArrayFormula):
-        text = escape(str(value.text)[1:], quote=False)
-        return f'><f t="array" ref="{value.ref}">{text}</f><v></v></c>'
-    if value is None:
-        return ' t="n"></c>'
-    if not isinstance(value, str):
-        return f' t="n"><v>{safe_string(value)}</v></c>'
-    text = escape(value, quote=False)
-    if value.startswith("="):
-        return f"><f>{text[1:]}</f><v></v></c>"
-    return f' t="inlineStr"><is><t>{text}</t></is></c>'

@@ -18,6 +18,12 @@ MAX_UNPACKED = 300 * 2**20
 MAX_PARTS = 2000
 MAX_RATIO = 400
 _HEAD = 4096
+# What may stand before the root element of a part: no DOCTYPE, whatever hides it from a look at
+# the beginning (a long remark, another coding).
+_ROOT = re.compile(
+    rb"(?:\xef\xbb\xbf)?(?>\s|<\?(?>(?:(?!\?>).)*)\?>|<!--(?>(?:(?!-->).)*)-->)*+<[^!?\0]",
+    re.DOTALL,
+)
 _CHUNK = 2**20
 _DAMAGED = (
     zipfile.BadZipFile,
@@ -89,6 +95,9 @@ def _check_parts(name: str, package: Package) -> None:
         if info.filename.endswith((".xml", ".rels")):
             if re.search(rb"<!(DOCTYPE|ENTITY)", part[:_HEAD]):
                 _refuse(name, "в книге есть объявление DOCTYPE", "это не книга Excel")
+            if not _ROOT.match(part[:_HEAD]):
+                what = f"часть {info.filename} начинается не так, как пишут программы таблиц"
+                _refuse(name, what, "сохраните книгу заново в Excel или LibreOffice")
             if size == len(part):
                 package.keep(info.filename, part)
 

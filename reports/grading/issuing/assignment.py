@@ -309,10 +309,12 @@ def _items(block: Block) -> Iterator[Item]:
             cells = [(label, cell) for label, cell in named if cell is not None]
             about = row.quantity
             words = [(label, c) for label, c in cells if c.quantity.digits.kind == "text"]
-            labels, numbers = zip(*(pair for pair in cells if pair not in words), strict=True)
-            yield Item(f"{block.id}.{row.of}", block.id, about.title, about.symbol, about,
-                       tuple(cell.key for cell in numbers), labels, cells[0][1].source,
-                       False)  # fmt: skip
+            numbers = [(label, c) for label, c in cells if c.quantity.digits.kind != "text"]
+            if numbers:
+                yield Item(f"{block.id}.{row.of}", block.id, about.title, about.symbol, about,
+                           tuple(cell.key for _, cell in numbers),
+                           tuple(label for label, _ in numbers), cells[0][1].source,
+                           False)  # fmt: skip
             for label, cell in words:  # where the number is the greatest
                 title, symbol = f"{about.title}: {label}", f"{about.symbol}, {cell.quantity.symbol}"
                 yield Item(f"{block.id}.{cell.key}", block.id, title, symbol, cell.quantity,

@@ -252,6 +252,24 @@ def test_numbers_cut_up_into_short_ones_are_for_a_person():
     assert classroom.verdicts(graded(edit=cut_up)) == {"P3_1.v1_m_s": "unknown"}
 
 
+def test_numbers_made_of_digits_by_formulas_that_are_not_alike_are_for_a_person():
+    """They do not look like a list, but are right at the angles of the rows alone."""
+    values = evaluate_model(classroom.assignment().model)
+    speeds, omega = values.columns["P3_1"]["v1_m_s"], values.scalars["omega"]
+
+    def of_digits(book: Workbook, layout: Layout) -> None:
+        sheet = book.create_sheet("Числа")
+        for digit in range(10):
+            sheet.cell(digit + 1, 3).value = digit
+        for row, speed in enumerate(speeds, 6):
+            whole = f"{round(abs(speed) * 1e6):08}"
+            digits = "+".join(f"Числа!C{int(d) + 1}*10^{1 - i}" for i, d in enumerate(whole))
+            text = f"={'-' if speed < 0 else ''}({digits + '+Числа!C1' * row})*omega/{omega!r}"
+            book["П3.1"].cell(row, 5).value = text
+
+    assert classroom.verdicts(graded(edit=of_digits)) == {"P3_1.v1_m_s": "unknown"}
+
+
 def test_what_rests_on_a_circle_is_not_said_to_rest_on_blanks():
     count = len(formulas()["P4_2.M1_Nm"])
     back = [f"=E{row}-C{row}-D{row}" for row in range(6, 6 + count)]

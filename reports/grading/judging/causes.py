@@ -107,7 +107,7 @@ class Causes:
                 return found
         # Mistakes before this one, in what the program calculates from them too: its formula is
         # looked at without them.
-        alone = self.response.alone(item) if self.response is not None else None
+        alone = self.response.tryout.alone(item) if self.response is not None else None
         if alone is None or np.allclose(alone, values, equal_nan=True):
             return ""
         return self._first(item, alone, self.student.expected, rows)

@@ -7,7 +7,7 @@ it costs it nothing, and a number in the guise of a formula does not follow.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -15,25 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Item
-from reports.grading.judging.copied import known_numbers
 from reports.grading.judging.lists import listed, reads_a_list
 from reports.grading.judging.settled import EXACT, settled
 from reports.grading.judging.shaking import Shaking
 from reports.grading.judging.tolerances import close, tolerance
-from reports.grading.judging.trials import Trial, fixed
+from reports.grading.judging.trials import Trial, fixed, turned
+from reports.grading.judging.tryout import Tryout
 from reports.grading.reading.student import Student
-from reports.recalculation.bench import (
-    ROUNDINGS,
-    Bench,
-    Cells,
-    full,
-    pinned,
-    rounded_to,
-    rounds,
-    unrounded_grid,
-)
-from reports.recalculation.grid import Run
-from reports.recalculation.language import UnknownFormula
+from reports.recalculation.bench import ROUNDINGS, pinned, rounded_to
 
 Array = NDArray[np.float64]
 
@@ -67,6 +56,11 @@ class Response:
         return self.proofs.trials
 
     @cached_property
+    def tryout(self) -> Tryout:
+        """The work with other numbers in its cells."""
+        return Tryout(self.student, self.trials)
+
+    @cached_property
     def _nodes(self) -> list[str]:
         """Nodes with formulas."""
         return [n for n in sorted(self.student.assignment.fill_nodes) if self.student.runs(n)]
@@ -85,117 +79,12 @@ class Response:
     @cached_property
     def _values(self) -> dict[str, list[Array] | str]:
         """Values of the tried nodes for every trial, or why they are unknown."""
-        return self._run(self._tried, rounded=True)
+        return self.tryout.run(self._tried, self.trials)
 
     @cached_property
     def _unrounded(self) -> dict[str, list[Array] | str]:
-        wanted = [
-            node
-            for node in self._tried
-            if any(
-                run.formula is not None and rounds(run.formula) for run in self._with_helpers(node)
-            )
-            or (self._full_constants and any(full(v) != v for v in self.student.own_numbers(node)))
-        ]
-        return self._run(wanted, rounded=False) if wanted else {}
-
-    def _with_helpers(self, node: str) -> list[Run]:
-        return [*self.student.runs(node), *self.student.helpers(node)]
-
-    def _run(
-        self, nodes: Sequence[str], *, rounded: bool, own: Trial | None = None
-    ) -> dict[str, list[Array] | str]:
-        trials = self.trials if own is None else (own,)
-        if not nodes or not trials:
-            return {node: [] for node in nodes}
-        student = self.student
-        first = pinned(student.grid, self.cells(trials[0], everything=True))
-        if not rounded:
-            first = unrounded_grid(pinned(first, self._full_constants))
-        bench = Bench(first, {node: student.runs(node) for node in nodes}, rounded=rounded)
-        found: dict[str, list[Array] | str] = {node: [] for node in nodes}
-        for trial in trials:
-            if trial is not trials[0]:
-                bench.put(self.cells(trial, everything=False))
-            for node in nodes:
-                values = found[node]
-                if isinstance(values, str):
-                    continue
-                try:
-                    place = student.placement.places[node]
-                    values.append(bench.values(node, place.rows))
-                except UnknownFormula as error:
-                    found[node] = str(error) or "?"
-        return found
-
-    def cells(self, trial: Trial, *, everything: bool) -> list[Cells]:
-        """The cells of inputs and nodes with the right values of a trial."""
-        made = self._inputs(trial)
-        student, assignment = self.student, self.student.assignment
-        for node in sorted(assignment.fill_nodes | assignment.live_nodes | assignment.given_nodes):
-            right = trial.expected.value(node)
-            if isinstance(right, str) and not everything:
-                continue
-            made += student.cells_of(node, right)
-        return made
-
-    def alone(self, item: Item) -> Array | None:
-        """What the formulas of an item give where all that they refer to is right.
-
-        So a mistake is told apart from those that were made before it.
-        """
-        if not all(self.student.runs(node) for node in item.nodes):
-            return None
-        own = Trial({}, self.student.expected, decides=True)
-        made = self._run(item.nodes, rounded=True, own=own)
-        parts = [values[0] for values in made.values() if not isinstance(values, str)]
-        return np.concatenate(parts) if len(parts) == len(item.nodes) else None
-
-    def whole(self) -> Iterator[list[Cells]]:
-        """What the book was issued with, of each trial: all else it calculates itself."""
-        student = self.student
-        for trial in self.trials:
-            made = self._inputs(trial)
-            for node in sorted(student.assignment.given_nodes):
-                made += student.cells_of(node, trial.expected.value(node))
-            yield made
-
-    def _inputs(self, trial: Trial) -> list[Cells]:
-        """The cells of the input data, and the student's own that repeat them."""
-        made = []
-        for name, value in trial.inputs.items():
-            place = self.student.placement.places.get(name)
-            if place is not None and place.rows[0] is not None:
-                made.append(Cells(place.sheet, place.column, (place.rows[0],), (value,)))
-            made += [
-                Cells(sheet, column, (row,), (value * factor,))
-                for sheet, column, row, factor in self._copies.get(name, ())
-            ]
-        return made
-
-    @cached_property
-    def _copies(self) -> dict[str, list[tuple[str, int, int, float]]]:
-        """Cells of the student's own that repeat an input, in its unit or in another.
-
-        Who copies the input data to a sheet of his own and calculates from there has not
-        typed in a result.
-        """
-        wanted = known_numbers(self.student.assignment.model.fields, self.trials)
-        found: dict[str, list[tuple[str, int, int, float]]] = {}
-        for sheet, number, row, value in self.student.own_constants:
-            hit = wanted.get(float(f"{value:.12g}"))
-            if hit is not None:
-                found.setdefault(hit[0], []).append((sheet, number, row, hit[1]))
-        return found
-
-    @cached_property
-    def _full_constants(self) -> list[Cells]:
-        """Cells of the student's own with π of some digits, with all of them."""
-        return [
-            Cells(sheet, column, (row,), (full(value),))
-            for sheet, column, row, value in self.student.own_constants
-            if full(value) != value
-        ]
+        wanted = [node for node in self._tried if self.tryout.rounds(node)]
+        return self.tryout.run(wanted, self.trials, rounded=False)
 
     # --- what it says -----------------------------------------------------------------
 
@@ -219,26 +108,41 @@ class Response:
 
     def holds_somewhere(self, item: Item, node: str) -> bool:
         """Whether a node's formulas are right for an engine that has other values there."""
-        values = self._values.get(node) or self._run([node], rounded=True)[node]
+        values = self._values.get(node) or self.tryout.run([node], self.trials)[node]
         if isinstance(values, str):
             return False
         own = np.ravel(np.asarray(self.student.expected.value(node), dtype=float))
         return any(
             not np.allclose(right, own, rtol=1e-9, atol=0, equal_nan=True)
             and bool(close(item, made, right, tolerance(item, right, self.student)).all())
-            for made, right in zip(values, self._right(node), strict=True)
+            for made, right in zip(values, _right(node, self.trials), strict=True)
         )
 
     @cached_property
     def shaking(self) -> Shaking:
         """The work on nobody's variant: what tells its own from others is not seen."""
-        cells = self.cells(self.trials[-1], everything=True)
+        cells = self.tryout.cells(self.trials[-1], everything=True)
         return Shaking(self.student, self.trials[-1], pinned(self.student.grid, cells))
 
     def problem(self, node: str) -> str:
         """Why a node's formulas cannot be tried, empty where they can."""
         values = self._values.get(node, "")
         return values if isinstance(values, str) else ""
+
+    def _repeats(self, item: Item, node: str) -> bool:
+        """Whether a node's formulas give numbers that are right at the angles of its rows alone.
+
+        So do lists of numbers, whatever they are made of.
+        """
+        trials = (self.tryout.own, turned(self.student.expected))
+        made = self.tryout.run([node], trials, rounded=False)[node]
+        if isinstance(made, str):
+            return True
+        own, between = (
+            close(item, values, right, tolerance(item, right, self.student))
+            for values, right in zip(made, _right(node, trials), strict=True)
+        )
+        return bool((own & ~between).sum() >= len(own) / 2)
 
     def _of_node(self, item: Item, node: str) -> str:
         count = self.student.assignment.length(node)
@@ -267,7 +171,7 @@ class Response:
             return False
         return all(
             bool((np.abs(own - right) <= EXACT * np.abs(right).max()).all())
-            for own, right in zip(values, self._right(node), strict=True)
+            for own, right in zip(values, _right(node, self.trials), strict=True)
         )
 
     def _judged(self, item: Item, node: str, count: int) -> str:
@@ -279,7 +183,7 @@ class Response:
         letters = [NOTHING] * count
         lists = listed(self.student.runs(node))
         pasted: bool | None = None
-        right = self._right(node)
+        right = _right(node, self.trials)
         good = self._good(item, values, right)
         roughly = self._rounded_good(item, node, values, right)
         others = good[1] if roughly is None else good[1] | roughly[2]
@@ -297,7 +201,8 @@ class Response:
                 letter = self._word(i, word, values, same, others, listed=id(run) in lists)
                 letter = COARSE if coarse and letter == PARTLY else letter
                 if letter in (PARTLY, COARSE) or (letter == word and not others[i]):
-                    pasted = reads_a_list(self.student, node) if pasted is None else pasted
+                    if pasted is None:
+                        pasted = reads_a_list(self.student, node) or self._repeats(item, node)
                     letter = PASTED if pasted else letter
                 letters[i] = IDLE if idle[i] and letter in (RIGHT, ROUNDED) else letter
         return "".join(letters)
@@ -321,9 +226,6 @@ class Response:
         if not np.isfinite(values[0][i]):
             return WRONG
         return STILL if (stands and not same[i]) or listed else PARTLY
-
-    def _right(self, node: str) -> list[Array]:
-        return [np.ravel(np.asarray(t.expected.value(node), dtype=float)) for t in self.trials]
 
     def _good(
         self, item: Item, values: Sequence[Array], right: Sequence[Array]
@@ -351,8 +253,8 @@ class Response:
         found = exact.copy()
         half = self.student.assignment.rubric.tolerance.units * 10.0**-item.quantity.digits.decimals
         coarse = rounds_coarsely(self.student, item, node)
-        formulas = (run.formula for run in self._with_helpers(node) if run.formula is not None)
-        inside = any(not formula.functions.isdisjoint(ROUNDINGS) for formula in formulas)
+        used = (formula.functions for formula in self.tryout.formulas(node))
+        inside = not ROUNDINGS.isdisjoint(frozenset().union(*used))
         for trial, own, wanted in zip(self.trials, values, right, strict=True):
             if trial.decides and inside:  # digits of π cost what they cost
                 largest = float(np.nanmax(np.abs(wanted))) if wanted.size else 0.0
@@ -367,7 +269,7 @@ class Response:
         nodes = [node for node in sorted(student.rewritten) if student.runs(node)]
         if not nodes or not self.trials:
             return []
-        values = self._run(nodes, rounded=True)
+        values = self.tryout.run(nodes, self.trials)
         return [node for node in nodes if not self._calculates(node, values[node])]
 
     def _calculates(self, node: str, values: list[Array] | str) -> bool:
@@ -388,6 +290,10 @@ def rounds_coarsely(student: Student, item: Item, node: str) -> bool:
     """Whether a column is rounded more than the book prints."""
     digits = [rounded_to(run.formula) for run in student.runs(node) if run.formula is not None]
     return any(d is not None and d < item.quantity.digits.decimals for d in digits)
+
+
+def _right(node: str, trials: Sequence[Trial]) -> list[Array]:
+    return [np.ravel(np.asarray(t.expected.value(node), dtype=float)) for t in trials]
 
 
 def _differ(first: float, second: float) -> bool:

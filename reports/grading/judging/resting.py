@@ -91,7 +91,7 @@ def _hidden_circles(
     if not suspects & paid:
         return frozenset()
     holding = [n for n in suspects if n in paid or response.holds_somewhere(items[n], n)]
-    return hidden_circles(student, holding, response.whole())
+    return hidden_circles(student, holding, response.tryout.whole())
 
 
 def _reached(

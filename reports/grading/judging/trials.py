@@ -4,14 +4,15 @@ A formula must give the right column for other engines too.  Two sets change wha
 between the students: values of other variants, and values between them, drawn with a secret
 seed when the works are graded.  The third changes every number of the input: it shows
 a constant where the students' variants do not, but does not decide, for what is the same
-for the whole class may be typed in.
+for the whole class may be typed in.  The student's own engine between the angles of the tables
+tells what calculates from what only repeats.
 """
 
 from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,7 @@ from reports.spec.evaluation import Evaluation
 _TRIES = 12
 _LEAST, _MOST = 0.02, 0.08  # how much the third set changes a number
 _EDGE, _APART = 0.02, 0.25  # of the range: from its ends, between the first two sets
+_TURN = 1.7  # ° or %, which no table has as its step
 _NARROW = 0.05  # where all variants have the same value
 
 
@@ -35,6 +37,7 @@ class Trial:
     inputs: Mapping[str, float]
     expected: Evaluation
     decides: bool
+    angles: Mapping[str, NDArray[np.float64]] = field(default_factory=dict)  # of tables
 
 
 def trials_of(assignment: Assignment, books: Sequence[Issued], seed: str) -> tuple[Trial, ...]:
@@ -47,6 +50,16 @@ def trials_of(assignment: Assignment, books: Sequence[Issued], seed: str) -> tup
     start = found[-1].inputs if found[-1] is not None else {}
     found.append(_first(assignment, _everything(assignment, start, rng), decides=False))
     return tuple(trial for trial in found if trial is not None)
+
+
+def turned(own: Evaluation) -> Trial:
+    """The engine itself at angles between those of its tables: a list has no number there."""
+    angles = {
+        f"{table.id}.{table.columns[0].key}": np.array(table.rows) + _TURN
+        for table in own.model.tables.values()
+        if table.columns[0].quantity.unit and not table.row_by_row
+    }
+    return Trial({}, own.fork(angles), decides=False, angles=angles)
 
 
 def fixed(node: str, own: Evaluation, trials: Sequence[Trial]) -> NDArray[np.bool_]:
@@ -143,12 +156,12 @@ def _everything(
         factors: dict[tuple[str, float], float] = {}
         up = rng.choice((-1, 1))  # all the same way, so that no sum stays as it was
         made = dict(start)
-        for field in fields:
-            value = float(field.value)
-            key = (field.unit, value)
+        for given in fields:
+            value = float(given.value)
+            key = (given.unit, value)
             if key not in factors:
                 factors[key] = 1 + up * rng.uniform(most / 4, most)
-            if field.name not in start:
-                made[field.name] = value * factors[key]
+            if given.name not in start:
+                made[given.name] = value * factors[key]
         yield made
         most = max(most / 2, _LEAST / 2)

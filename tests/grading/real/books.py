@@ -37,7 +37,6 @@ class Work:
     causes: Mapping[str, str] = field(default_factory=dict)
     unpaid: tuple[str, ...] = ()  # items of which a cheat gets nothing
     held: str = ""  # words of why a person decides before any points are given
-    alone: bool = False  # not in one book with others (``together``)
 
 
 def made(number: int, work: Work) -> bytes:

@@ -332,14 +332,7 @@ CHEATS = (
     Work("formulas of texts, scaled", edit=_hidden('="{v}"', "{c}/10^6"), unpaid=(V1,)),
     Work("lengths of texts, scaled", edit=_hidden("~", "LEN({c})/100"), unpaid=(V1,)),
     Work("rows of blank cells, scaled", edit=_hidden("x", "(ROW(Z{r})-1)/1000"), unpaid=(V1,)),
-    # Alone, at a student for whom it is seen: for about a third of variants it is paid all the
-    # same (21 of 70 tried), which is a known weakness of the grading and not held by this test.
-    Work(
-        "digits of other cells, scaled",
-        edit=_hidden("x", "{d}/10^6"),
-        unpaid=(V1,),
-        alone=True,
-    ),
+    Work("digits of other cells, scaled", edit=_hidden("x", "{d}/10^6"), unpaid=(V1,)),
     Work("formulas of numbers, scaled", edit=_times("={v}*1", J1), unpaid=(J1,)),
     Work("names of numbers", edit=_name_constant, unpaid=(S1,)),
     Work("everything pasted", edit=_solved_with_ticket, unpaid=tuple(COLUMNS)),

@@ -57,8 +57,6 @@ def _meet(one: Work, other: Work) -> bool:
 
 def _changed(work: Work) -> set[str]:
     """The nodes that a work fills in otherwise; none where it is more than that."""
-    if work.alone:
-        return set()
     if work.edit is not None and len(work.unpaid) == 1:
         return set(work.unpaid)
     if work.edit or work.after or work.held or work.form != "own":

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 import shutil
-import site
 import subprocess
 import sys
+import sysconfig
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -47,8 +47,7 @@ def _uncompiled() -> Iterator[Figure]:
 
 def _pythons() -> Iterator[Figure]:
     """What ``./run`` gains by the system's Python, where another of the same version is there."""
-    *_, packages = site.getsitepackages()
-    paths = os.pathsep.join((str(ROOT), packages))
+    paths = os.pathsep.join((str(ROOT), sysconfig.get_path("purelib")))
     env = {"PYTHONPATH": paths, "PYTHONDONTWRITEBYTECODE": ""}
     check = kshm("check", str(samples_dir() / "gots-diesel.toml"))[1:]
     for python in sorted(_same_version()):

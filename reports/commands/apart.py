@@ -18,18 +18,23 @@ _LINES = 40  # of what a command said
 # comes before who waits for a file.
 _KSHM = """
 import ctypes, os, sys
+server = int(sys.argv.pop(1))
 if sys.platform == "linux":
     ctypes.CDLL(None).prctl(1, 9)
-if os.getppid() != int(sys.argv.pop(1)):
-    sys.exit("server is gone")
+    if os.getppid() != server:  # it had gone before; in Windows a launcher stands between the two
+        sys.exit("server is gone")
 from reports.shared.workers import limit_memory
 from reports.__main__ import start
 limit_memory(3 * 2**30)
 getattr(os, "nice", abs)(5)
 start()
 """
-_SYSTEM = ("PATH", "HOME", "LANG", "LC_ALL", "TMPDIR", "PYTHONPATH", "SYSTEMROOT", "TEMP",
-           "FONTCONFIG_PATH", "FONTCONFIG_FILE", "XDG_CACHE_HOME")  # fmt: skip
+_SYSTEM = (
+    "PATH", "HOME", "LANG", "LC_ALL", "TMPDIR", "PYTHONPATH", "FONTCONFIG_PATH", "FONTCONFIG_FILE",
+    "XDG_CACHE_HOME",
+    # Windows: where programs, fonts, settings, temporary files and the parts of WeasyPrint are
+    "SYSTEMROOT", "WINDIR", "USERPROFILE", "LOCALAPPDATA", "TEMP", "WEASYPRINT_DLL_DIRECTORIES",
+)  # fmt: skip
 
 
 def failed(why: str) -> dict[str, Any]:
@@ -64,7 +69,7 @@ async def run(arguments: Sequence[str], folder: Path, timeout_s: float) -> dict[
     code = process.returncode or 0
     if code < 0:
         return failed("процесс прерван: повторите")
-    lines = said.decode("utf-8", "replace").replace(f"{folder}/", "").splitlines()
+    lines = said.decode("utf-8", "replace").replace(f"{folder}{os.sep}", "").splitlines()
     return {
         "state": "done" if code in (0, 1) else "failed",
         "lines": [one_line(line, 400) for line in lines if line.strip()][:_LINES],

@@ -6,6 +6,8 @@ import asyncio
 import json
 import os
 import signal
+import subprocess
+import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -17,7 +19,7 @@ import psutil
 import pytest
 from starlette.testclient import TestClient
 
-from reports.commands.apart import run
+from reports.commands.apart import _KSHM, run
 from reports.shared.errors import InputError
 from reports.web import jobs as room
 from reports.web.app import Settings, create_app
@@ -52,6 +54,15 @@ def test_nobody_fills_the_queue_alone(tmp_path: Path) -> None:
     jobs.add({"a": "more"}, ["solve"], "b")
     assert jobs.add({"a": "0"}, ["solve"], "b") in jobs.waiting  # the same content: the same job
     assert len(jobs.waiting) == MOST_OWN + 1
+
+
+@pytest.mark.parametrize(("system", "code"), [("linux", 1), ("darwin", 0)])
+def test_a_launcher_may_stand_between_server_and_command(system: str, code: int) -> None:
+    """As that of a virtual environment in Windows: the command is no child of the server there."""
+    command = f"import sys; sys.platform = {system!r}; exec({_KSHM!r})"
+    words = [sys.executable, "-c", command, "1", "--version"]
+    done = subprocess.run(words, check=False, capture_output=True)
+    assert done.returncode == code and (b"server is gone" in done.stderr) == (code == 1)
 
 
 def test_names_hang_on_the_servers_secret(tmp_path: Path) -> None:

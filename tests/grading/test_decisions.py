@@ -8,12 +8,14 @@ from datetime import datetime
 from getpass import getuser
 from pathlib import Path
 from types import SimpleNamespace
+from unittest.mock import Mock
 
 import pytest
 from click.testing import CliRunner
 from openpyxl import Workbook, load_workbook
 
 from reports.cli import main
+from reports.commands import group
 from reports.grading.batch import grade as room
 from reports.grading.batch.decisions import WHOLE, Decision, from_gradebook
 from reports.grading.batch.grade import Options, decide, grade
@@ -107,6 +109,12 @@ def test_who_decides_is_who_calls_or_who_is_named(tmp_path, monkeypatch, given, 
     words = ["grade", "-o", str(tmp_path), "--decide", "1", "всё", "+", "верно", *given]
     assert CliRunner().invoke(main, words).exit_code == 0
     assert seen == [told]
+
+
+@pytest.mark.parametrize("error", [KeyError, ImportError, OSError])  # as the Pythons there say it
+def test_nobody_decides_where_the_system_does_not_say_who(tmp_path, monkeypatch, error):
+    monkeypatch.setattr(group, "getuser", Mock(side_effect=error))
+    test_who_decides_is_who_calls_or_who_is_named(tmp_path, monkeypatch, (), "")
 
 
 @pytest.mark.parametrize("remark", ["болел", "есть справка"])

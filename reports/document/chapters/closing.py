@@ -150,8 +150,6 @@ def _check_table(terms: Terms, keys: list[str]) -> TableBlock:
 def conclusion(chapter: Chapter) -> Markup:
     """Conclusions, each from numbers."""
     terms, throws = chapter.terms, chapter.shape.throws
-    pressure = terms.column("gas.p_MPa")
-    row = int(pressure.argmax())
     names, pin = facts.pin_stems(chapter.shape), facts.worst_pin(terms)
     mains, pins = facts.worst_running(terms, throws)
     return chapter.page(
@@ -175,8 +173,7 @@ def conclusion(chapter: Chapter) -> Markup:
         further=_further(chapter),
         step=chapter.input.calculation.step_deg,
         forced=chapter.input.crankshaft.force_offsets_deg is not None,
-        peak=facts.missed_peak(terms),
-        pz=(fixed(float(pressure[row]), 2), fixed(terms.model.tables["gas"].rows[row], 0)),
+        pz=facts.greatest_pressure(terms),
     )
 
 

@@ -35,7 +35,7 @@ def dynamics(chapter: Chapter) -> Markup:
     polytropic = not isinstance(gas, TableGasSection | RoundedGasSection)
     return chapter.page(
         "dynamics",
-        peak=facts.missed_peak(terms),
+        peak=facts.greatest_pressure(terms)[2],
         corners=_corners(terms, two_stroke=chapter.shape.strokes == 2),
         points=chapter.scalars("Характерные точки индикаторной диаграммы", _POINTS, keep=True),
         polytropic=polytropic,

@@ -11,7 +11,7 @@ from reports.document.text.terms import Terms, with_unit
 from reports.shared.russian import fixed
 from reports.spec.shape import Shape, pin_name
 
-_PEAK_MPA = 0.005  # half a unit of the last digit that the conclusion prints
+_PRESSURE = 2  # decimals of the greatest pressure in a sentence
 _NOTHING = 2e-3  # of what it is measured by: no table and no curve shows it
 
 
@@ -32,12 +32,16 @@ def worst_pin(terms: Terms) -> int:
     return round(terms.value("worst_pin_load")) if terms.has("worst_pin_load") else 1
 
 
-def missed_peak(terms: Terms) -> Markup | str:
-    """The greatest pressure of the diagram where no row of the table has it."""
+def greatest_pressure(terms: Terms) -> tuple[Markup, str, Markup | str]:
+    """Of the diagram: in the rows of the table, its angle, and between them where it is greater."""
+    column, unit = terms.column("gas.p_MPa"), terms.unit("gas.p_MPa")
+    row = int(column.argmax())
     names = [name for name in ("cyc_p_z", "gas_max_pressure_mpa") if terms.has(name)]
-    shown = float(terms.column("gas.p_MPa").max())
     most = terms.value(names[0]) if names else 0.0
-    return with_unit(fixed(most, 2), "МПа") if most > shown + _PEAK_MPA else ""
+    told, peak = (fixed(float(value), _PRESSURE) for value in (column[row], most))
+    missed = most > column[row] + 0.5 * 10.0**-_PRESSURE
+    angle = fixed(terms.model.tables["gas"].rows[row], 0)
+    return with_unit(told, unit), angle, with_unit(peak, unit) if missed else ""
 
 
 def worst_running(terms: Terms, throws: int) -> tuple[list[int], list[int]]:

@@ -334,12 +334,16 @@ def _star(study: Study) -> Columns:
 def _campbell(study: Study) -> Columns:
     """Frequencies of the orders over the speed beside those of the train."""
     speeds = study.range[1] * np.linspace(0, 1.2, 13)
-    hertz = study.modes.hertz
+    hertz, half = study.modes.hertz, 2 / study.case.engine.strokes
+    orders = np.arange(1, round(RAYS / half) + 1) * half
     return {
         "tor_point": np.arange(13.0),
         "tor_speed_rpm": speeds,
         **{f"tor_level{m}_hz": np.full(13, hertz[m - 1]) for m in study.numbers},
-        **{f"tor_ray{n}_hz": n * speeds / (2 * np.pi) for n in range(1, RAYS + 1)},
+        **{
+            f"tor_{'half' if order % 1 else 'ray'}{int(order)}_hz": order * speeds / (2 * np.pi)
+            for order in orders.tolist()
+        },
     }
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Mapping
-from dataclasses import asdict
+from dataclasses import asdict, astuple
 from pathlib import Path
 from typing import Any
 
@@ -22,12 +22,16 @@ from reports.inputs.own_file import file_text
 from reports.inputs.ranges import split_ranges
 from reports.inputs.solved import solved
 from reports.inputs.understood import understood
-from reports.shared.errors import InputError, KshmError
+from reports.shared.errors import InputError, KshmError, Problem
 from reports.tables.registry import kept_model
 from reports.workbook.read import load_workbook_input
 
 HEAD = ("Исходные данные двигателя для kshm.",)
 _OPTIONS = ("sample", "layout", "strokes", "kind", "power", "speed")  # of kshm new
+_FIELDS = {
+    "--layout inline": "расположение «рядный»", "--cylinders": "«Цилиндров»",
+    "--power": "«Мощность»", "--speed": "«Частота»", "команда знает": "возможно",
+}  # fmt: skip  # what the command calls it: what the page does
 
 
 def read_toml(text: object) -> Data:
@@ -82,13 +86,25 @@ def fresh(wanted: Mapping[str, Any]) -> Data:
     options = [f"--{key}={wanted[key]}".replace(",", ".") for key in _OPTIONS if wanted.get(key)]
     if "sample" not in wanted:
         options.append(f"--cylinders={wanted.get('cylinders')!r}")
+    base = ("исходном двигателе", lambda: load_apart(wanted["raw"]).model)
     try:
         given = new.make_context("new", options).params
+        del given["output"]
+        text = new_text(**{**given, "base": base if "raw" in wanted else None})
     except click.ClickException as error:
-        raise KshmError(error_text(error)) from None
-    del given["output"]
-    base = ("исходном двигателе", lambda: load_apart(wanted["raw"]).model)
-    return read_toml(new_text(**{**given, "base": base if "raw" in wanted else None}))
+        raise KshmError(_of_page(error_text(error))) from None
+    except KshmError as error:
+        raise KshmError(
+            [Problem(*map(_of_page, astuple(problem))) for problem in error.problems]
+        ) from None
+    return read_toml(text)
+
+
+def _of_page(words: str) -> str:
+    """A message of the command in the words of the form."""
+    for option, field in _FIELDS.items():
+        words = words.replace(option, field)
+    return words
 
 
 def ready() -> Callable[..., Data]:

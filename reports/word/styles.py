@@ -109,7 +109,7 @@ def looks(style: Style) -> dict[str, Look]:
         made[cell_style(name, text=False)] = Look(f"Ячейка{word}", jc="center", line=_CELL,
                                                   size=points)  # fmt: skip
         usual = cell_style(name, text=False)
-        made[cell_style(name, text=True)] = Look(f"Ячейка{word}: текст", usual, jc="left")
+        made[cell_style(name, text=True)] = Look(f"Ячейка{word}: текст", usual, jc="left", left=52)
     return made
 
 

@@ -130,11 +130,12 @@ def curves_chart(
 def drawing(
     title: str, axes: tuple[str, str], lines: Sequence[Drawn], *,
     shape: float = 0.0, downwards: bool = False, unit: bool = False, wide: int = WIDE,
-    limit: float = 0.0,
+    limit: float = 0.0, turn: float = 0.0,
 ) -> ScatterChart:  # fmt: skip
     """Lines over axes; ``shape`` is the width of the plot over its height at one scale.
 
-    ``wide`` is the width of the chart [px], ``limit`` that of both axes where they are alike.
+    ``wide`` is the width of the chart [px], ``limit`` that of both axes where they are alike,
+    ``turn`` the last crank angle where the abscissa is one [deg].
     """
     chart = _empty(title)
     for number, line in enumerate(lines):
@@ -154,6 +155,7 @@ def drawing(
         chart.y_axis.scaling.orientation = "maxMin"
         chart.x_axis.tickLblPos = "high"
     _divide_alike(chart, limit)
+    _turn(chart, turn)
     if unit:
         for axis in (chart.x_axis, chart.y_axis):
             axis.scaling.min, axis.scaling.max, axis.majorUnit = -1.1, 1.1, 0.55
@@ -221,8 +223,7 @@ def _axes(
         table, column = spec.series[0].x.split(".")
         first, last = values.columns[table][column][[0, -1]].tolist()
         if first == 0:  # a whole turn or cycle; of a part the axis is the program's choice
-            chart.x_axis.scaling.min, chart.x_axis.scaling.max = 0, last
-            chart.x_axis.majorUnit = last / 12
+            _turn(chart, last)
     for axis, is_reversed in ((chart.x_axis, spec.x_reversed), (chart.y_axis, spec.y_reversed)):
         if is_reversed:
             axis.scaling.orientation = "maxMin"
@@ -249,6 +250,13 @@ def _axes(
             axis.scaling.min, axis.scaling.max = -_EDGE, _EDGE
             axis.majorUnit = _EDGE / 2
             axis.number_format = "0.0"
+
+
+def _turn(chart: ScatterChart, last: float) -> None:
+    """An abscissa of crank angles from zero; without a last one it is the program's choice."""
+    if last:
+        chart.x_axis.scaling.min, chart.x_axis.scaling.max = 0, last
+        chart.x_axis.majorUnit = last / 12
 
 
 def _divide_alike(chart: ScatterChart, limit: float) -> None:

@@ -136,7 +136,8 @@ class Layout:
         self.next_row[table.sheet] = max(self.next_row.get(table.sheet, 0), bottom)
 
     def _list(self, block: ScalarTable, *, beside_table: bool) -> None:
-        row = HEADER_ROW if beside_table else self.next_row.get(block.sheet, HEADER_ROW)
+        # Beside a table below the rows that stay in view and are repeated on every sheet.
+        row = FIRST_ROW if beside_table else self.next_row.get(block.sheet, HEADER_ROW)
         column = self.next_column.get(block.sheet, 1) if beside_table else 1
         self.places[block.id] = Cell(block.sheet, row, column)
         in_row = 1 if block.verdicts is None else 2  # a verdict beside its value

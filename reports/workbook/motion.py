@@ -318,6 +318,7 @@ def _charts(
     writer.caches.ranges[limits] = [float(values.scalars[k]) for k in layout.keys_of_run(_BOX)]
     of = {name: line for name, (line, _, _) in drawn.items()}
     frame = Drawn("рамка", of["рамка"].x, of["рамка"].y, hidden=True)
+    turn = float(values.columns["P4_1"]["phi_deg"][-1])
     charts = (
         drawing("Механизм и силы", ("мм", "мм"), [
             *(of[n] for n in ("цилиндр", "противовес", "кривошип", "шатун", "поршень", *_FORCES)),
@@ -327,9 +328,9 @@ def _charts(
         drawing("Удельные силы", ("ψ, °", "МПа"),
                 [curve("Pг", "P4_1.phi_deg", "P4_1.Pg_MPa"),
                  curve("Pj", "P4_1.phi_deg", "P4_1.Pj_MPa"),
-                 curve("P", "P4_1.phi_deg", "P4_1.Ps_MPa"), of["силы"]]),
+                 curve("P", "P4_1.phi_deg", "P4_1.Ps_MPa"), of["силы"]], turn=turn),
         drawing("Крутящий момент двигателя", ("φ, °", "ΣM, Н·м"),
-                [curve("ΣM", "P4_2.phi_deg", "P4_2.Msum_Nm"), of["момент"]]),
+                [curve("ΣM", "P4_2.phi_deg", "P4_2.Msum_Nm"), of["момент"]], turn=turn),
         drawing("Нагрузка шатунной шейки 1", ("T, МПа", "K − Kr ш, МПа"),
                 [curve("R", "crankpin.T_MPa", "crankpin.Krod_MPa"), of["шейка"],
                  Drawn("оси", limits, limits, hidden=True)], shape=1.0, downwards=True, wide=WIDE,

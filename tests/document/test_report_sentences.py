@@ -232,6 +232,7 @@ PARTED = re.compile(rf".{{0,30}}\d (?:{UNIT}).{{0,10}}")
 
 
 BESIDE = (
+    r"средний индикаторный момент двигателя (NUMBER) Н·м, наибольший (NUMBER) Н·м",
     r"скорость поршня (NUMBER) м/с при φ = [^,;]*,\d+°, средняя (NUMBER) м/с",
     r"газов по таблице (NUMBER) МПа [^;]*достигает (NUMBER) МПа",
     r"мёртвые точки — при (NUMBER)° и (NUMBER)°",
@@ -247,8 +248,10 @@ def assert_decimals_agree(text):
 
 
 def assert_set_well(page):
-    """Every sign is in the report's font, and no number leaves its unit."""
+    """Every sign is in the report's font, no number leaves its unit, no line ends in «1-го»."""
     bare = re.sub(r"<(style|svg).*?</\1>", "", page, flags=re.DOTALL)
+    free = re.sub('<span class="nb">.*?</span>|<[^>]+>', "", bare)
+    assert re.findall(r".{0,20}(?<![\w-])\d+-[а-яё]{1,3}(?![\w-])", free) == []
     text = html.unescape(re.sub("<[^>]+>", "", bare))
     assert {
         sign for sign in set(text) - {"\n", "\u00ad"} if ord(sign) not in signs.coverage()

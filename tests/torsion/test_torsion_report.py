@@ -20,14 +20,17 @@ from tests.conftest import sample
 
 
 @lru_cache(maxsize=8)
-def page(name: str, *pairs: tuple[str, float | str]) -> str:
+def whole(name: str, *pairs: tuple[str, float | str]) -> str:
     raw = to_mapping(sample(name))
     raw["torsion"] = raw.get("torsion", {}) | dict(pairs)
     raw["calculation"]["step_deg"] = 15
     raw["report"]["chapters"] = ["torsion"]
     model = build_model(load_mapping(raw, source=name).model)
-    text = report_page(model, evaluate_model(model), media="screen")
-    text = text.replace("\u00a0", " ")
+    return report_page(model, evaluate_model(model), media="screen").replace("\u00a0", " ")
+
+
+def page(name: str, *pairs: tuple[str, float | str]) -> str:
+    text = whole(name, *pairs)
     text = re.sub(r"<(svg|style|script).*?</\1>", "", text, flags=re.S)
     return re.sub(r"\s+", " ", re.sub(r"<[^>]+>", "", text))
 
@@ -41,6 +44,19 @@ def test_the_dangerous_order_is_named() -> None:
     left = re.search(r"С ним наибольшее напряжение .*? при частоте вращения (\d+) мин", text)[1]
     assert f"нужен больший гаситель или обход частот вращения около {left} мин" in text
     assert re.search(r"Наибольшее напряжение .*? достигается при (\d+) мин", text)[1] != left
+
+
+def test_the_campbell_diagram_shows_the_orders_of_the_strongest_resonances() -> None:
+    """Half orders too: those of the table are looked for in the figure."""
+    html = whole("mwm-6")
+    table = re.search(r"Резонансы рабочего диапазона.*?</table>", html, re.S)[0]
+    rows = [re.findall(r"<td>(.*?)</td>", row) for row in re.findall("<tr.*?</tr>", table, re.S)]
+    orders = {row[1].strip().removesuffix(",0") for row in rows if row}
+    figure = re.search("<title>Диаграмма Кэмпбелла.*?</svg>", html, re.S)[0]
+    words = "|".join(re.findall("<text[^>]*>([^<]*)</text>", figure))
+    shown = set(re.findall(r"ν[| ]*= ([\d,]+)", words))
+    assert shown <= orders and len(shown) == min(8, len(orders))
+    assert any("," in order for order in shown)
 
 
 @pytest.mark.parametrize(

@@ -188,8 +188,9 @@ def test_values_of_a_changed_workbook_are_told_to_be_old() -> None:
 @pytest.mark.parametrize(
     ("cylinders", "strokes", "drawn"),
     [
-        (3, 4, [3, 6, 9, 12]), (4, 4, [2, 4, 6, 8, 10, 12]), (5, 4, [5, 10]), (7, 2, [7]),
-        (6, 4, [3, 6, 9, 12]), (7, 4, [7]), (8, 4, [4, 8, 12]), (12, 4, [3, 6, 9, 12]),
+        (3, 4, [1.5, 3, 4.5, 6, 7.5, 9, 10.5, 12]), (4, 4, [2, 4, 6, 8, 10, 12]),
+        (5, 4, [2.5, 5, 7.5, 10]), (7, 2, [7]), (6, 4, [3, 6, 9, 12]), (7, 4, [3.5, 7, 10.5]),
+        (8, 4, [4, 8, 12]), (12, 4, [3, 6, 9, 12]),
     ],
 )  # fmt: skip
 def test_the_orders_of_the_campbell_diagram_are_those_that_add_up(cylinders, strokes, drawn):

@@ -210,6 +210,44 @@ def test_two_engines_over_each_other_and_another_cylinder(page: Any) -> None:
     page.select_option("#cylinder", index=0)
 
 
+def test_what_is_wrong_with_a_new_engine_is_seen_on_a_phone(page: Any) -> None:
+    wide = page.viewport_size
+    page.set_viewport_size({"width": 390, "height": 600})
+    page.evaluate("scrollTo(0, 0)")
+    page.evaluate("fresh(ask('api/new', {cylinders: 5, layout: 'opposed'}))")
+    box = page.locator("#errors").bounding_box()
+    page.set_viewport_size(wide)
+    page.evaluate("kshm.errors.length = 0")
+    page.evaluate("turn(0)")
+    assert 0 <= box["y"] < box["y"] + box["height"] < 556  # the bar of the parts stands below
+
+
+def test_the_names_of_the_forces_stand_within_the_picture(page: Any) -> None:
+    """At any angle, and upwards too, as inertia pulls the piston of a fast engine."""
+    cut = page.evaluate("""async () => {
+        const forces = kshm.last.moves.forces, held = forces.Ps_MPa.values;
+        const most = Math.max(...Object.values(forces).flatMap(f => f.values.map(Math.abs)));
+        const cut = [];
+        for (const sign of [1, -1]) {
+            forces.Ps_MPa.values = held.map(() => sign * most);
+            for (let phi = 0; phi < 360; phi += 30) {
+                turn(phi);
+                await new Promise(requestAnimationFrame);
+                const frame = document.querySelector("#mechanism").getBoundingClientRect();
+                for (const name of document.querySelectorAll("#mechanism text")) {
+                    const box = name.getBoundingClientRect();
+                    if (box.top < frame.top || box.bottom > frame.bottom)
+                        cut.push([phi, name.textContent]);
+                }
+            }
+        }
+        forces.Ps_MPa.values = held;
+        turn(0);
+        return cut;
+    }""")
+    assert cut == []
+
+
 def tab_to(page: Any, selector: str) -> None:
     """Go on by the Tab key alone; every stop on the way is seen and has its outline."""
     for _ in range(400):

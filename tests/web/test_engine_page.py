@@ -166,6 +166,26 @@ def test_an_own_engine(page: Page, cylinders: int) -> None:
     assert page.post("/api/solve", {"raw": again, "sheet": "П4.1"})["charts"]
 
 
+@pytest.mark.parametrize(
+    ("wanted", "said"),
+    [
+        ({"cylinders": 5, "layout": "opposed"}, "«Цилиндров»"),
+        ({"cylinders": 99}, "«Цилиндров»"),
+        ({"cylinders": 4, "power": "-5"}, "«Мощность»"),
+        ({"cylinders": 4, "power": "abc"}, "«Мощность»"),
+        ({"cylinders": 4, "speed": "x"}, "«Частота»"),
+        ({"cylinders": 5, "layout": "v", "raw": {}}, "engine"),
+    ],
+)
+def test_an_engine_that_cannot_be_is_refused_in_the_words_of_the_form(
+    page: Page, wanted: dict[str, Any], said: str
+) -> None:
+    errors = page.post("/api/new", wanted)["errors"]
+    words = " ".join(part for error in errors for part in error.values())
+    assert said in words
+    assert "--" not in words and "ключ для" not in words and "команда" not in words
+
+
 def test_files_of_the_machine_are_out_of_reach(page: Page) -> None:
     raw = page.sample()
     for key in ("style", "templates", "compare"):

@@ -48,6 +48,13 @@ def test_a_model_engine_shows_its_volume() -> None:
     assert cell.value * 10**decimals > 100
 
 
+@pytest.mark.parametrize(("name", "turn"), [("gots-diesel", 720), ("two-stroke", 360)])
+def test_angles_end_with_the_cycle(name: str, turn: float) -> None:
+    charts = openpyxl.load_workbook(io.BytesIO(book(name)))[SHEET]._charts
+    ends = [chart.x_axis.scaling.max for chart in charts]
+    assert [end for end in ends if end and end > 2] == [turn, turn]
+
+
 @lru_cache
 def opened(name: str) -> formualizer.Workbook:
     return formualizer.load_workbook_bytes(stripped(book(name))[0])

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from openpyxl import load_workbook
 
-from reports.workbook.layout import HEADER_ROW
+from reports.workbook.layout import HEADER_ROW, NUMBER_ROW
 from reports.workbook.paper import PAPER
 from reports.workbook.places import column_px, extent, top_of
 from tests.cover import charts, quantities, samples_with
@@ -31,13 +31,15 @@ def test_the_textbooks_diesel_takes_few_pages(libreoffice: LibreOffice, tmp_path
     assert all(re.search(r". — лист \d+ из \d+", page) for page in pages)
 
 
-def test_tables_repeat_their_headers() -> None:
+def test_tables_repeat_their_headers_and_nothing_of_the_lists_beside_them() -> None:
     sheets = load_workbook(io.BytesIO(book())).worksheets
     tables = [
         sheet for sheet in sheets if sheet.freeze_panes and sheet.freeze_panes.startswith("B")
     ]
     assert len(tables) > 20
     assert all(sheet.print_title_rows for sheet in tables)
+    for sheet in tables:  # the last of these rows has the numbers of the columns alone
+        assert {type(cell.value) for cell in sheet[NUMBER_ROW]} <= {int, type(None)}, sheet.title
     assert all(sheet.oddFooter.center.text for sheet in sheets)
 
 

@@ -17,6 +17,7 @@ from reports.document.page.spec_tables import counted_table
 from reports.document.page.writer import TablePlan
 from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms
+from reports.document.text.texts import rich
 from reports.inputs.to_si.engine import to_engine
 from reports.shared.russian import MINUS, NBSP, fixed, joined, short
 
@@ -41,6 +42,7 @@ _LISTS = {
     ),
 }  # fmt: skip
 _ZERO = f"0,{NBSP}{MINUS}"  # signs of a number that is printed as zero
+_MASSES = "возвратно движущиеся массы"
 _DEVICES = {
     "counterweight": "противовесов",
     "first_shafts": "грузов валов первого порядка",
@@ -102,7 +104,7 @@ def concluded(chapter: Chapter) -> Markup:
     if "balance_orders" not in terms.model.tables:
         return Markup("")
     free = [
-        Markup("{} {:.0f}-го порядка {}").format(what, order, terms.val(name, order))
+        Markup("{} {} порядка {}").format(what, rich(f"{order:.0f}-го"), terms.val(name, order))
         for name, what in (
             ("balance_orders.F_order_kN", "силу"), ("balance_orders.M_order_Nm", "момент"),
         )
@@ -110,12 +112,13 @@ def concluded(chapter: Chapter) -> Markup:
         if terms.num(name, order).strip(_ZERO)
     ]  # fmt: skip
     found = (
-        Markup("возвратно движущиеся массы{} дают {}").format(
+        Markup("{}{} дают {}").format(
+            _MASSES,
             " до уравновешивания" if asked_devices(chapter) & _DEVICES.keys() else "",
-            joined(free),
+            Markup(joined(free)),
         )
         if free
-        else "возвратно движущиеся массы не дают свободных сил и моментов 1-го и 2-го порядков"
+        else rich(f"{_MASSES} не дают свободных сил и моментов 1-го и 2-го порядков")
     )
     needed = _is_flywheel_needed(terms)
     wheel = chapter.told("I_flywheel") if needed else "не нужен"

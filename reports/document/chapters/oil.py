@@ -20,7 +20,7 @@ from reports.spec.parts import Scope
 from reports.tables.oil.film import Case, cases_of
 
 _FILM = (
-    r"F\cos(\gamma_F - \delta_F) = F_D\cos\beta_F + F_V, \qquad "
+    r"F\cos(\gamma_F - \delta_F) = F_D\cos\beta_F + F_V, \quad "
     r"F\sin(\gamma_F - \delta_F) = -F_D\sin\beta_F\,\mathrm{sgn}\,\bar\omega"
 )
 _NUMBERS = (

@@ -16,7 +16,9 @@ from reports.document.text import numbers
 from reports.document.text.terms import Terms, with_unit
 from reports.formula.tex import number_tex
 from reports.inputs.checks.flywheel import INERTIAS, lighter_than
-from reports.shared.russian import fixed
+from reports.shared.russian import fixed, short
+from reports.spec.charts import Series
+from reports.tables.torsion.resonance import ray_of
 
 _HOLZER = (
     r"M_k = M_{k-1} + \omega^2 J_k\, a_k, \qquad a_{k+1} = a_k - \dfrac{M_k}{c_k}, \qquad a_1 = 1"
@@ -35,6 +37,7 @@ _NEAR = 0.02  # of a stress: a difference that changes no conclusion
 _ALIKE = 0.5  # per cent between first frequencies: the formula of stiffness does not tell in them
 _SURE = 4  # digits of a frequency that formulas find some per cent apart
 _MOST_ROWS = 12
+_MOST_RAYS = 8  # lines of a figure that are told apart
 _FLANK = 0.6  # of a critical speed: from there on a resonance multiplies the twist by 1.5
 
 
@@ -96,6 +99,7 @@ def torsion(chapter: Chapter) -> Markup:
         resonances=TablePlan(partial(_resonance_table, terms, resonances),
                              "Резонансы рабочего диапазона", keep=True) if resonances else None,
         hidden=_hidden(terms, modes) - len(resonances),
+        rays=_rays(terms, resonances),
         order=terms.value("tor_worst_order"),
         worst_order=fixed(terms.value("tor_worst_order"), 1).removesuffix(",0"),
         mode=round(terms.value("tor_worst_mode")),
@@ -223,8 +227,17 @@ def _resonances(terms: Terms, modes: list[int]) -> list[tuple[int, int]]:
     for m in modes:
         stresses = terms.column(f"torsion_critical.tor_in{m}_MPa")
         found += [(float(stresses[k]), m, int(k)) for k in np.flatnonzero(stresses)]
-    strongest = sorted(found, reverse=True)[:_MOST_ROWS]
-    return sorted(((m, k) for _, m, k in strongest))
+    return [(m, k) for _, m, k in sorted(found, reverse=True)[:_MOST_ROWS]]
+
+
+def _rays(terms: Terms, found: list[tuple[int, int]]) -> tuple[Series, ...]:
+    """Lines of the Campbell diagram: the orders of the strongest resonances."""
+    orders = terms.column("torsion_critical.tor_order")
+    strongest = [*dict.fromkeys(float(orders[k]) for _, k in found)][:_MOST_RAYS]
+    return tuple(
+        Series("torsion_campbell.tor_speed_rpm", ray_of(order), f"ν = {short(order)}")
+        for order in sorted(strongest)
+    )
 
 
 def _resonance_table(terms: Terms, found: list[tuple[int, int]]) -> TableBlock:
@@ -246,7 +259,7 @@ def _resonance_table(terms: Terms, found: list[tuple[int, int]]) -> TableBlock:
                 for key, digits in keys
             ),
         ]
-        for m, k in found
+        for m, k in sorted(found)
     ]
     return table_block(heads, rows)
 

@@ -38,6 +38,7 @@ def chart_figure(
     size: float = HEIGHT,
     *,
     caption: str = "",
+    series: tuple[Series, ...] = (),
     **more: Any,  # noqa: ANN401
 ) -> Figure:
     """A chart as a figure.
@@ -47,9 +48,11 @@ def chart_figure(
         chart: what is drawn.
         size: height of curves, greatest side of a path, width of a wear diagram [mm].
         caption: what to say instead of the specification's words.
+        series: what is drawn instead of the specification's curves.
         more: ``rows`` and ``closed`` of curves, ``least_step`` of a path, ``top`` of a wear
             diagram.
     """
+    chart = replace(chart, series=series or chart.series)
     draw = _KINDS[chart.kind](terms, chart, size, **more)
     words = caption or chart.words
     return Figure(draw, words, _spoken(terms, words, [chart]))

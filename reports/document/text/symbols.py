@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from markupsafe import Markup, escape
 
 from reports.document.text.tex import GREEK, Node, TexError, tree
-from reports.document.text.texts import powers, rich
+from reports.document.text.texts import rich
 from reports.formula.tex import input_symbol_tex
 from reports.shared.russian import MINUS, NBSP
 
@@ -72,10 +72,9 @@ def titled_html(title: str) -> Markup:
     """A title with its symbols as symbols: «давление pa» gives *p* with the index *a*."""
     pieces, end = [], 0
     for match in _IN_TITLE.finditer(title):
-        pieces += [str(escape(title[end : match.start()])), _in_title(match)]
+        pieces += [rich(title[end : match.start()]), Markup(_in_title(match))]
         end = match.end()
-    whole = "".join([*pieces, str(escape(title[end:]))])
-    return Markup(powers(whole, "<sup>{}</sup>"))
+    return Markup("").join([*pieces, rich(title[end:])])
 
 
 def _in_title(match: re.Match[str]) -> str:

@@ -150,7 +150,7 @@ def _charts(bearing: int) -> tuple[ChartSpec, ...]:
               caption=f"Орбиты центра шейки в круге зазора {of} при наибольшем (с углами φ) и "
                       "наименьшем зазоре; нагрузка — в долях наибольшей"),
         over_phi(f"{t}_gap", sheet, f"Плёнка {of} за цикл", "h, мкм",
-                 Series("", f"{t}.oil_h1_um", "Δmin"), Series("", f"{t}.oil_h2_um", "Δmax"),
+                 Series("", f"{t}.oil_h2_um", "Δmax"), Series("", f"{t}.oil_h1_um", "Δmin"),
                  levels=("oil_hcr_um",),
                  caption=f"Наименьшая толщина плёнки {of} за цикл"),
     )  # fmt: skip

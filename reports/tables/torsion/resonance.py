@@ -28,7 +28,7 @@ def resonance(scope: Scope) -> Part:
     train = train_of(scope.input, scope.shape)
     blocks: tuple[Block, ...] = (
         _torque(scope), _critical(scope, train, section), _star(scope), _phases(scope, train),
-        _box(), _campbell(train), _worst(train), _damper(section), _forced(), _fresh(),
+        _box(), _campbell(scope, train), _worst(train), _damper(section), _forced(), _fresh(),
     )  # fmt: skip
     return Part(blocks, _charts(scope, train))
 
@@ -229,7 +229,14 @@ def _box() -> Grid:
                    "(col_max(torsion_star.tor_star_most)*1.1)", of="tor_star_box")  # fmt: skip
 
 
-def _campbell(train: Train) -> TableSpec:
+def ray_of(order: float) -> str:
+    """Column of the Campbell diagram with the frequency of an order."""
+    return f"torsion_campbell.tor_{'half' if order % 1 else 'ray'}{int(order)}_hz"
+
+
+def _campbell(scope: Scope, train: Train) -> TableSpec:
+    strokes = scope.shape.strokes
+    orders = [k * 2 / strokes for k in range(1, RAYS * strokes // 2 + 1)]
     return TableSpec(
         "torsion_campbell",
         "К.к",
@@ -239,7 +246,10 @@ def _campbell(train: Train) -> TableSpec:
             "tor_point",
             "tor_speed_rpm = 1.2*tor_n_max*tor_point/12 | до 1,2 nmax",
             *(f"tor_level{m}_hz = tor_f{m}_hz | собственная частота" for m in train.modes),
-            *(f"tor_ray{n}_hz = {n}*tor_speed_rpm/60 | f = νn/60" for n in range(1, RAYS + 1)),
+            *(
+                f"{ray_of(order).partition('.')[2]} = {2 * order:g}*tor_speed_rpm/120 | f = νn/60"
+                for order in orders
+            ),
         ),
         stepped(0, 12, 1),
         step=1,
@@ -301,12 +311,13 @@ def _forced() -> TableSpec:
     )
 
 
-def _main_orders(scope: Scope) -> range:
-    """Whole orders to draw: those at which the cylinders of a common engine add up."""
-    count, strokes = scope.shape.cylinders, scope.shape.strokes
-    whole = count if 2 * count % strokes else 2 * count // strokes
-    step = max(2, whole) if whole < 6 or whole % 2 else whole // 2
-    return range(min(step, RAYS), RAYS + 1, step)
+def _main_orders(scope: Scope) -> list[float]:
+    """Orders to draw: those at which the cylinders of a common engine add up."""
+    fired = 2 * scope.shape.cylinders / scope.shape.strokes  # in a turn
+    step = fired if fired > 1 else 2.0
+    if step >= 6 and step % 2 == 0:
+        step /= 2
+    return [k * step for k in range(1, int(RAYS / step) + 1)] or [float(RAYS)]
 
 
 def _fresh() -> ScalarTable:
@@ -348,7 +359,7 @@ def _charts(scope: Scope, train: Train) -> tuple[ChartSpec, ...]:
               caption="Сложение векторов цилиндров для наименьшего порядка, первая форма"),
         line("torsion_campbell", CAMPBELL, "Диаграмма Кэмпбелла", (n, "f, Гц"),
              *(Series(at, f"{k}.tor_level{m}_hz", f"f{m}", only="workbook") for m in train.modes),
-             *(Series(at, f"{k}.tor_ray{o}_hz", f"ν = {o}") for o in _main_orders(scope)),
+             *(Series(at, ray_of(o), f"ν = {short(o)}") for o in _main_orders(scope)),
              levels=tuple(f"tor_f{m}_hz" for m in train.modes)),
         line("torsion_stress", FORCED, "Напряжения вала по частоте вращения", (n, "τ, МПа"),
              Series(f"{f}.tor_speed_rpm", f"{f}.tor_tau_MPa", "без гасителя"),

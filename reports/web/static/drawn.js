@@ -79,7 +79,10 @@ export function mechanism(moves, phi) {
   const {radius, bore, wall, axis, joints, turn, shift} = moves, half = bore / 2, left = wall - half;
   const inside = ((phi - shift) % 360 + 360) % 360;
   const points = [[0, 0], ...joints.map(([x, y]) => [between(turn, x, inside), -between(turn, y, inside)])];
-  const top = Math.max(...joints.at(-1)[1]) + bore, size = top + 1.4 * radius; // of all that moves
+  // All that moves, with the names of forces above the piston and below the crank.
+  const top = Math.max(...joints.at(-1)[1]) + 1.3 * bore;
+  const down = Math.max(...moves.forces.K_MPa.values.map(k => -k)) / greatest(moves);
+  const size = top + Math.max(1.4 * radius, radius + bore * (down + .3));
   return html`
     <svg id="mechanism" role="img" aria-label="Механизм цилиндра и силы"
       viewBox=${[-size / 2, -top, size, size].join(" ")}>
@@ -94,8 +97,10 @@ export function mechanism(moves, phi) {
     </svg>`;
 }
 
-function arrows({forces, phi: over, axis, bore}, phi, pin, piston, turn) {
-  const most = Math.max(...Object.values(forces).flatMap(f => f.values.map(Math.abs)), 1e-9);
+const greatest = ({forces}) => Math.max(...Object.values(forces).flatMap(f => f.values.map(Math.abs)), 1e-9);
+
+function arrows(moves, phi, pin, piston, turn) {
+  const {forces, phi: over, axis, bore} = moves, most = greatest(moves);
   const drawn = [["Ps_MPa", "PΣ", 0, piston, 90], ["N_MPa", "N", 4, piston, 180],
     ["T_MPa", "T", 1, pin, turn], ["K_MPa", "K", 2, pin, turn + 90]];
   return drawn.map(([key, name, colour, place, along]) => {

@@ -7,7 +7,10 @@ import {put, section} from "./fields.js";
 // An input that comes from somewhere takes the page; its fields and charts are asked for.
 async function fresh(coming, keep = true) {
   const came = await coming, {errors, ...shape} = came.raw ? await ask("api/start", came) : came;
-  if (!shape.groups) return set({errors: errors ?? []});
+  if (!shape.groups) { // what is wrong is said below the form, on a phone below its window
+    set({errors: errors ?? []});
+    return document.querySelector("#errors")?.scrollIntoView({block: "center"});
+  }
   if (keep && state.raw) Object.assign(state, {past: remembered(), isNew: false});
   if (shape.sheets?.every(([id]) => id !== state.sheet)) [[shape.sheet]] = shape.sheets;
   document.title = `${shape.raw.engine?.name || "Двигатель"} — КШМ`;

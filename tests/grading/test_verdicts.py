@@ -154,6 +154,47 @@ def test_typed_numbers_are_told_from_formulas():
     assert classroom.verdicts(result) == {"P3_1.v1_m_s": "typed"}
 
 
+def test_a_formula_of_numbers_is_a_number_whatever_the_engines(monkeypatch):
+    """Also where one of those on which it is tried has some values as its own."""
+
+    def tried(*given):
+        first, second, third = trials_of(*given)
+        return first, second, replace(third, expected=first.expected)
+
+    monkeypatch.setattr(marking, "trials_of", tried)
+    right = evaluate_model(classroom.assignment().model).columns["P4_1"]["Pg_MPa"]
+    texts = [f"={float(v)!r}" for v in right]
+    book = filled_book(classroom.handout(), classroom.assignment(), {"P4_1.Pg_MPa": texts})
+    found = marking.Marker(classroom.register()).mark(
+        Submission("работа", Path("х"), None, None), book
+    )
+    assert line(found, "P4_1.Pg_MPa")["verdict"] == "typed"
+
+
+@pytest.mark.parametrize(
+    ("formula", "verdict"),
+    [
+        ("=47*(1-COS(RADIANS({phi})))", "right"),  # the radius is alike for the class
+        ("=47*(1-COS(RADIANS({phi})))*89.5/geometry_bore_mm", "typed"),
+        ("={v}+0*{phi}", "still"),
+    ],
+)
+@pytest.mark.parametrize("own", [False, True])
+def test_a_formula_of_the_angle_is_no_list_for_being_alike_for_the_class(formula, verdict, own):
+    """Nor is it one where the angles stand once more in a column of one's own."""
+    right = evaluate_model(classroom.assignment().model).columns["P3_1"]["s1_mm"]
+    texts = [
+        formula.format(phi=f"{'T' if own else 'A'}{row}", v=repr(float(value)))
+        for row, value in enumerate(right, 6)
+    ]
+
+    def angles(book: Workbook, layout: Layout) -> None:
+        for index in range(len(right) if own else 0):
+            book["П3.1"].cell(6 + index, 20).value = 30 * index
+
+    assert line(graded({"P3_1.s1_mm": texts}, angles), "P3_1.s1_mm")["verdict"] == verdict
+
+
 @pytest.mark.parametrize(
     ("key", "largest", "allowed"),
     [("s_mm", 94.0, 0.0005), ("j_m_s2", 13000.0, 0.5), ("Pg_MPa", 0.01, 0.0001)],

@@ -154,6 +154,16 @@ def test_typed_numbers_are_told_from_formulas():
     assert classroom.verdicts(result) == {"P3_1.v1_m_s": "typed"}
 
 
+@pytest.mark.parametrize(("row", "lost"), [("=8", 1), ("<=7", 2), ("<=8", 0)])
+def test_a_formula_that_fails_in_one_or_two_rows_loses_their_share(row, lost):
+    """Though it is one formula, filled down: in the other rows it is right for every engine."""
+    texts = [f"=IF(ROW(){row},1/0,{f[1:]})" for f in formulas()["P4_1.S_MPa"]]
+    found = line(graded({"P4_1.S_MPa": texts}), "P4_1.S_MPa")
+    share = 1 - lost / 25 if lost else 22 / 25 / 2  # of three a formula is wrong
+    assert found["verdict"] == "error" and len(found["rows"]) == (lost or 25)
+    assert found["points"] == pytest.approx(found["of"] * share, abs=1e-5)
+
+
 def test_a_formula_of_numbers_is_a_number_whatever_the_engines(monkeypatch):
     """Also where one of those on which it is tried has some values as its own."""
 

@@ -28,6 +28,7 @@ Array = NDArray[np.float64]
 
 # What is said of a cell.
 RIGHT, ROUNDED, COARSE, PARTLY, STILL, WRONG, NOTHING, UNKNOWN, PASTED, IDLE = "prctsw-uli"
+_FEW = 2  # wrong rows of a formula that is right in the others
 _MOST = 0.5  # share of a column from which it is a list, or none
 _NEARLY = 0.1  # of a change: digits that are left out do not make a list of a formula
 _INSIDE = 2e-3  # share of a column that roundings inside a formula may cost
@@ -197,21 +198,24 @@ class Response:
         turn = self._turned(item, node) if stands.any() else None
         for run in self.student.runs(node):
             at = [index[row] for row in range(run.first, run.last + 1) if row in index]
-            word = ""
+            if not at:
+                continue
+            whole = ""
             if all(good[0][i] for i in at):
-                word = RIGHT
+                whole = RIGHT
             elif roughly is not None and all(roughly[1][i] for i in at):
-                word = ROUNDED
+                whole = ROUNDED
             coarse = roughly is not None and all(roughly[0][i] for i in at)
             moves = turn is not None and turn[1][at].mean() >= _MOST
+            # One or two wrong rows cost their share; what is nought by itself proves nothing.
+            few = (~good[0])[at].sum() <= _FEW and (good[0] & ~same)[at].mean() >= _MOST
             for i in at:
+                word = whole or (RIGHT if few and good[0][i] else "")
                 still = (bool(stands[i]) and not moves) or id(run) in lists
-                if word:
-                    # What all variants have in common is a number or a list of numbers only where
-                    # nothing follows from anything.
-                    letter = STILL if still and not others[i] and not same[i] else word
-                else:
-                    letter = STILL if still else PARTLY
+                # What all variants have in common is a number or a list of numbers only where
+                # nothing follows from anything.
+                still &= not word or not (others[i] or same[i])
+                letter = STILL if still else word or PARTLY
                 letter = letter if word or np.isfinite(values[0][i]) else WRONG
                 letter = COARSE if coarse and letter == PARTLY else letter
                 if letter in (PARTLY, COARSE) or (letter == word and not others[i]):

@@ -64,6 +64,19 @@ V1, S1, S, V, J1 = (f"P3_1.{key}" for key in ("v1_m_s", "s1_mm", "s_mm", "v_m_s"
         ("geometry.V_h", lambda v: v * 0, "получен нуль"),
         (V1, lambda v: v * 0, "все значения равны нулю"),
         ("geometry.V_h", lambda v: right("geometry.V_c"), "это значение величины"),
+        ("geometry.lam", lambda v: 1 / v, "обратная величина"),
+        ("geometry.V_c", lambda v: v * 17 / 18, "пропущено слагаемое 1"),
+        ("geometry.F_piston", lambda v: v / np.pi, "пропущен множитель π"),
+        ("geometry.F_piston", lambda v: v / 4, "вчетверо меньше"),
+        ("P4_1.T_MPa", lambda v: v * np.cos(right("P4_1.beta_rad")), "множитель cos β"),
+        ("P4_1.S_MPa", lambda v: v * np.cos(right("P4_1.beta_rad")) ** 2, "деление вместо"),
+        (
+            "P4_1.M_Nm",
+            lambda v: (
+                1e6 * right("P4_1.K_MPa") * right("geometry.F_piston") * right("geometry.r_crank")
+            ),
+            "Kуд вместо Tуд",
+        ),
         ("geometry.v_max", lambda v: right(V).max(keepdims=True), "П3.1, vп: между ними есть"),
     ],
 )

@@ -274,10 +274,50 @@ def decide_in_gradebook(where: Path, out: Path, number: int, word: object) -> di
     return run(where, out)
 
 
+def test_a_file_that_cannot_be_read_is_decided_by_a_person(tmp_path):
+    """He gives points, his student reads them; there are none of the program's to accept."""
+    classroom.register()
+    where, out = tmp_path / "in", tmp_path / "out"
+    where.mkdir()
+    (where / f"{classroom.book(2).folder}.ods").write_bytes(b"x")
+    assert run(where, out)[2]["status"] == "не принято"
+    with pytest.raises(InputError, match="нет баллов программы"):
+        decide(out, Options(decisions=(("2", "всё", "+", ""),)))
+    done = decide(out, Options(decisions=(("2", "всё", "70", "смотрел книгу .ods"),)))
+    row = done.summary["rows"][1]
+    assert row["points"] == 70 and not done.needs_a_person
+    page = (out / row["page"]).read_text("utf-8")
+    assert "70 из 100 баллов" in page and "смотрел книгу .ods" in page
+
+
+def test_an_earlier_file_asks_for_nobody(tmp_path):
+    """No decision is about a file that does not count: it would have waited for ever."""
+    where, out = submitted(tmp_path / "in"), tmp_path / "out"
+    os.utime(where / "1.xlsx", (1_700_000_000, 1_700_000_000))
+    data = filled_book(classroom.handout(1), classroom.assignment(1), None, saved_again)
+    (where / "1 ещё.xlsx").write_bytes(data)
+    rows = run(where, out)
+    assert rows[1]["points"] == 100 and "файлов: 2" in rows[1]["remark"]
+    assert not decide(out, Options()).needs_a_person
+
+
+def test_a_column_may_be_paid_more_but_no_work_is(tmp_path):
+    """Moodle takes no grade above the maximum."""
+    where, out = submitted(tmp_path / "in"), tmp_path / "out"
+    run(where, out)
+    assert run(where, out, ("1", "geometry.V_c", "20", "показал вывод"))[1]["points"] == 100
+    page = (out / run(where, out)[1]["page"]).read_text("utf-8")
+    assert "нужна ручная проверка" not in page  # it has been decided
+
+
 def test_what_is_no_decision_is_refused(tmp_path):
     where, out = submitted(tmp_path / "in"), tmp_path / "out"
     run(where, out)
+    with pytest.raises(InputError, match="работа не сдана"):
+        decide_in_gradebook(where, out, 3, 40)
+    (out / "gradebook.xlsx").unlink()
     for words, message in (
+        (("3", "всё", "40", ""), "работа не сдана"),
         (("Никто", "всё", "5", ""), "нет такого студента"),
         (("1", "P9.x", "5", ""), "нет такого столбца"),
         (("1", "всё", "101", ""), "это не баллы"),

@@ -23,6 +23,7 @@ V6 = Base(
         "K_r": "={m_r}*{r_crank}*{omega}^2*0.001",
         "P4_1.T_MPa": "={P4_1.N_MPa}*COS(RADIANS(A{row}))+{P4_1.Ps_MPa}*SIN(RADIANS(A{row}))",
         "P4_1.M_Nm": "={P4_1.T_MPa}*1E6*{F_piston}*{r_crank}",
+        "P4_1.beta_rad": "=ASIN(70/265*SIN(RADIANS(A{row})))",  # alike for the class
         "P4_2.M2_Nm": "=INDEX({|P4_1.M_Nm},MATCH({cylinder_2.phase_deg},{|P4_1.phi_deg},0))",
         "P4_2.M4_Nm": "=_xlfn.XLOOKUP({cylinder_4.phase_deg},{|P4_1.phi_deg},{|P4_1.M_Nm})",
         "P4_2.Msum_Nm": "=SUM({P4_2.M1_Nm}:{P4_2.M6_Nm})",
@@ -92,6 +93,7 @@ TORSION = Base(
         "torsion_forms.tor_theta2": "={v}+0*{tor_f2_hz}",
         "tor_twist3": "={v}*{tor_f3_hz}/{tor_f3_hz}",
         "tor_f1_change": "=IF({tor_mu}>9,{tor_mu},{v})",
+        "tor_rest1": "={v}+0*{tor_f1_hz}",  # nought for every engine, but for the last digits
     },
     {"torsion_forms.tor_whole3": "={p}+0*{torsion_forms.tor_theta3}"},
 )  # fmt: skip

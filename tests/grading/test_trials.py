@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from reports.grading.judging.copied import known_numbers
+from reports.grading.judging.copied import known_numbers, stepping
 from reports.grading.judging.trials import trials_of
 from tests.grading.classroom import assignment, register
 
@@ -32,3 +32,11 @@ def test_a_speed_is_known_in_thousands_but_not_where_it_may_be_anything() -> Non
     assert known[4.25] == (speed.name, 1e-3)
     round_speed = replace(speed, value=4000)
     assert 4.0 not in known_numbers({**fields, speed.name: round_speed}, trials)
+
+
+def test_angles_of_ones_own_are_not_taken_for_input_data() -> None:
+    """Among them is 420, the mass of a piston in grams, and 90, a bore."""
+    angles = {("П4.1", 20, 6 + i): 30.0 * i for i in range(25)}
+    data = {("Мой вариант", 2, i): value for i, value in enumerate((90.0, 94.0, 148.0, 4400.0))}
+    alike = {("Мой вариант", 3, i): 0.245 for i in range(6)}
+    assert stepping(angles | data | alike) == set(angles)

@@ -154,6 +154,57 @@ def test_typed_numbers_are_told_from_formulas():
     assert classroom.verdicts(result) == {"P3_1.v1_m_s": "typed"}
 
 
+@pytest.mark.parametrize(("row", "lost"), [("=8", 1), ("<=7", 2), ("<=8", 0)])
+def test_a_formula_that_fails_in_one_or_two_rows_loses_their_share(row, lost):
+    """Though it is one formula, filled down: in the other rows it is right for every engine."""
+    texts = [f"=IF(ROW(){row},1/0,{f[1:]})" for f in formulas()["P4_1.S_MPa"]]
+    found = line(graded({"P4_1.S_MPa": texts}), "P4_1.S_MPa")
+    share = 1 - lost / 25 if lost else 22 / 25 / 2  # of three a formula is wrong
+    assert found["verdict"] == "error" and len(found["rows"]) == (lost or 25)
+    assert found["points"] == pytest.approx(found["of"] * share, abs=1e-5)
+
+
+def test_a_formula_of_numbers_is_a_number_whatever_the_engines(monkeypatch):
+    """Also where one of those on which it is tried has some values as its own."""
+
+    def tried(*given):
+        first, second, third = trials_of(*given)
+        return first, second, replace(third, expected=first.expected)
+
+    monkeypatch.setattr(marking, "trials_of", tried)
+    right = evaluate_model(classroom.assignment().model).columns["P4_1"]["Pg_MPa"]
+    texts = [f"={float(v)!r}" for v in right]
+    book = filled_book(classroom.handout(), classroom.assignment(), {"P4_1.Pg_MPa": texts})
+    found = marking.Marker(classroom.register()).mark(
+        Submission("работа", Path("х"), None, None), book
+    )
+    assert line(found, "P4_1.Pg_MPa")["verdict"] == "typed"
+
+
+@pytest.mark.parametrize(
+    ("formula", "verdict"),
+    [
+        ("=47*(1-COS(RADIANS({phi})))", "right"),  # the radius is alike for the class
+        ("=47*(1-COS(RADIANS({phi})))*89.5/geometry_bore_mm", "typed"),
+        ("={v}+0*{phi}", "still"),
+    ],
+)
+@pytest.mark.parametrize("own", [False, True])
+def test_a_formula_of_the_angle_is_no_list_for_being_alike_for_the_class(formula, verdict, own):
+    """Nor is it one where the angles stand once more in a column of one's own."""
+    right = evaluate_model(classroom.assignment().model).columns["P3_1"]["s1_mm"]
+    texts = [
+        formula.format(phi=f"{'T' if own else 'A'}{row}", v=repr(float(value)))
+        for row, value in enumerate(right, 6)
+    ]
+
+    def angles(book: Workbook, layout: Layout) -> None:
+        for index in range(len(right) if own else 0):
+            book["П3.1"].cell(6 + index, 20).value = 30 * index
+
+    assert line(graded({"P3_1.s1_mm": texts}, angles), "P3_1.s1_mm")["verdict"] == verdict
+
+
 @pytest.mark.parametrize(
     ("key", "largest", "allowed"),
     [("s_mm", 94.0, 0.0005), ("j_m_s2", 13000.0, 0.5), ("Pg_MPa", 0.01, 0.0001)],

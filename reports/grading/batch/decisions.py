@@ -95,7 +95,9 @@ def decided(
             made = {key: entry for key, entry in made.items() if key[:2] != (book.number, item)}
             continue
         value = None if points.strip() == ACCEPT else _points(points, register.rubric.maximum)
-        file = counted[book.number].sha256 if book.number in counted else ""
+        work = counted.get(book.number)
+        file = work.sha256 if work else ""
+        _refuse_idle(who, value, item, file, work)
         entry = Decision(
             book.number, item, value, one_line(remark, _MOST), one_line(author, 100),
             datetime.now().isoformat(timespec="minutes"), file,
@@ -113,6 +115,16 @@ def _points(text: str, maximum: float) -> float:
         hint = f"нужно число от 0 до {maximum:g}, «+» — принять баллы программы, «-» — отменить"
         raise InputError(Problem(text or "баллы", "это не баллы", hint))
     return value
+
+
+def _refuse_idle(who: str, value: float | None, item: str, file: str, work: Work | None) -> None:
+    """Refuse a word that would change nothing: of no file, or accepting no points."""
+    if not file:
+        hint = "поставьте эти баллы сами там, куда переносите ведомость"
+        raise InputError(Problem(who, "работа не сдана: решать не о чем", hint))
+    if value is None and item == WHOLE and work and work.sha256 == file and work.points is None:
+        what = "у файла нет баллов программы: принять нечего"
+        raise InputError(Problem(who, what, "впишите баллы числом"))
 
 
 def _student(register: Register, works: Sequence[Work], who: str) -> Issued:
@@ -168,6 +180,7 @@ def from_gradebook(
             continue
         try:
             value = None if points.strip() == ACCEPT else _points(points, maximum)
+            _refuse_idle("", value, *key[1:], work)
         except InputError as error:
             where = f"{path.name}, строка {row}: «{one_line(points, 40)}»"
             problems += [replace(problem, where=where) for problem in error.problems]

@@ -14,23 +14,8 @@ from reports.formula.numeric import evaluate_tree
 from reports.formula.parse import names, parse
 from reports.grading.issuing.assignment import Item
 from reports.grading.judging.judgement import Array, Judgement
+from reports.grading.judging.mistakes import mistakes, symbol_of
 from reports.grading.judging.response import Response
-from reports.grading.judging.rewriting import (
-    MIXED,
-    SIGNS,
-    Flipped,
-    OtherExponent,
-    OtherRatio,
-    Renamed,
-    WithoutFactor,
-    WithoutNumber,
-    WithoutPower,
-    WithoutPowers,
-    numbers,
-    summands,
-    without_radians,
-    without_summand,
-)
 from reports.grading.judging.rows import moved, row_indices, slips, told
 from reports.grading.judging.tolerances import close, tolerance
 from reports.grading.reading.student import Student, known_values
@@ -175,8 +160,11 @@ class Causes:
         yield from self._columns(item, run)
         yield from self._methods(item)
         yield from self._variants(item)
-        yield "результат вдвое больше правильного", right * 2
-        yield "результат вдвое меньше правильного", right / 2
+        for factor, times in ((2, "вдвое"), (4, "вчетверо")):
+            yield f"результат {times} больше правильного", right * factor
+            yield f"результат {times} меньше правильного", right / factor
+        with np.errstate(divide="ignore"):
+            yield "получена обратная величина", 1 / right
 
     def _values(self, item: Item, run: Evaluation) -> Array | None:
         parts = [np.ravel(np.asarray(run.value(node), dtype=float)) for node in item.nodes]
@@ -185,47 +173,10 @@ class Causes:
     # --- the formula itself -------------------------------------------------------------
 
     def _changed_formulas(self, item: Item, run: Evaluation) -> Iterator[tuple[str, Array | None]]:
-        yield "градусы вместо радиан в sin, cos", self._rewritten(item, run, without_radians)
-        for place in (None, 0, 1, 2):
-            made = self._rewritten(item, run, OtherRatio(place).visit)
-            yield "sin и cos взяты друг вместо друга", made
-        yield from self._shorter(item, run)
-        for wrong_for, taken, words in MIXED:
-            uses = any(wrong_for in self._names(node) for node in item.nodes)
-            known = self.student.assignment.model
-            if uses and (taken in known.scalars or taken in known.fields):
-                more = ""
-                twice = {wrong_for, taken} == {"r_crank", "S_stroke"}
-                if twice and numbers(self._tree(item.nodes[0])):
-                    more = " или потерянный делитель 2 (вдвое больше или меньше)"
-                yield words + more, self._rewritten(item, run, Renamed(wrong_for, taken).visit)
-        for number, words in SIGNS:
-            yield words, self._rewritten(item, run, Flipped(number).visit)
-
-    def _shorter(self, item: Item, run: Evaluation) -> Iterator[tuple[str, Array | None]]:
-        """Something left out of the formula: a summand, a factor, a power, a number."""
-        for number, dropped in enumerate(summands(self._tree(item.nodes[0]))):
-            words = f"пропущено слагаемое {self._symbols(item, dropped)}"
-            yield words, self._rewritten(item, run, without_summand(number))
-        for name in sorted(self._names(item.nodes[0])):
-            if name == "pi":
-                continue
-            symbol = self._symbol(item, name)
-            words = f"пропущен множитель {symbol}"
-            yield words, self._rewritten(item, run, WithoutFactor(name).visit)
-            words = f"{symbol} не возведено в квадрат"
-            yield words, self._rewritten(item, run, WithoutPower(name).visit)
-        for value in numbers(self._tree(item.nodes[0])):
-            words = (
-                "взято целое вместо половины" if value == 0.5
-                else "π·D² вместо π·D²/4" if item.nodes[0] == "F_piston"
-                else f"потеряно число {short(value)}"
-            )  # fmt: skip
-            yield words, self._rewritten(item, run, WithoutNumber(value).visit)
-        yield "скобка не возведена в степень", self._rewritten(item, run, WithoutPowers().visit)
-        for more, words in ((True, "больше"), (False, "меньше")):
-            made = self._rewritten(item, run, OtherExponent(more=more).visit)
-            yield f"показатель степени на единицу {words}", made
+        for words, change in mistakes(
+            self._tree(item.nodes[0]), item.block, self.student.assignment.model
+        ):
+            yield words, self._rewritten(item, run, change)
 
     def _inputs(self, item: Item, run: Evaluation) -> Iterator[tuple[str, Array | None]]:
         """An input of the formula taken for its result."""
@@ -249,23 +200,12 @@ class Causes:
                     one = found.first == found.last and not found.name
                     name = single.get((area.sheet, area.first_column, area.first_row))
                     if one and name and not found.first.row_fixed:
-                        symbol = self._symbol(item, name)
+                        symbol = symbol_of(name, item.block, self.student.assignment.model)
                         return f"в ссылке на {symbol} нет знака $: при протягивании она сдвигается"
         return ""
 
     def _tree(self, node: str) -> ast.expr:
         return parse(self.student.assignment.graph.expression(node) or "0")
-
-    def _symbol(self, item: Item, name: str) -> str:
-        """Symbol of a name in an item's formula."""
-        model = self.student.assignment.model
-        node = model.nodes.get(node_of(name, item.block, model))
-        if node is not None:
-            return node.quantity.symbol
-        return model.fields[name].title if name in model.fields else name
-
-    def _symbols(self, item: Item, tree: ast.expr) -> str:
-        return "·".join(self._symbol(item, name) for name in sorted(names(ast.unparse(tree))))
 
     def _names(self, node: str) -> frozenset[str]:
         return names(self.student.assignment.graph.expression(node) or "0")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from math import isclose, nan
 
 from reports.grading.judging.trials import Trial
 from reports.inputs.fields import Field
@@ -36,3 +37,14 @@ def known_numbers(
                 if sure or number != float(f"{number:.1g}"):
                     wanted[number] = (name, factor)  # 1 or 100 may be anything
     return wanted
+
+
+def stepping(cells: Mapping[tuple[str, int, int], float]) -> set[tuple[str, int, int]]:
+    """Cells of numbers that go down by equal steps: one of many angles is no bore of 90 mm."""
+    found = set()
+    for sheet, column, row in cells:
+        three = [(sheet, column, row + i) for i in range(3)]
+        first, second, third = (cells.get(cell, nan) for cell in three)
+        if first != second and isclose(third - second, second - first, rel_tol=1e-9):
+            found.update(three)
+    return found

@@ -309,8 +309,8 @@ def score(result: Result, rubric: Rubric, time: datetime | None) -> None:
 
 
 def rescored(result: Result) -> None:
-    """The sum of a result from the points of its lines."""
-    raw = sum(line["points"] for line in result["items"])
+    """The sum of a result from the points of its lines; a person may have given more for one."""
+    raw = min(sum(line["points"] for line in result["items"]), result["maximum"])
     result["raw"] = round(raw, 2)
     result["points"] = round(raw * result["late"], 2) if result["enough"] else 0.0
 

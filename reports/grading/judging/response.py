@@ -28,6 +28,9 @@ Array = NDArray[np.float64]
 
 # What is said of a cell.
 RIGHT, ROUNDED, COARSE, PARTLY, STILL, WRONG, NOTHING, UNKNOWN, PASTED, IDLE = "prctsw-uli"
+_FEW = 2  # wrong rows of a formula that is right in the others
+_MOST = 0.5  # share of a column from which it is a list, or none
+_NEARLY = 0.1  # of a change: digits that are left out do not make a list of a formula
 _INSIDE = 2e-3  # share of a column that roundings inside a formula may cost
 
 
@@ -129,20 +132,22 @@ class Response:
         values = self._values.get(node, "")
         return values if isinstance(values, str) else ""
 
-    def _repeats(self, item: Item, node: str) -> bool:
-        """Whether a node's formulas give numbers that are right at the angles of its rows alone.
+    def _turned(self, item: Item, node: str) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Where formulas are right at the angles of their rows alone, and where they follow these.
 
-        So do lists of numbers, whatever they are made of.
+        The first are lists of numbers, whatever they are made of; the second calculate.
         """
         trials = (self.tryout.own, turned(self.student.expected))
         made = self.tryout.run([node], trials, rounded=False)[node]
         if isinstance(made, str):
-            return True
-        own, between = (
-            close(item, values, right, tolerance(item, right, self.student))
-            for values, right in zip(made, _right(node, trials), strict=True)
-        )
-        return bool((own & ~between).sum() >= len(own) / 2)
+            nowhere = np.zeros(self.student.assignment.length(node), dtype=bool)
+            return ~nowhere, nowhere
+        right = _right(node, trials)
+        allowed = [tolerance(item, wanted, self.student) for wanted in right]
+        own, between = map(close, (item, item), made, right, allowed)
+        change, wanted = made[1] - made[0], right[1] - right[0]
+        near = np.abs(change - wanted) <= allowed[1] + _NEARLY * np.abs(wanted)
+        return own & ~between, near & _differ(*made)
 
     def _of_node(self, item: Item, node: str) -> str:
         count = self.student.assignment.length(node)
@@ -189,43 +194,37 @@ class Response:
         others = good[1] if roughly is None else good[1] | roughly[2]
         same = self._fixed(node)
         idle = self._idle.get(node, same & False)
+        stands = ~same & ~np.any([_differ(values[0], other) for other in values], axis=0)
+        turn = self._turned(item, node) if stands.any() else None
         for run in self.student.runs(node):
             at = [index[row] for row in range(run.first, run.last + 1) if row in index]
-            word = ""
+            if not at:
+                continue
+            whole = ""
             if all(good[0][i] for i in at):
-                word = RIGHT
+                whole = RIGHT
             elif roughly is not None and all(roughly[1][i] for i in at):
-                word = ROUNDED
+                whole = ROUNDED
             coarse = roughly is not None and all(roughly[0][i] for i in at)
+            moves = turn is not None and turn[1][at].mean() >= _MOST
+            # One or two wrong rows cost their share; what is nought by itself proves nothing.
+            few = (~good[0])[at].sum() <= _FEW and (good[0] & ~same)[at].mean() >= _MOST
             for i in at:
-                letter = self._word(i, word, values, same, others, listed=id(run) in lists)
+                word = whole or (RIGHT if few and good[0][i] else "")
+                still = (bool(stands[i]) and not moves) or id(run) in lists
+                # What all variants have in common is a number or a list of numbers only where
+                # nothing follows from anything.
+                still &= not word or not (others[i] or same[i])
+                letter = STILL if still else word or PARTLY
+                letter = letter if word or np.isfinite(values[0][i]) else WRONG
                 letter = COARSE if coarse and letter == PARTLY else letter
                 if letter in (PARTLY, COARSE) or (letter == word and not others[i]):
                     if pasted is None:
-                        pasted = reads_a_list(self.student, node) or self._repeats(item, node)
+                        turn = turn or self._turned(item, node)
+                        pasted = turn[0].mean() >= _MOST or reads_a_list(self.student, node)
                     letter = PASTED if pasted else letter
                 letters[i] = IDLE if idle[i] and letter in (RIGHT, ROUNDED) else letter
         return "".join(letters)
-
-    def _word(
-        self,
-        i: int,
-        word: str,
-        values: Sequence[Array],
-        same: NDArray[np.bool_],
-        others: NDArray[np.bool_],
-        *,
-        listed: bool,
-    ) -> str:
-        """The letter of a cell whose run has passed as ``word``, or not at all."""
-        stands = all(not _differ(values[0][i], other[i]) for other in values[1:])
-        if word:
-            # What all variants have in common is a number or a list of numbers only where
-            # nothing follows from anything.
-            return STILL if not others[i] and (stands or listed) and not same[i] else word
-        if not np.isfinite(values[0][i]):
-            return WRONG
-        return STILL if (stands and not same[i]) or listed else PARTLY
 
     def _good(
         self, item: Item, values: Sequence[Array], right: Sequence[Array]
@@ -296,7 +295,8 @@ def _right(node: str, trials: Sequence[Trial]) -> list[Array]:
     return [np.ravel(np.asarray(t.expected.value(node), dtype=float)) for t in trials]
 
 
-def _differ(first: float, second: float) -> bool:
-    if np.isnan(first) or np.isnan(second):
-        return bool(np.isnan(first) != np.isnan(second))
-    return bool(abs(first - second) > 1e-9 * max(abs(first), abs(second)) + 1e-12)
+def _differ(first: Array, second: Array) -> NDArray[np.bool_]:
+    """Where two columns of numbers differ."""
+    size = np.maximum(np.abs(first), np.abs(second))
+    other = np.abs(first - second) > 1e-9 * size + 1e-12
+    return np.asarray(other | (np.isnan(first) != np.isnan(second)))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable
 from typing import ClassVar
 
 # Quantities that are taken for each other.
@@ -15,24 +14,35 @@ MIXED = (
     ("omega", "regime_speed_rpm", "частота вращения n в мин⁻¹ вместо угловой скорости ω"),
     ("m_j", "m_2", "масса m2 вместо mj"),
     ("m_2", "m_j", "масса mj вместо m2"),
+    ("m_1", "m_2", "масса m2 вместо m1"),
+    ("m_2", "m_1", "масса m1 вместо m2"),
+    ("m_1", "masses_rod_kg", "вся масса шатуна вместо m1"),
+    ("m_2", "masses_rod_kg", "вся масса шатуна вместо m2"),
     ("F_piston", "geometry_bore_mm", "диаметр цилиндра вместо площади поршня"),
     ("geometry_bore_mm", "S_stroke", "ход поршня S вместо диаметра цилиндра"),
 )
 
 
-def summands(tree: ast.expr) -> list[ast.expr]:
-    """Summands of a sum; none where it is no sum of two or more."""
+def summands(tree: ast.AST) -> list[ast.expr]:
+    """Summands of all sums of a formula but those of its exponents, as they are written."""
+    if isinstance(tree, ast.BinOp) and isinstance(tree.op, ast.Pow):
+        return summands(tree.left)
     found: list[ast.expr] = []
+    for side in ast.iter_child_nodes(tree):
+        if _is_sum(tree) and isinstance(side, ast.expr) and not _is_sum(side):
+            found.append(side)
+        found += summands(side)
+    return found
 
-    def take(node: ast.expr) -> None:
-        if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Sub)):
-            take(node.left)
-            take(node.right)
-        else:
-            found.append(node)
 
-    take(tree)
-    return found if len(found) > 1 else []
+def _is_sum(tree: ast.AST) -> bool:
+    return isinstance(tree, ast.BinOp) and isinstance(tree.op, (ast.Add, ast.Sub))
+
+
+def factors(tree: ast.expr) -> list[str]:
+    """Names and functions of a formula; what it multiplies or divides by is among them."""
+    nodes = (node for node in ast.walk(tree) if isinstance(node, (ast.Name, ast.Call)))
+    return sorted({ast.unparse(node) for node in nodes})
 
 
 def numbers(tree: ast.expr) -> list[float]:
@@ -46,36 +56,34 @@ def numbers(tree: ast.expr) -> list[float]:
     return sorted(set(found) - {1.0})
 
 
-def without_summand(number: int) -> Callable[[ast.expr], ast.expr]:
-    """Leaves one summand of the whole sum out, where there is one: nought stands in its place."""
+class WithoutSummand(ast.NodeTransformer):
+    """Leaves one summand out, where there is one: nought stands in its place."""
 
-    def changed(tree: ast.expr) -> ast.expr:
-        for wanted in summands(tree)[number : number + 1]:
-            return _replaced(tree, wanted, ast.Constant(0))
-        return tree
+    def __init__(self, number: int) -> None:
+        self.number = number
+        self.wanted: ast.AST = ast.Constant(0)
 
-    return changed
+    def changed(self, tree: ast.expr) -> ast.AST:
+        """The formula without it."""
+        found = summands(tree)
+        self.wanted = found[self.number] if self.number < len(found) else self.wanted
+        return self.visit(tree)
 
-
-def _replaced(tree: ast.expr, wanted: ast.expr, by: ast.expr) -> ast.expr:
-    if tree is wanted:
-        return by
-    if isinstance(tree, ast.BinOp) and isinstance(tree.op, (ast.Add, ast.Sub)):
-        left, right = (_replaced(side, wanted, by) for side in (tree.left, tree.right))
-        return ast.BinOp(left, tree.op, right)
-    return tree
+    def visit(self, node: ast.AST) -> ast.AST:
+        """Nought for the summand."""
+        return ast.Constant(0) if node is self.wanted else self.generic_visit(node)
 
 
 class WithoutFactor(ast.NodeTransformer):
-    """Leaves a factor or a divisor out, with its power."""
+    """Leaves a factor or a divisor out, with its power: a name, or a function of something."""
 
-    def __init__(self, name: str) -> None:
-        self.name = name
+    def __init__(self, text: str) -> None:
+        self.text = text
 
     def _is(self, node: ast.expr) -> bool:
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
             node = node.left
-        return isinstance(node, ast.Name) and node.id == self.name
+        return ast.unparse(node) == self.text
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
         """The other side of a product, one in the place of what is divided."""
@@ -181,6 +189,22 @@ class NoRadians(ast.NodeTransformer):
         self.generic_visit(node)
         if isinstance(node.func, ast.Name) and node.func.id == "rad":
             return node.args[0]
+        return node
+
+
+class OtherWay(ast.NodeTransformer):
+    """Multiplies where one product of the formula divides, or the other way round."""
+
+    def __init__(self, number: int) -> None:
+        self.number, self.seen = number, -1
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        """The other operation."""
+        self.generic_visit(node)
+        if isinstance(node.op, (ast.Mult, ast.Div)):
+            self.seen += 1
+            if self.seen == self.number:
+                node.op = ast.Div() if isinstance(node.op, ast.Mult) else ast.Mult()
         return node
 
 

@@ -27,6 +27,7 @@ _TRIES = 12
 _LEAST, _MOST = 0.02, 0.08  # how much the third set changes a number
 _EDGE, _APART = 0.02, 0.25  # of the range: from its ends, between the first two sets
 _TURN = 1.7  # ° or %, which no table has as its step
+_NOUGHT = 1e-6  # of the last digit that is printed: what is left of A − A
 _NARROW = 0.05  # where all variants have the same value
 
 
@@ -69,7 +70,8 @@ def fixed(node: str, own: Evaluation, trials: Sequence[Trial]) -> NDArray[np.boo
     ]
     if not others or right.dtype.kind == "U":
         return np.zeros(len(right), dtype=bool)
-    allowed = 1e-9 * float(np.nanmax(np.abs(right)))
+    digit = 10.0 ** -own.model.nodes[node].quantity.digits.decimals
+    allowed = max(1e-9 * float(np.nanmax(np.abs(right))), _NOUGHT * digit)
     return np.asarray(np.logical_and.reduce([np.abs(other - right) <= allowed for other in others]))
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Item
-from reports.grading.judging.copied import known_numbers
+from reports.grading.judging.copied import known_numbers, stepping
 from reports.grading.judging.trials import Trial
 from reports.grading.reading.student import Student
 from reports.recalculation.bench import Bench, Cells, full, pinned, rounds, unrounded_grid
@@ -91,9 +91,7 @@ class Tryout:
 
     def _inputs(self, trial: Trial) -> list[Cells]:
         """The cells of the input data, and the student's own that repeat them."""
-        made = [
-            c for name, angles in trial.angles.items() for c in self.student.cells_of(name, angles)
-        ]
+        made = [c for name, turned in trial.angles.items() for c in self._angles(name, turned)]
         for name, value in trial.inputs.items():
             made += self.student.cells_of(name, value)
             made += [
@@ -101,6 +99,21 @@ class Tryout:
                 for sheet, column, row, factor in self._copies.get(name, ())
             ]
         return made
+
+    def _angles(self, name: str, turned: Array) -> list[Cells]:
+        """The cells of a table's angles, and the student's own beside them that repeat them."""
+        made = self.student.cells_of(name, turned)
+        own = self.student.cells_of(name, self.student.expected.value(name))
+        known = {
+            (cells.sheet, row, value): other.values[i]
+            for cells, other in zip(own, made, strict=True)
+            for i, (row, value) in enumerate(zip(cells.rows, cells.values, strict=True))
+        }
+        return made + [
+            Cells(sheet, column, (row,), (known[sheet, row, value],))
+            for sheet, column, row, value in self.student.own_constants
+            if (sheet, row, value) in known
+        ]
 
     @cached_property
     def _copies(self) -> dict[str, list[tuple[str, int, int, float]]]:
@@ -111,7 +124,10 @@ class Tryout:
         """
         wanted = known_numbers(self.student.assignment.model.fields, self.trials)
         found: dict[str, list[tuple[str, int, int, float]]] = {}
+        steps = stepping({(s, c, r): value for s, c, r, value in self.student.own_constants})
         for sheet, number, row, value in self.student.own_constants:
+            if (sheet, number, row) in steps:
+                continue
             hit = wanted.get(float(f"{value:.12g}"))
             if hit is not None:
                 found.setdefault(hit[0], []).append((sheet, number, row, hit[1]))

@@ -32,7 +32,7 @@ from reports.grading.reading.typed import TEXT_NUMBER
 from reports.recalculation.evaluate import BLANK, ERROR, TEXT
 from reports.recalculation.language import UnknownFormula
 
-_PASTED = "считает от столбца вписанных чисел, и не для всех исходных данных верно: откуда они?"
+_PASTED = "верно только при углах своих строк или считает от вписанных чисел: откуда они?"
 _IDLE = "одно и то же, какие бы числа ни стояли там, куда ссылается формула: вычислено ли это?"
 _OWN = "считает от чисел вне таблиц, одних и тех же у всех: это исходные данные или ответ?"
 _ENOUGH = 0.5  # share of right rows from which a column is paid by rows, of formulas among numbers
@@ -133,11 +133,11 @@ def _by_rows(
     formulas = [letter for letter in letters if letter != say.NOTHING]
     fixed = still & (len(formulas) >= _ENOUGH * len(letters))
     words = [_word(kinds[i], letters[i], bool(good[i]), bool(fixed[i])) for i in range(len(kinds))]
-    # What has followed other input data refers to them, if only by a copy.
-    follows = any(w == RIGHT and not f for w, f in zip(words, still, strict=True))
-    unlinked = not follows and not _is_linked(item, student)
     runs = [run for node in item.nodes for run in student.runs(node)]
-    plain = unlinked and not any(True for run in runs for _ in student.grid.located(run))
+    plain = not any(True for run in runs for _ in student.grid.located(run))
+    # What has followed other input data refers to them, if only by a copy.
+    follows = not plain and any(w == RIGHT and not f for w, f in zip(words, still, strict=True))
+    unlinked = not follows and not _is_linked(item, student)
     idle = set(formulas) == {say.IDLE} and not plain
     if idle and not response.shaking.is_idle_by_nature(item):
         return replace(made, verdict=UNKNOWN, typed=(), reason=_OWN if unlinked else _IDLE)

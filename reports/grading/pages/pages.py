@@ -12,7 +12,7 @@ from markupsafe import Markup
 
 from kshm.nomenclature.digits import Digits
 from reports.grading.issuing.rubric import Rubric
-from reports.grading.judging.judgement import WORDS
+from reports.grading.judging.judgement import UNKNOWN, WORDS
 from reports.grading.pages.chart import line_chart
 from reports.shared.resources import templates_dir
 from reports.shared.russian import capital, short, written
@@ -51,8 +51,8 @@ def student_page(result: dict[str, Any], rubric: Rubric) -> str:
         if (line["verdict"] == "empty" and not line["rows"]) or line["verdict"] == "groundless"
     ]
     counts = dict.fromkeys(WORDS, 0)
-    for line in lines:
-        counts[line["verdict"]] += 1
+    for line in lines:  # what a person has decided asks for nobody
+        counts[line["verdict"]] += line["verdict"] != UNKNOWN or "decision" not in line
     template = _environment().get_template("student.html.j2")
     return template.render(
         result=result,
@@ -65,6 +65,7 @@ def student_page(result: dict[str, Any], rubric: Rubric) -> str:
         counts={key: n for key, n in counts.items() if n},
         words=WORDS,
         full=full,
+        maximum=rubric.maximum,
         share=rubric.credit.carried,
         title=rubric.work.title,
     )

@@ -54,9 +54,27 @@ def _is_beside(result: Work, chosen: dict[int, Work]) -> bool:
     counted = chosen.get(result.number or 0)
     if counted is None or counted is result or result.status != "refused":
         return False
-    looked = counted.decision["date"] if counted.decision else ""  # to the minute
-    known = result.time <= counted.time or bool(looked and result.time[: len(looked)] <= looked)
+    known = result.time <= counted.time or _is_seen(result, counted)
     return known or result.file.casefold().endswith(_BESIDE)
+
+
+def _is_seen(result: Work, counted: Work) -> bool:
+    """Whether a person has decided on the work that counts since this file was handed in."""
+    looked = counted.decision["date"] if counted.decision else ""  # to the minute
+    return bool(looked and result.time[: len(looked)] <= looked)
+
+
+def _asked(result: Work, doubts: Sequence[str], chosen: dict[int, Work]) -> list[str]:
+    """Why a person has to look at a file.  Of what does not count only a doubt is left to him."""
+    whole = [*result.manual, *doubts]
+    if result.decision or _is_beside(result, chosen):
+        return []
+    if chosen.get(result.number or 0) is result or result.status != "graded":
+        return whole
+    counted = chosen.get(result.submitter or result.number or 0)
+    if counted is None:
+        return whole
+    return [] if _is_seen(result, counted) else list(doubts)
 
 
 def _unread(result: Work, results: Sequence[Work], chosen: dict[int, Work]) -> list[str]:
@@ -161,6 +179,7 @@ def summarise(register: Register, results: Sequence[Work]) -> dict[str, Any]:
     graded = [r for _, r in sorted(chosen.items()) if r.status == "graded"]
     marks = [float(row["points"]) for row in rows if row["points"] is not None]
     held = suspicions(results)
+    asked = [(r, _asked(r, held.get(r.key, ()), chosen)) for r in results]
     times = sorted(r.time for r in chosen.values() if r.time)
     return {
         "files": len(results),
@@ -177,13 +196,9 @@ def summarise(register: Register, results: Sequence[Work]) -> dict[str, Any]:
         "hardest": _hardest(graded),
         "signals": signals(results),
         "manual": [
-            {
-                "who": _name(r),
-                "why": list(dict.fromkeys([*r.manual, *held.get(r.key, ())])),
-                "page": r.page,
-            }
-            for r in results
-            if (r.manual or held.get(r.key)) and not r.decision and not _is_beside(r, chosen)
+            {"who": _name(r), "why": list(dict.fromkeys(why)), "page": r.page}
+            for r, why in asked
+            if why
         ],
         "rows": rows,
     }

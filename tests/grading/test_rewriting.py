@@ -25,7 +25,7 @@ from reports.grading.judging.rewriting import (
     ],
 )
 def test_the_sign_of_one_sum_is_turned(number: int, wanted: str) -> None:
-    found = Flipped(number).visit(ast.parse("-a - b - (c + d) * e", mode="eval"))
+    found = Flipped(number, ast.Add, ast.Sub).visit(ast.parse("-a - b - (c + d) * e", mode="eval"))
     assert ast.unparse(found) == wanted
 
 

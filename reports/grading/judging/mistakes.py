@@ -12,7 +12,6 @@ from reports.grading.judging.rewriting import (
     Flipped,
     OtherExponent,
     OtherRatio,
-    OtherWay,
     Renamed,
     WithoutFactor,
     WithoutNumber,
@@ -46,11 +45,11 @@ def mistakes(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
                 more = " или потерянный делитель 2 (вдвое больше или меньше)"
             yield words + more, Renamed(wrong_for, taken).visit
     for number, words in SIGNS:
-        yield words, Flipped(number).visit
+        yield words, Flipped(number, ast.Add, ast.Sub).visit
     table = model.tables.get(block)
     yield from _columns(table, used) if table is not None else ()
     for number in range(_PRODUCTS):
-        yield "деление вместо умножения или наоборот", OtherWay(number).visit
+        yield "деление вместо умножения или наоборот", Flipped(number, ast.Mult, ast.Div).visit
 
 
 def _columns(table: TableSpec, used: frozenset[str]) -> Iterator[Mistake]:

@@ -192,22 +192,6 @@ class NoRadians(ast.NodeTransformer):
         return node
 
 
-class OtherWay(ast.NodeTransformer):
-    """Multiplies where one product of the formula divides, or the other way round."""
-
-    def __init__(self, number: int) -> None:
-        self.number, self.seen = number, -1
-
-    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
-        """The other operation."""
-        self.generic_visit(node)
-        if isinstance(node.op, (ast.Mult, ast.Div)):
-            self.seen += 1
-            if self.seen == self.number:
-                node.op = ast.Div() if isinstance(node.op, ast.Mult) else ast.Mult()
-        return node
-
-
 class Renamed(ast.NodeTransformer):
     """Takes one name for another."""
 
@@ -225,16 +209,17 @@ SIGNS = tuple((number, f"знак слагаемого {number + 2}") for number
 
 
 class Flipped(ast.NodeTransformer):
-    """Turns the sign of one sum in the formula."""
+    """Turns one operation of the formula round: a sum and a difference, a product and a ratio."""
 
-    def __init__(self, number: int) -> None:
-        self.number, self.seen = number, -1
+    def __init__(self, number: int, one: type[ast.operator], other: type[ast.operator]) -> None:
+        self.number, self.pair, self.seen = number, {one: other, other: one}, -1
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
-        """The other sign."""
+        """The other operation."""
         self.generic_visit(node)
-        if isinstance(node.op, (ast.Add, ast.Sub)):
+        other = self.pair.get(type(node.op))
+        if other is not None:
             self.seen += 1
             if self.seen == self.number:
-                node.op = ast.Sub() if isinstance(node.op, ast.Add) else ast.Add()
+                node.op = other()
         return node

@@ -17,6 +17,8 @@ from reports.spec.charts import ChartSpec
 _BEFORE = re.compile(r"\bprevious\(")
 _POINT = re.compile(r"gas_point_\d+_(?P<unit>deg|mpa)(?P<regime>_R\d+)?")
 
+TURN = "360"
+
 
 @dataclass(frozen=True, slots=True)
 class Column:
@@ -27,6 +29,7 @@ class Column:
 
     ``of`` names the quantity where the key alone does not; a helper column
     serves the formulas of the workbook and is no result.  A ``small`` engine has more decimals.
+    An angle is the same again after ``every`` degrees, 0: never.
     """
 
     key: str
@@ -35,6 +38,7 @@ class Column:
     helper: bool = False
     of: str = ""
     small: int = 0
+    every: str = TURN
 
     @property
     def quantity(self) -> Quantity:
@@ -74,7 +78,7 @@ class TableSpec:
 
 @dataclass(frozen=True, slots=True)
 class Scalar:
-    """One named value with its formula; ``of`` names its quantity where the key does not."""
+    """One named value with its formula; ``of`` and ``every`` as of a column."""
 
     key: str
     expr: str
@@ -82,6 +86,7 @@ class Scalar:
     note: str = ""
     of: str = ""
     small: int = 0
+    every: str = TURN
 
     @property
     def quantity(self) -> Quantity:

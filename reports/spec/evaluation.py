@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from reports.formula.numeric import compiled
 from reports.formula.parse import names
 from reports.spec.blocks import Column, Model, TableSpec
+from reports.spec.graph import node_of
 
 Array = NDArray[np.float64]
 _PREVIOUS = re.compile(r"\bprevious\((\w+)\)")
@@ -68,6 +69,11 @@ class Evaluation:
             with np.errstate(all="ignore"):  # branches not taken may divide by zero
                 return self._calculated(key)
         return self._calculated(key)
+
+    def values_for(self, node: str) -> Callable[[str], Any]:
+        """Values of the names in a node's formula."""
+        table = node.split(".", maxsplit=1)[0] if "." in node else ""
+        return lambda name: self.value(node_of(name, table, self.model))
 
     def _calculated(self, key: str) -> Any:  # noqa: ANN401
         done = self.done

@@ -1,7 +1,7 @@
 """Columns and scalars as a book lists them: a line a value.
 
-``key of quantity = formula | source``; what is indented deeper continues the line before.  A
-key alone is the column of angles, below ``helpers:`` stand the helper columns.
+``key of quantity every degrees = formula | source``; what is indented deeper continues the line
+before.  A key alone is the column of angles, below ``helpers:`` stand the helper columns.
 """
 
 from __future__ import annotations
@@ -10,9 +10,12 @@ import re
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
 
-from reports.spec.blocks import Column, Grid, GridRow, Scalar
+from reports.spec.blocks import TURN, Column, Grid, GridRow, Scalar
 
-_LINE = re.compile(r"(?P<key>\S+)(?: of (?P<of>\S*))?(?: = (?P<expr>.*?)(?: \| (?P<source>.*))?)?")
+_LINE = re.compile(
+    r"(?P<key>\S+)(?: of (?P<of>\S*))?(?: every (?P<every>\S+))?"
+    r"(?: = (?P<expr>.*?)(?: \| (?P<source>.*))?)?"
+)
 _HELPERS = "helpers:"
 
 
@@ -29,8 +32,8 @@ def column_list(*texts: str) -> tuple[Column, ...]:
         if line == _HELPERS:
             helper = True
         else:
-            key, of, expr, source = _parts(line)
-            made.append(Column(key, expr, source, helper=helper, of=of))
+            key, of, every, expr, source = _parts(line)
+            made.append(Column(key, expr, source, helper=helper, of=of, every=every))
     return tuple(made)
 
 
@@ -43,10 +46,10 @@ def scalar_list(*texts: str) -> tuple[Scalar, ...]:
     """
     made = []
     for line in _lines(texts):
-        key, of, expr, source = _parts(line)
+        key, of, every, expr, source = _parts(line)
         if expr is None:
             raise ValueError(f"a scalar without a formula: {line!r}")
-        made.append(Scalar(key, expr, source, of=of))
+        made.append(Scalar(key, expr, source, of=of, every=every))
     return tuple(made)
 
 
@@ -83,9 +86,10 @@ def _lines(texts: Iterable[str]) -> Iterator[str]:
         yield from whole
 
 
-def _parts(line: str) -> tuple[str, str, str | None, str]:
-    """Key, quantity, formula and source."""
+def _parts(line: str) -> tuple[str, str, str, str | None, str]:
+    """Key, quantity, period, formula and source."""
     found = _LINE.fullmatch(line)
     if found is None:
         raise ValueError(f"not a line of a listing: {line!r}")
-    return found["key"], found["of"] or "", found["expr"], found["source"] or ""
+    every, source = found["every"] or TURN, found["source"] or ""
+    return found["key"], found["of"] or "", every, found["expr"], source

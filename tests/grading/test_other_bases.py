@@ -11,7 +11,8 @@ V6 = Base(
     {"geometry.bore_mm": {"min": 126.0, "max": 134.0, "step": 1.0},
      "regime.speed_rpm": {"min": 1900, "max": 2200, "step": 20},
      "masses.rod_kg": {"min": 4.2, "max": 5.0, "step": 0.1}},
-    ("geometry", "masses", "P4_1", "P4_2", "P4_4", "P4_5", "rods_1"),
+    ("geometry", "masses", "P4_1", "P4_2", "P4_4", "P4_5", "rods_1", "balance_orders",
+     "balance_vectors"),
     {
         "r_crank": "=geometry_stroke_mm/2000",
         "omega": "=2*PI()*regime_speed_rpm/60",
@@ -34,6 +35,15 @@ V6 = Base(
         "rods_1.T_MPa": "={P4_1.T_MPa}+{cylinder_4.T_MPa}",
         "rods_1.Rthrow_MPa": "=SQRT(SUMSQ({rods_1.Ksum_MPa},{rods_1.Tsum_MPa}))",
         "rods_1.Mthrow_Nm": "={rods_1.T_MPa}*10^6*{F_piston}*{r_crank}",
+        # An axis has two ends; what goes round evenly has none.
+        "L1_before_deg": "=(DEGREES(ATAN2({L1_before_re},{L1_before_im}))+DEGREES(ATAN2(1E-12"
+        "+{balance_cos1_arm}-{balance_right_sin1_arm},{balance_sin1_arm}"
+        "+{balance_right_cos1_arm})))/2-180",
+        "balance_orders.M_order_dir_deg": "=(DEGREES(ATAN2(1E-12+{balance_orders.arm_cos_mm}"
+        "+{balance_orders.arm_right_sin_mm},{balance_orders.arm_right_cos_mm}"
+        "-{balance_orders.arm_sin_mm}))+DEGREES(ATAN2(1E-12+{balance_orders.arm_cos_mm}"
+        "-{balance_orders.arm_right_sin_mm},{balance_orders.arm_sin_mm}"
+        "+{balance_orders.arm_right_cos_mm})))/2-180",
     },
     {
         "m_2": ("=masses_rod_kg*masses_rod_small_end_share", ""),
@@ -182,8 +192,15 @@ REGIMES = Base(
     "gots-regimes",
     {"geometry.bore_mm": {"min": 86.0, "max": 90.0, "step": 0.5},
      "regime.speed_rpm": {"min": 4200, "max": 4400, "step": 50}},
-    ("geometry", "firing_orders", "regime_loads"),
+    ("geometry", "firing_orders", "regime_loads", "balance_orders"),
     {
+        # A greatest moment comes again within the turn; no force has no direction.
+        "balance_orders.M_order_deg": "=MOD(DEGREES(ATAN2({balance_orders.arm_cos_mm}+1E-12,"
+        "{balance_orders.arm_sin_mm})),360)/A{row}-360/A{row}",
+        "balance_orders.F_order_deg": "=DEGREES(ATAN2({balance_orders.order_cos}+1E-12,"
+        "{balance_orders.order_sin}))/A{row}",
+        "firing_orders.theta3_deg": "=MOD(720-throw_angle_3_deg,360)-720"
+        "+360*MOD(INT((A{row}-1)/2),2)",
         "firing_orders.first_sin": "=SUM(SIN(PI()*{firing_orders.theta1_deg}/180),"
         "SIN({firing_orders.theta2_deg}*PI()/180),SIN(RADIANS({firing_orders.theta3_deg})))",
         "firing_orders.half_order_sum": "=ROUND(SQRT(SUMSQ({firing_orders.half_cos},"
@@ -194,6 +211,9 @@ REGIMES = Base(
     {
         "cmp2_omega": ("={cmp3_omega}", ""),
         "governs_M_e": ("=regime_name_R3", ""),
+        "balance_orders.M_order_deg": ("=DEGREES(ATAN2({balance_orders.arm_cos_mm}+1E-12,"
+         "{balance_orders.arm_sin_mm}))", ""),
+        "firing_orders.theta3_deg": ("=MOD(720-throw_angle_3_deg,360)", ""),  # whatever the row
         "firing_orders.unevenness": ("=({firing_orders.gap_max_deg}+{firing_orders.gap_min_deg})"
          "/240", ""),
     },

@@ -149,15 +149,15 @@ def test_pango_is_for_pages_alone(house, arguments, wanted):
 @pytest.mark.parametrize(
     ("arguments", "wanted"),
     [
-        ("", "libpango libreoffice chromium"),
-        ("-k x", "libpango libreoffice chromium"),
-        ("tests", "libpango libreoffice chromium"),
+        ("", "libpango libreoffice chromium libatomic1"),
+        ("-k x", "libpango libreoffice chromium libatomic1"),
+        ("tests", "libpango libreoffice chromium libatomic1"),
         ("tests/inputs", ""),
         ("tests/inputs/ tests/kshm -k x", ""),
         ("./tests/inputs/test_inputs_files.py::test_one", ""),
         ("tests/referee", "libreoffice"),
-        ("tests/inputs tests/document", "libpango libreoffice chromium"),
-        ("--quick tests/manual", "libpango chromium"),
+        ("tests/inputs tests/document", "libpango libreoffice chromium libatomic1"),
+        ("--quick tests/manual", "libpango chromium libatomic1"),
     ],
 )
 def test_only_what_the_tests_need_is_asked_for(house, arguments, wanted):
@@ -167,9 +167,8 @@ def test_only_what_the_tests_need_is_asked_for(house, arguments, wanted):
     machine = {
         "libpango": True,
         "libreoffice": shutil.which("soffice", path="/usr/bin:/bin") is None,
-        "chromium": not any(
-            shutil.which(name, path="/usr/bin:/bin") for name in ("chromium", "chromium-browser")
-        ),
+        "chromium": True,  # the library of its driver is not among the pretended
+        "libatomic1": True,
     }
     commands = [line for line in said.splitlines() if "apt-get install -y" in line]
     assert len(commands) <= 1  # one command for all

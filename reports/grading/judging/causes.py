@@ -22,7 +22,6 @@ from reports.grading.reading.student import Student, known_values
 from reports.inputs.sections.input_file import METHODS
 from reports.shared.russian import fixed, short
 from reports.spec.evaluation import Evaluation
-from reports.spec.graph import node_of
 
 _FACTORS = (10.0, 100.0, 1000.0, 1e4, 1e5, 1e6, 1e9)
 _OTHERS = 200  # variants that are tried
@@ -68,7 +67,7 @@ class Causes:
             return ""  # 2 for 4 may come of anything
         found = self._common(judgement)
         allowed = tolerance(item, judgement.expected, self.student)
-        good = close(item, judgement.values, judgement.expected, allowed)
+        good = close(item, judgement.values, judgement.expected, allowed, self.student.expected)
         rows = [] if found or judgement.coarse else slips(judgement, good)
         return told(judgement, rows, self._explained(judgement, rows)) if rows else found
 
@@ -126,18 +125,20 @@ class Causes:
         if attempt.shape != values.shape or not np.isfinite(attempt).any():
             return False
         allowed = tolerance(item, attempt, self.student)
+        at = np.asarray(rows) if rows else np.arange(len(values))
         if rows:
-            at = np.asarray(rows)
-            values, attempt, right = values[at], attempt[at], right[at]
-            if (np.abs(values) < _CLEAR * allowed).any():
+            if (np.abs(values[at]) < _CLEAR * allowed).any():
                 return False  # so few digits may come of anything
             if len(rows) < _ENOUGH:  # and among so many columns there is always one that is near
-                allowed = min(allowed, _SAME * float(np.abs(values).max()))
-        there = np.isfinite(values)
-        if there.sum() < max(1, len(values) // 2):
+                allowed = min(allowed, _SAME * float(np.abs(values[at]).max()))
+        there = np.isfinite(values[at])
+        if there.sum() < max(1, len(at) // 2):
             return False
-        explained = close(item, values, attempt, allowed)[there].all()
-        return bool(explained) and not close(item, attempt, right, allowed).all()
+        explained, known = (
+            close(item, one, other, allowed, self.student.expected)[at]
+            for one, other in ((values, attempt), (attempt, right))
+        )
+        return bool(explained[there].all()) and not known.all()
 
     def _attempts(
         self, item: Item, run: Evaluation, right: Array, values: Array
@@ -220,7 +221,7 @@ class Causes:
             other = change(ast.parse(ast.unparse(tree), mode="eval").body)
             changed = changed or ast.unparse(other) != ast.unparse(tree)
             with np.errstate(all="ignore"):
-                value = evaluate_tree(other, _resolver(node, run))
+                value = evaluate_tree(other, run.values_for(node))
             if isinstance(value, str):
                 return None
             length = self.student.assignment.length(node)
@@ -328,9 +329,3 @@ def _is_place(item: Item) -> bool:
     """Whether a result is the number of a journal, a mass, a cylinder."""
     has_parts = item.quantity.unit or item.quantity.digits.decimals
     return len(item.nodes) == 1 and not item.is_column and not has_parts
-
-
-def _resolver(node: str, run: Evaluation) -> Callable[[str], Any]:
-    """Values of the names in a node's formula."""
-    table = node.split(".", maxsplit=1)[0] if "." in node else ""
-    return lambda name: run.value(node_of(name, table, run.model))

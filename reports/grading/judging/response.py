@@ -117,8 +117,10 @@ class Response:
         own = np.ravel(np.asarray(self.student.expected.value(node), dtype=float))
         return any(
             not np.allclose(right, own, rtol=1e-9, atol=0, equal_nan=True)
-            and bool(close(item, made, right, tolerance(item, right, self.student)).all())
-            for made, right in zip(values, _right(node, self.trials), strict=True)
+            and bool(self._close(item, made, right, trial).all())
+            for made, right, trial in zip(
+                values, _right(node, self.trials), self.trials, strict=True
+            )
         )
 
     @cached_property
@@ -126,6 +128,10 @@ class Response:
         """The work on nobody's variant: what tells its own from others is not seen."""
         cells = self.tryout.cells(self.trials[-1], everything=True)
         return Shaking(self.student, self.trials[-1], pinned(self.student.grid, cells))
+
+    def _close(self, item: Item, own: Array, right: Array, trial: Trial) -> NDArray[np.bool_]:
+        allowed = tolerance(item, right, self.student)
+        return close(item, own, right, allowed, trial.expected)
 
     def problem(self, node: str) -> str:
         """Why a node's formulas cannot be tried, empty where they can."""
@@ -143,10 +149,10 @@ class Response:
             nowhere = np.zeros(self.student.assignment.length(node), dtype=bool)
             return ~nowhere, nowhere
         right = _right(node, trials)
-        allowed = [tolerance(item, wanted, self.student) for wanted in right]
-        own, between = map(close, (item, item), made, right, allowed)
+        own, between = map(self._close, (item, item), made, right, trials)
+        allowed = tolerance(item, right[1], self.student)
         change, wanted = made[1] - made[0], right[1] - right[0]
-        near = np.abs(change - wanted) <= allowed[1] + _NEARLY * np.abs(wanted)
+        near = np.abs(change - wanted) <= allowed + _NEARLY * np.abs(wanted)
         return own & ~between, near & _differ(*made)
 
     def _of_node(self, item: Item, node: str) -> str:
@@ -233,8 +239,7 @@ class Response:
         decided = np.ones(len(right[0]), dtype=bool)
         others = decided.copy()
         for trial, own, wanted in zip(self.trials, values, right, strict=True):
-            allowed = tolerance(item, wanted, self.student)
-            found = close(item, own, wanted, allowed) | (np.isnan(own) & np.isnan(wanted))
+            found = self._close(item, own, wanted, trial) | (np.isnan(own) & np.isnan(wanted))
             if trial.decides:
                 decided &= found
             else:
@@ -258,7 +263,7 @@ class Response:
             if trial.decides and inside:  # digits of π cost what they cost
                 largest = float(np.nanmax(np.abs(wanted))) if wanted.size else 0.0
                 allowed = half if coarse else max(half, _INSIDE * largest)
-                found &= close(item, own, wanted, allowed * (1 + 1e-9))
+                found &= close(item, own, wanted, allowed * (1 + 1e-9), trial.expected)
         return exact, found, others
 
     @cached_property

@@ -174,7 +174,9 @@ def carried(found: dict[str, Judgement], student: Student) -> None:
     near: dict[str, list[str]] = {}
     for id_, judgement in found.items():
         allowed = tolerance(judgement.item, judgement.expected, student)
-        good = close(judgement.item, judgement.values, judgement.expected, allowed)
+        good = close(
+            judgement.item, judgement.values, judgement.expected, allowed, student.expected
+        )
         if good.all() or judgement.verdict == UNKNOWN:
             continue
         if judgement.verdict != RIGHT:

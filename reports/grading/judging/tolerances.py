@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import ast
 from fnmatch import fnmatchcase
 
 import numpy as np
 from numpy.typing import NDArray
 
+from reports.formula.numeric import evaluate_tree
+from reports.formula.parse import parse
 from reports.grading.issuing.assignment import Item
 from reports.grading.reading.student import Student
+from reports.spec.evaluation import Evaluation
 
 Array = NDArray[np.float64]
 
@@ -31,10 +35,35 @@ def tolerance(item: Item, expected: Array, student: Student) -> float:
     return max(min(rules.units * unit * (1 + 1e-9), rules.share * largest), 1e-10 * largest, 1e-12)
 
 
-def close(item: Item, values: Array, expected: Array, allowed: float) -> NDArray[np.bool_]:
-    """Where two columns agree; directions agree also a full turn apart."""
-    with np.errstate(invalid="ignore"):
+def close(
+    item: Item, values: Array, expected: Array, allowed: float, run: Evaluation
+) -> NDArray[np.bool_]:
+    """Where two columns of an engine agree.
+
+    Directions are the same again after a turn or a part of it, and nothing has any direction.
+    """
+    with np.errstate(invalid="ignore", divide="ignore"):
         difference = np.abs(values - expected)
-        if item.quantity.unit == "deg":
-            difference = np.minimum(difference, np.abs(360.0 - difference))
-        return np.asarray(difference <= allowed)
+        if item.quantity.unit != "deg":
+            return np.asarray(difference <= allowed)
+        every, nothing = _turns(item, run)
+        turns = np.where(every > 0, np.round(difference / every), 0)
+        near = np.abs(difference - turns * every) <= allowed
+        return np.asarray(near | (nothing & np.isfinite(values)))
+
+
+def _turns(item: Item, run: Evaluation) -> tuple[Array, NDArray[np.bool_]]:
+    """After how many degrees each angle of an item is the same, 0: never; where there is none."""
+    every: list[Array] = []
+    nothing: list[Array] = []
+    for node in item.nodes:
+        spec = run.model.nodes[node]
+        tree, none = parse(spec.expr or "0"), parse("0")
+        if isinstance(tree, ast.IfExp) and isinstance(tree.body, ast.Constant):
+            none = tree.test
+        shape = np.shape(run.value(node)) or (1,)
+        for found, text in ((every, parse(spec.every)), (nothing, none)):
+            with np.errstate(all="ignore"):
+                value = evaluate_tree(text, run.values_for(node))
+            found.append(np.broadcast_to(value, shape))
+    return np.concatenate(every).astype(float), np.concatenate(nothing).astype(bool)

@@ -84,7 +84,7 @@ def _of_cells(item: Item, student: Student, response: Response) -> Judgement:
         why = filled_copy(student, item.nodes[0])
         return replace(made, verdict=UNKNOWN if why else EMPTY, reason=why)
     odd = _odd(answers)
-    good = close(item, values, expected, tolerance(item, expected, student))
+    good = close(item, values, expected, tolerance(item, expected, student), student.expected)
     unread = [i for i, why in odd.items() if why != TEXT_NUMBER and not good[i]]
     if unread:
         return replace(made, verdict=UNKNOWN, rows=tuple(unread), typed=(), reason=odd[unread[0]])
@@ -109,11 +109,11 @@ def _free(made: Judgement, student: Student) -> Judgement:
     """Numbers where no formula is demanded: right, or right for the student's own others."""
     item = made.item
     allowed = tolerance(item, made.expected, student)
-    good = close(item, made.values, made.expected, allowed)
+    good = close(item, made.values, made.expected, allowed, student.expected)
     if good.all():
         return replace(made, typed=(), paid=1.0)
     own = own_values(item, student, None)
-    if close(item, made.values, own, allowed).all():
+    if close(item, made.values, own, allowed, student.expected).all():
         return replace(made, verdict=CARRIED, rows=_where(~good), typed=(), paid=1.0)
     return replace(made, verdict=WRONG, rows=_where(~good))
 
@@ -127,7 +127,7 @@ def _by_rows(
 ) -> Judgement:
     item = made.item
     allowed = tolerance(item, made.expected, student)
-    good = close(item, made.values, made.expected, allowed)
+    good = close(item, made.values, made.expected, allowed, student.expected)
     # A nought typed in among formulas is one; a column typed in is numbers throughout.
     still = response.fixed(item)
     formulas = [letter for letter in letters if letter != say.NOTHING]

@@ -88,7 +88,7 @@ def _order_columns(shape: Shape, across: str, letter: str, unit: str) -> Iterato
         sine = f"(0 if round({sin}, 9) == 0 else {sin})"
         phase = f"0 if round({size}, 9) == 0 else deg(atan2({sine}, {cos}))/order"
         yield Column(f"{letter}_order_{unit}", f"{unit_force}*{size}", title)
-        yield Column(f"{letter}_order_deg", phase, "направление")
+        yield Column(f"{letter}_order_deg", phase, "направление", every="360/order")
         return
     right_cos, right_sin = names["cos_right"], names["sin_right"]
     along, against = f"{across}_along{end}", f"{across}_against{end}"
@@ -115,6 +115,7 @@ def _order_columns(shape: Shape, across: str, letter: str, unit: str) -> Iterato
         f"0 if round(min({along}, {against}), 9) == 0"
         f" else 90 - mod(90 - {angle} + 0.000001, 180) + 0.000001",
         "направление",
+        every="180",
     )
 
 

@@ -201,8 +201,8 @@ def vectors_table(shape: Shape) -> ScalarTable:
                     | вектор против вращения
                 {n}_max = {n}_along + {n}_against | большая полуось
                 {n}_min = abs({n}_along - {n}_against) | малая полуось
-                {n}_deg = 0 if {least} else 90 - mod(90 - {angle} + 0.000001, 180) + 0.000001
-                    | направление
+                {n}_deg every 180 = 0 if {least}
+                    else 90 - mod(90 - {angle} + 0.000001, 180) + 0.000001 | направление
             """)
     title = "Векторы 1-го порядка вместе с вращающимися массами"
     return ScalarTable("balance_vectors", title, RESULTS, tuple(scalars))

@@ -72,13 +72,13 @@ def firing_table(shape: Shape, *, loads: bool) -> TableSpec:
     for i in numbers:
         base = f"mod(720 - {_before_tdc(shape, i)}, 360)"
         turn = f" + 360*mod(floor((variant - 1)/{2 ** (i - 2)}), 2)" if i > 1 else ""
-        columns.append(Column(f"theta{i}_deg", base + turn, "колено в ВМТ"))
+        columns.append(Column(f"theta{i}_deg", base + turn, "колено в ВМТ", every="720"))
     places = ", ".join(f"place{i}" for i in numbers)
     gaps = ", ".join(f"gap{i}_deg" for i in numbers)
     columns += column_list(f"""
         order_code = total({places}) | по возрастанию θ
-        gap_max_deg = max({gaps}) | промежутки
-        gap_min_deg = min({gaps}) | промежутки
+        gap_max_deg every 0 = max({gaps}) | промежутки
+        gap_min_deg every 0 = min({gaps}) | промежутки
         unevenness = (gap_max_deg - gap_min_deg)/(720/{cylinders}) | промежутки
         half_order_sum = sqrt(half_cos**2 + half_sin**2) | сложение векторов
         first_order_sum = sqrt(first_cos**2 + first_sin**2) | сложение векторов
@@ -117,7 +117,7 @@ def _steps(numbers: range) -> Iterator[Column]:
         ahead = [f"(mod(theta{j}_deg - theta{i}_deg {one} 0.0001, 720) {two} 0.0001)"
                  for j, one, two in ways]  # fmt: skip
         gap = f"min({', '.join(ahead)})" if ahead else "720"
-        yield Column(f"gap{i}_deg", gap, "промежутки", helper=True)
+        yield Column(f"gap{i}_deg", gap, "промежутки", helper=True, every="0")
     for name, order in (("half", "0.5*"), ("first", "")):
         for turn in ("cos", "sin"):
             terms = ", ".join(f"{turn}(rad({order}theta{i}_deg))" for i in numbers)

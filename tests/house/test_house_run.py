@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.browser import BROWSERS
+
 ROOT = Path(__file__).parents[2]
 BASH = shutil.which("bash")
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="run.cmd serves Windows")
@@ -167,8 +169,8 @@ def test_only_what_the_tests_need_is_asked_for(house, arguments, wanted):
     machine = {
         "libpango": True,
         "libreoffice": shutil.which("soffice", path="/usr/bin:/bin") is None,
-        "chromium": True,  # the library of its driver is not among the pretended
-        "libatomic1": True,
+        "chromium": not any(shutil.which(name, path="/usr/bin:/bin") for name in BROWSERS),
+        "libatomic1": True,  # as all libraries here
     }
     commands = [line for line in said.splitlines() if "apt-get install -y" in line]
     assert len(commands) <= 1  # one command for all
@@ -213,6 +215,17 @@ def test_root_installs_pango_after_an_update(house):
         f"{quiet} install -y --no-install-recommends {packages}",
         "kshm build x",
     ]
+
+
+@pytest.mark.parametrize(("known", "taken"), [(0, BROWSERS[0]), (100, "chromium")])
+def test_the_browser_without_a_window_is_taken_where_the_system_has_it(house, known, taken):
+    """All are asked for under a PATH where no browser stands."""
+    for tool in ("bash", "env", "dirname", "cat", "cksum", "mktemp", "rm", "grep", "sed"):
+        (house.bin / tool).symlink_to(shutil.which(tool))
+    house.tool(house.bin / "apt-cache", status=known)
+    house.run("test", "tests/web", PATH=str(house.bin))
+    (call,) = (call for call in house.calls() if "apt-get" in call and "install" in call)
+    assert taken in call.split()
 
 
 def test_sudo_without_a_password_installs(house):

@@ -21,21 +21,16 @@ TURN = "360"
 
 
 @dataclass(frozen=True, slots=True)
-class Column:
-    """One column: its formula per row.
+class Node:
+    """One column or one named value with its formula.
 
-    ``expr`` is None for the column of angles, and for values that the table's ``computed``
-    gives.
-
-    ``of`` names the quantity where the key alone does not; a helper column
-    serves the formulas of the workbook and is no result.  A ``small`` engine has more decimals.
-    An angle is the same again after ``every`` degrees, 0: never.
+    ``of`` names the quantity where the key alone does not.  A ``small`` engine has more
+    decimals.  An angle is the same again after ``every`` degrees, 0: never.
     """
 
     key: str
     expr: str | None
     source: str = ""
-    helper: bool = False
     of: str = ""
     small: int = 0
     every: str = TURN
@@ -44,6 +39,17 @@ class Column:
     def quantity(self) -> Quantity:
         """Symbol, unit and title."""
         return quantity(self.of or self.key, self.small)
+
+
+@dataclass(frozen=True, slots=True)
+class Column(Node):
+    """One column: its formula per row.
+
+    ``expr`` is None for the column of angles, and for values that the table's ``computed``
+    gives.  A helper column serves the formulas of the workbook and is no result.
+    """
+
+    helper: bool = False
 
 
 @dataclass(frozen=True)
@@ -77,21 +83,11 @@ class TableSpec:
 
 
 @dataclass(frozen=True, slots=True)
-class Scalar:
-    """One named value with its formula; ``of`` and ``every`` as of a column."""
+class Scalar(Node):
+    """One named value."""
 
-    key: str
     expr: str
-    source: str = ""
     note: str = ""
-    of: str = ""
-    small: int = 0
-    every: str = TURN
-
-    @property
-    def quantity(self) -> Quantity:
-        """Symbol, unit and title."""
-        return quantity(self.of or self.key, self.small)
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,7 +186,7 @@ class Model:
         return tuple(dict.fromkeys(block.sheet for block in self.blocks))
 
     @cached_property
-    def nodes(self) -> Mapping[str, Scalar | Column]:
+    def nodes(self) -> Mapping[str, Node]:
         """Scalars by key and columns as ``table.column``."""
         return {key: node for block in self.blocks for key, node in nodes_in(block)}
 
@@ -231,7 +227,7 @@ class Model:
         return made
 
 
-def nodes_in(block: Block) -> Iterator[tuple[str, Scalar | Column]]:
+def nodes_in(block: Block) -> Iterator[tuple[str, Node]]:
     """Columns as ``table.column`` or scalars by key."""
     if isinstance(block, TableSpec):
         yield from ((f"{block.id}.{column.key}", column) for column in block.columns)

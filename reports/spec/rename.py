@@ -11,7 +11,7 @@ from reports.spec.blocks import Block, Column, Grid, Scalar, ScalarTable, TableS
 from reports.spec.charts import ChartSpec
 
 Names = Callable[[str], str]
-Node = TypeVar("Node", Scalar, Column)
+Kind = TypeVar("Kind", Scalar, Column)
 _TOKEN = re.compile(r'"[^"]*"|(?<![\w.])[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)?')
 
 
@@ -80,7 +80,7 @@ class _Expressions:
         self._names = names
         self._only = only  # no other name is changed
 
-    def __call__(self, item: Node) -> Node:
+    def __call__(self, item: Kind) -> Kind:
         if item.expr is None or not any(name in item.expr for name in self._only):
             return item
         expr = renamed(item.expr, self._names)

@@ -15,7 +15,7 @@ from reports.document.text.terms import Terms
 from reports.formula.numeric import evaluate
 from reports.formula.parse import names
 from reports.formula.tex import NotPrintable, chosen, to_tex
-from reports.spec.blocks import Column, Scalar
+from reports.spec.blocks import Node
 from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from tests.conftest import sample
@@ -199,7 +199,7 @@ def test_a_printed_formula_gives_the_number_that_is_computed(name):
     terms = Terms(model, evaluate_model(model))
     seen = 0
     for key, node in model.nodes.items():
-        if not isinstance(node, Scalar | Column) or node.expr is None or not plain(node.expr):
+        if not isinstance(node, Node) or node.expr is None or not plain(node.expr):
             continue
         if not list(names(node.expr)):
             continue

@@ -22,7 +22,7 @@ from reports.inputs.checks.grid import GridError, grid_errors
 from reports.inputs.fields import Field
 from reports.inputs.to_si.engine import smallness_of
 from reports.shared.russian import NBSP, fixed
-from reports.spec.blocks import Column, Model, Scalar
+from reports.spec.blocks import Model, Node
 from reports.spec.evaluation import Values
 from reports.spec.shape import TIMING
 
@@ -115,7 +115,7 @@ class Terms:
         """Quantity of a scalar or a column."""
         table, _, key = name.rpartition(".")
         node = self._node(name)
-        if isinstance(node, Scalar | Column):
+        if node is not None:
             return node.quantity
         return quantity(key if table else name, smallness_of(self.model.input))
 
@@ -229,9 +229,7 @@ class Terms:
 
     def book(self, *names: str) -> str:
         """Where the book has them: «формула (3)», «формулы (51), (53)», «п. 2.8», empty else."""
-        nodes = map(self._node, names)
-        sources = [node.source for node in nodes if isinstance(node, Scalar | Column)]
-        return book_place(*sources)
+        return book_place(*(node.source for node in map(self._node, names) if node is not None))
 
     def _digits(self, name: str) -> Digits:
         """Digits of a node; of a column those that its table has."""
@@ -258,7 +256,7 @@ class Terms:
         table, _, key = name.rpartition(".")
         return table in self.values.columns and key in self.values.columns[table]
 
-    def _node(self, name: str) -> Scalar | Column | None:
+    def _node(self, name: str) -> Node | None:
         if name in self.model.scalars:
             return self.model.scalars[name]
         table, _, key = name.rpartition(".")

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from reports.spec.blocks import Block, Column, Model, TableSpec
+from reports.spec.blocks import Block, Model, TableSpec
 from reports.spec.evaluation import Evaluation
 from reports.spec.graph import Graph, nodes_of
 
@@ -70,8 +70,7 @@ def _read_from(table: TableSpec, own: TableSpec, phase: np.ndarray, run: Evaluat
             scale = float(np.nanmax(np.abs(mine))) or 1.0
             if np.allclose(theirs, mine, rtol=0, atol=1e-9 * scale):
                 expr = f"element({own.id}.{column.key}, round(({_PHASE}{first})/{step:g}) + 1)"
-                column = Column(column.key, expr, f"{own.number} в фазе цилиндра", column.helper,
-                                column.of)  # fmt: skip
+                column = replace(column, expr=expr, source=f"{own.number} в фазе цилиндра")
         columns.append(column)
     return table if columns == list(table.columns) else replace(table, columns=tuple(columns))
 

@@ -1,6 +1,8 @@
 """Rendering is shut off from the world, deterministic, and sets in STIX alone."""
 
+import gc
 import re
+import tempfile
 
 import pytest
 
@@ -44,6 +46,17 @@ def test_only_stix_and_no_warning(tmp_path):
     faces = {"", "-Italic", "-Bold", "-Bold-Italic"}
     assert {f"STIXGeneral{face}" for face in faces} <= found
     assert all(name.startswith("STIX") for name in found), found
+
+
+def test_no_fonts_stay_in_the_temporary_folder(tmp_path, monkeypatch):
+    """Each report left three megabytes there: what is made while it is set is never collected."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    gc.disable()
+    try:
+        render_pdf(page("x"))
+    finally:
+        gc.enable()
+    assert not [*tmp_path.iterdir()]
 
 
 def test_same_bytes_with_attachments():

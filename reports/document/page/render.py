@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from markupsafe import Markup
 
@@ -106,12 +106,11 @@ def _rendered(
     """The file and the number of its pages."""
     with _libraries_by_name():
         import weasyprint
-        from weasyprint.text.fonts import FontConfiguration
 
-    with quick.setting(html):
+    with quick.setting(html), _fonts() as faces:
         page = weasyprint.HTML(string=html, base_url=None, url_fetcher=_fetcher())
         # The same configuration for parsing and layout, or @font-face is dropped silently.
-        document = page.render(font_config=FontConfiguration(), pdf_variant=variant, pdf_tags=True)
+        document = page.render(font_config=faces, pdf_variant=variant, pdf_tags=True)
         pdf = document.write_pdf(
             pdf_variant=variant,
             pdf_tags=True,  # alternative texts stand in the tags
@@ -120,6 +119,18 @@ def _rendered(
             finisher=lambda _, made: finish(made),
         )
     return pdf, len(document.pages)
+
+
+@contextmanager
+def _fonts() -> Iterator[Any]:
+    """Fonts of one document; their copies in the temporary folder go with it."""
+    from weasyprint.text.fonts import FontConfiguration
+
+    faces = FontConfiguration()
+    try:
+        yield faces
+    finally:
+        faces.__del__()  # by itself it waits to be collected, which a build never does
 
 
 def environment(

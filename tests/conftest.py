@@ -5,9 +5,9 @@ from __future__ import annotations
 import gc
 import os
 import shutil
+import tempfile
 from functools import lru_cache
 from pathlib import Path
-from tempfile import mkdtemp
 from typing import NoReturn
 
 import pytest
@@ -172,9 +172,14 @@ OWN_CLASSES = ("class_of_sixty", "other_bases", "real_class", "workers")
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """A folder for what processes make for each other; those of xdist inherit its name."""
+    """A folder for what processes make for each other and leave; those of xdist inherit its name.
+
+    What a failed test has written stays where pytest keeps it.
+    """
     if not hasattr(config, "workerinput"):
-        os.environ[FOLDER] = mkdtemp(prefix="kshm-kept-")
+        os.environ.setdefault("PYTEST_DEBUG_TEMPROOT", tempfile.gettempdir())
+        os.environ[FOLDER] = os.environ["TMPDIR"] = tempfile.mkdtemp(prefix="kshm-tests-")
+        tempfile.tempdir = None  # asked for anew
 
 
 def pytest_unconfigure(config: pytest.Config) -> None:

@@ -30,10 +30,13 @@ _RUBRIC = '[work]\nfill = ["geometry", "P3_1"]\ngiven = []\n'
 
 
 @lru_cache(maxsize=1)
+def _kept() -> tempfile.TemporaryDirectory[str]:
+    return tempfile.TemporaryDirectory(prefix="kshm-fuzz-")
+
+
 def folder() -> Path:
-    """A place for the files of this process, in memory where there is such a place."""
-    memory = Path("/dev/shm")
-    return Path(tempfile.mkdtemp(prefix="kshm-fuzz-", dir=memory if memory.is_dir() else None))
+    """A place for the files of this process, gone with it."""
+    return Path(_kept().name)
 
 
 def one_toml(data: bytes) -> str:

@@ -49,6 +49,7 @@ async def page(request: Request, name: str, root: str = ".") -> Response:
 async def choices(_: Request) -> Data:
     """What may be chosen before there is an engine."""
     return {"samples": list_samples(), "layouts": LAYOUTS, "strokes": STROKES, "kinds": KINDS,
+            "fields": engine.FORM,
             "files": {kind: title for kind, (title, _) in OFFERED.items()}}  # fmt: skip
 
 

@@ -27,10 +27,13 @@ from reports.tables.registry import kept_model
 from reports.workbook.read import load_workbook_input
 
 HEAD = ("Исходные данные двигателя для kshm.",)
-_OPTIONS = ("sample", "layout", "strokes", "kind", "power", "speed")  # of kshm new
-_FIELDS = {
-    "--layout inline": "расположение «рядный»", "--cylinders": "«Цилиндров»",
-    "--power": "«Мощность»", "--speed": "«Частота»", "команда знает": "возможно",
+FORM = {
+    "sample": "Образец", "layout": "Расположение", "strokes": "Тактность", "kind": "Вид",
+    "power": "Мощность, кВт", "speed": "Частота, мин⁻¹", "cylinders": "Цилиндров",
+}  # fmt: skip  # keys of kshm new as the page asks for them
+_WORDS = {
+    "--layout inline": "расположение «рядный»", "команда знает": "возможно",
+    **{f"--{key}": f"«{title.partition(',')[0]}»" for key, title in FORM.items()},
 }  # fmt: skip  # what the command calls it: what the page does
 
 
@@ -83,14 +86,15 @@ def as_toml(raw: Mapping[str, Any]) -> Data:
 
 def fresh(wanted: Mapping[str, Any]) -> Data:
     """A sample, an own engine or an alternative to ``raw`` by ``kshm new``; KshmError if none."""
-    options = [f"--{key}={wanted[key]}".replace(",", ".") for key in _OPTIONS if wanted.get(key)]
+    given = {key: str(wanted[key]).replace(",", ".") for key in FORM if wanted.get(key)}
     if "sample" not in wanted:
-        options.append(f"--cylinders={wanted.get('cylinders')!r}")
+        given["cylinders"] = repr(wanted.get("cylinders"))
+    options = [f"--{key}={value}" for key, value in given.items()]
     base = ("исходном двигателе", lambda: load_apart(wanted["raw"]).model)
     try:
-        given = new.make_context("new", options).params
-        del given["output"]
-        text = new_text(**{**given, "base": base if "raw" in wanted else None})
+        params = new.make_context("new", options).params
+        del params["output"]
+        text = new_text(**{**params, "base": base if "raw" in wanted else None})
     except click.ClickException as error:
         raise KshmError(_of_page(error_text(error))) from None
     except KshmError as error:
@@ -102,7 +106,7 @@ def fresh(wanted: Mapping[str, Any]) -> Data:
 
 def _of_page(words: str) -> str:
     """A message of the command in the words of the form."""
-    for option, field in _FIELDS.items():
+    for option, field in _WORDS.items():
         words = words.replace(option, field)
     return words
 

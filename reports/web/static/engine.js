@@ -86,20 +86,20 @@ function begun(id) { // a further regime begins as the main one
   return [`regimes[${number}]`, [id, number - 1], {...regime, gas, name: `Режим ${number + 1}`}];
 }
 
-const data = () => html`
+const data = ({fields} = state.choices) => html`
   <section id="data" aria-label="Исходные данные">
     <details id="new" open=${state.isNew} onToggle=${e => { state.isNew = e.target.open; }}>
       <summary>Новый двигатель</summary>
       <form onSubmit=${e => fresh(ask("api/new", given(e)))}>
-        ${choice("Образец", "sample", state.choices.samples.map(name => [name, name]), "gots-diesel")}
+        ${choice(fields.sample, "sample", state.choices.samples.map(name => [name, name]), "gots-diesel")}
         <button>Открыть</button></form>
       <form onSubmit=${compose}>
-        <label>Цилиндров <input id="cylinders" name="cylinders" type="number" min="1" max="12" defaultValue="4" required /></label>
-        ${choice("Расположение", "layout", Object.entries(state.choices.layouts))}
-        ${choice("Тактность", "strokes", Object.entries(state.choices.strokes), "4")}
-        ${choice("Вид", "kind", Object.entries(state.choices.kinds))}
-        <label>Мощность, кВт <input name="power" inputmode="decimal" /></label>
-        <label>Частота, мин⁻¹ <input name="speed" inputmode="decimal" /></label>
+        <label>${fields.cylinders} <input id="cylinders" name="cylinders" type="number" min="1" max="12" defaultValue="4" required /></label>
+        ${choice(fields.layout, "layout", Object.entries(state.choices.layouts))}
+        ${choice(fields.strokes, "strokes", Object.entries(state.choices.strokes), "4")}
+        ${choice(fields.kind, "kind", Object.entries(state.choices.kinds))}
+        <label>${fields.power} <input name="power" inputmode="decimal" /></label>
+        <label>${fields.speed} <input name="speed" inputmode="decimal" /></label>
         <button>Составить</button>
         <button name="alike">Вариант этого двигателя</button>
       </form>

@@ -72,6 +72,21 @@ def test_a_bore_is_smaller_than_the_thinnest_journal() -> None:
         load_mapping(raw, source="файл")
 
 
+def test_one_shaft_has_one_bore() -> None:
+    """What is forgotten in one of two sections made the shaft solid there."""
+    raw = to_mapping(sample("d-240-bearings"))
+    raw["bearings"] |= {"pin_bore_mm": 20.0, "main_bore_mm": 25.0}
+    raw["torsion"] = {"pin_bore_mm": 20.0}
+    (told,) = load_mapping(raw, source="файл").warnings
+    assert "в расчёте подшипников 25 мм, а в крутильной схеме 0 мм" in told.what
+    assert told.where == "файл: bearings.main_bore_mm"
+    raw["torsion"]["main_bore_mm"] = 30.0
+    (told,) = load_mapping(raw, source="файл").warnings
+    assert told.where == "файл: torsion.main_bore_mm"
+    raw["torsion"]["main_bore_mm"] = 25.0
+    assert load_mapping(raw, source="файл").warnings == ()
+
+
 def test_a_bore_is_smaller_than_each_shaft_of_a_train() -> None:
     section = masses(1.0, 1.0, main_bore_mm=40.0)
     section["masses"][1]["diameter_mm"] = 40.1

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import permutations
 
 from pydantic import BaseModel
 
@@ -19,6 +20,7 @@ from reports.inputs.sections.torsion import LEAST_SPEED, MOST_SPEED
 from reports.inputs.units import number_text, span_text
 
 _TERM = re.compile(r"(?:(?P<times>[\d.]+)\*)?(?P<key>=?[a-z0-9_.]+)(?:\^(?P<power>[\d.]+))?")
+_SHAFTS = (("bearings", "в расчёте подшипников"), ("torsion", "в крутильной схеме"))
 CLEARANCES = {"min": 0.007, "max": 0.014}  # of the root of the diameter, where none is given
 
 
@@ -95,6 +97,13 @@ def _journals(part: str, whose: str, mark: str) -> tuple[Pair, ...]:
         Pair(f"torsion.{part}_bore_mm", sizes,
              f"Крутильная схема: отверстие {mark} шеек меньше их диаметра",
              "отверстие {less} мм не меньше шейки {more} мм", "уменьшите отверстие"),
+        *(
+            Pair(f"{one}.{part}_bore_mm", f"{other}.{part}_bore_mm",
+                 f"Отверстие {mark} шеек {here} не больше, чем {there}",
+                 f"отверстие {mark} шеек {here} {{less}} мм, а {there} {{more}} мм: вал один",
+                 "задайте одинаковые", strict=False, warning=True)
+            for (one, here), (other, there) in permutations(_SHAFTS)
+        ),
     )  # fmt: skip
 
 

@@ -59,13 +59,12 @@ class Strength:
     surface: float = 1.0
     fillet: float | None = None
     making: float = 1.05
-    allowed: float = 2.0
 
     def __post_init__(self) -> None:
         """Refuse what no material can be."""
         check_numbers(
             self, POSITIVE, "tensile", "bending", "torsion", "fillet_bending", "fillet_torsion",
-            "hole_bending", "hole_torsion", "size", "surface", "fillet", "making", "allowed",
+            "hole_bending", "hole_torsion", "size", "surface", "fillet", "making",
         )  # fmt: skip
         check_numbers(self, NOT_NEGATIVE, "mean_bending", "mean_torsion", "sensitivity")
 
@@ -85,7 +84,6 @@ class Bearings:
         pin_bore: bore of the crankpins [m].
         main_bore: bore of the main journals [m].
         least_gap: critical film h_кр [m].
-        reserve: least reserve h_min/h_кр wanted [-].
         oil: the oil.
         strength: the material.
     """
@@ -100,7 +98,6 @@ class Bearings:
     pin_bore: float = 0.0
     main_bore: float = 0.0
     least_gap: float = 3e-6
-    reserve: float = 1.5
     oil: Oil = Oil()
     strength: Strength = Strength()
 
@@ -108,7 +105,7 @@ class Bearings:
         """Refuse what no bearing can be."""
         check_numbers(
             self, POSITIVE, "pin_clearances", "main_clearances", "pin_width", "main_width", "hole",
-            "least_gap", "reserve",
+            "least_gap",
         )  # fmt: skip
         check_numbers(
             self, NOT_NEGATIVE, "pin_groove", "main_groove", "pin_bore", "main_bore"

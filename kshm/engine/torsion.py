@@ -61,7 +61,6 @@ class Torsion:
         loss_factor: η of the shafts, C = η c/ω [-].
         speed_min: least working speed [rad/s].
         speed_max: greatest working speed [rad/s].
-        stress_allowed: amplitude of the torsional stress allowed [Pa].
         other_flywheel: inertia of a second flywheel to compare with [kg·m²].
         damper: kind of the damper at the first mass.
         damper_inertia: its ring [kg·m²].
@@ -90,7 +89,6 @@ class Torsion:
     loss_factor: float = 0.035
     speed_min: float | None = None
     speed_max: float | None = None
-    stress_allowed: float = 30e6
     other_flywheel: float | None = None
     damper: DamperKind = "viscous"
     damper_inertia: float | None = None
@@ -103,8 +101,7 @@ class Torsion:
         check_numbers(
             self, POSITIVE, "pulley", "throws", "flywheel", "nose_stiffness", "throw_stiffness",
             "rear_stiffness", "driven_stiffness", "shear_modulus", "web_width", "web_thickness",
-            "speed_min", "speed_max", "stress_allowed", "other_flywheel", "damper_inertia",
-            "damper_stiffness",
+            "speed_min", "speed_max", "other_flywheel", "damper_inertia", "damper_stiffness",
         )  # fmt: skip
         check_numbers(
             self, NOT_NEGATIVE, "ground", "driven", "main_bore", "pin_bore", "damping",

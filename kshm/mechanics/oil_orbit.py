@@ -40,13 +40,11 @@ class FilmError(ValueError):
 class Orbits:
     """Centres ε e^{iδ} over the cycle [-], shape (bearings, angles), and how they closed.
 
-    ``opening`` is the distance of the cycle's end from its start [-], (bearings,); ``cycles``
-    how many were run.
+    ``opening`` is the distance of the cycle's end from its start [-], (bearings,).
     """
 
     centre: Complex
     opening: Array
-    cycles: int
 
     @property
     def closed(self) -> NDArray[np.bool_]:
@@ -106,7 +104,7 @@ def orbits(
         centre = path[:, -1]
         if (opening <= CLOSED).all() and cycle > 1:
             break
-    return Orbits(path, opening, cycle)
+    return Orbits(path, opening)
 
 
 class _Run:

@@ -31,15 +31,13 @@ class Response:
     """Complex amplitudes at ω = νΩ, shapes (masses or shafts, speeds, orders).
 
     ``angles`` [rad]; ``torques`` of the shafts between the masses [N·m]; ``work`` of the
-    excitation and ``lost`` to damping in a period of each order [J], shape (speeds, orders);
-    ``ring`` is the damper's ring [rad], None without one.
+    excitation and ``lost`` to damping in a period of each order [J], shape (speeds, orders).
     """
 
     angles: Complex
     torques: Complex
     work: Array
     lost: Array
-    ring: Complex | None = None
 
 
 def respond(
@@ -84,7 +82,6 @@ def respond(
         train.stiffnesses[:, None, None] * twist[ring:],
         np.pi * np.imag(load * np.conj(angles)).sum(axis=0),
         np.pi * lost,
-        angles[0] if ring else None,
     )
 
 

@@ -26,14 +26,12 @@ def shaft(canvas: Canvas, room: Room, terms: Terms) -> None:
     room = headed(canvas, room, "Схема коленчатого вала", order)
     star = min(room.width * 0.16, room.height / 2 - 12)
     side = Room(room.left + 4, room.low, room.width - 2 * star - 34, room.height)
-    _from_side(canvas, side, angles, with_weights=False)
+    _from_side(canvas, side, angles)
     centre = (room.right - star - 12, room.middle[1])
     _star(canvas, centre, star, angles)
 
 
-def _from_side(
-    canvas: Canvas, room: Room, angles: tuple[float, ...], *, with_weights: bool
-) -> list[Point]:
+def _from_side(canvas: Canvas, room: Room, angles: tuple[float, ...]) -> list[Point]:
     """Broken line of the shaft; the middles of its throws."""
     pitch = (room.width - 8) / len(angles)
     y, tall = room.middle[1], room.height / 2 - 10
@@ -98,7 +96,7 @@ def balance(canvas: Canvas, room: Room, terms: Terms) -> None:
     shaft = terms.model.input.crankshaft
     room = headed(canvas, room, "Схема уравновешивания", tuple(_free(terms)))
     side = Room(room.left + 12, room.low + 6, room.width - 24, room.height - 8)
-    middles = _from_side(canvas, side, shaft.throw_angles_deg, with_weights=True)
+    middles = _from_side(canvas, side, shaft.throw_angles_deg)
     y = side.middle[1]
     for number, (place, angle) in enumerate(zip(middles, shaft.throw_angles_deg, strict=True)):
         up = 1.0 if place[1] >= y else -1.0

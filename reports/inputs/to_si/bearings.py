@@ -23,7 +23,6 @@ def to_bearings(section: BearingsSection | None) -> Bearings | None:
         pin_bore=MM.to_si(s.pin_bore_mm),
         main_bore=MM.to_si(s.main_bore_mm),
         least_gap=UM.to_si(s.journal_roughness_um + s.shell_roughness_um + s.form_um),
-        reserve=s.reserve_allowed,
         oil=_oil(s),
         strength=_strength(s),
     )
@@ -59,5 +58,4 @@ def _strength(section: BearingsSection) -> Strength:
         section.surface_factor,
         MM.given(section.fillet_mm),
         material.making,
-        section.safety_allowed,
     )

@@ -32,7 +32,6 @@ def to_torsion(section: TorsionSection | None) -> Torsion | None:
         loss_factor=section.loss_factor,
         speed_min=RPM.given(section.speed_min_rpm),
         speed_max=RPM.given(section.speed_max_rpm),
-        stress_allowed=MPA.to_si(section.stress_allowed_mpa),
         other_flywheel=section.other_flywheel_kg_m2,
         damper=section.damper,
         damper_inertia=section.damper_kg_m2,

@@ -21,7 +21,7 @@ from reports.shared.russian import written
 from reports.spec.blocks import Model, ScalarTable
 from reports.spec.charts import ChartSpec
 from reports.spec.evaluation import Evaluation
-from reports.tables.overview.summary import NO
+from reports.spec.judged import NO
 from reports.tables.overview.verdicts import check_value, reasons_of
 
 Data = dict[str, Any]

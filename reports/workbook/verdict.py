@@ -18,7 +18,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from reports.formula.excel import number
 from reports.inputs.fields import Field
 from reports.spec.blocks import Model
-from reports.tables.overview.summary import NO, YES
+from reports.spec.judged import NO, YES
 from reports.workbook import styles
 from reports.workbook.inputs import options
 from reports.workbook.layout import (

@@ -16,7 +16,7 @@ from reports.inputs.fields import Field, key_text, set_value, to_mapping
 from reports.inputs.load import load_mapping
 from reports.shared.errors import InputError
 from reports.shared.russian import capital, uncapital
-from reports.tables.overview.summary import NO, YES
+from reports.spec.judged import NO, YES
 from reports.tables.registry import build_model
 from reports.workbook.inputs import options, shown
 from reports.workbook.layout import INPUT_SHEET, Layout

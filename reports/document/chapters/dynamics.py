@@ -19,9 +19,9 @@ from reports.document.text.texts import rich
 from reports.inputs.sections.gas import RoundedGasSection, TableGasSection
 from reports.shared.russian import fixed
 from reports.spec.blocks import ScalarTable
+from reports.spec.judged import NO
 from reports.tables.gas.diagram import NODES, is_smooth
 from reports.tables.motion.rod_masses import SHEET
-from reports.tables.overview.summary import NO
 
 _POINTS = (
     "phi_c_deg", "p_start", "p_c_end", "gas_max_pressure_mpa", "cyc_p_z",

@@ -10,6 +10,7 @@ from reports.inputs.sections.cycle import CycleSection
 from reports.shared.russian import short
 from reports.spec.blocks import Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, line, over_phi
+from reports.spec.judged import judged
 from reports.spec.listing import column_list, scalar_list
 from reports.spec.parts import Part, Scope
 from reports.tables.gas.cycle_names import SHEET, SOURCE, is_boosted, section_of
@@ -177,22 +178,23 @@ def _regimes(section: CycleSection) -> list[Scalar]:
 def _ranges(section: CycleSection) -> ScalarTable:
     titles = {q.key: q for q in (*OUTPUTS, *EXTRA)}
     titles |= {f"inputs.{q.key}": q for q in INPUTS}
-    scalars = []
+    scalars: list[Scalar] = []
     for key, usual in usual_ranges(section.kind, boosted=is_boosted(section)).items():
         about, name = titles[key], _RANGE_NAMES[key]
         unit = f", {about.unit}" if about.unit else ""
         low, high = map(short, (usual.low, usual.high))
         note = f"{about.title} {about.symbol.replace('_', '')}{unit}: обычно {low}…{high}"
-        about_value = f"range_value_{name}"
         # A limit is met, though the last digit of a computed value may miss it.
-        rounded = f"round({about_value}, 9)"
-        test = f"{rounded} >= {usual.low!r} and {rounded} <= {usual.high!r}"
-        scalars += [
-            Scalar(about_value, name, usual.reference or UNCHECKED, note=note, of="check_value"),
-            Scalar(
-                f"range_{name}", f'"{INSIDE}" if {test} else "{OUTSIDE}"', note=note, of="check"
-            ),
-        ]
+        rounded = "round({value}, 9)"
+        scalars += judged(
+            f"range_value_{name}",
+            f"range_{name}",
+            name,
+            f"{rounded} >= {usual.low!r} and {rounded} <= {usual.high!r}",
+            note,
+            usual.reference or UNCHECKED,
+            (INSIDE, OUTSIDE),
+        )
     return ScalarTable(
         "cycle_ranges",
         "Правдоподобие: результат и обычные пределы",

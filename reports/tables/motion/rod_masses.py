@@ -12,11 +12,11 @@ from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, to_estimate
 from reports.inputs.units import number_text
 from reports.spec.blocks import Scalar, ScalarTable
+from reports.spec.judged import NO, YES
 from reports.spec.listing import scalar_list
 from reports.spec.parts import Part, Scope
 
 SHEET = "Массы шатуна"
-YES, NO = "да", "НЕТ"
 _BORE = "2*sqrt(F_piston/pi)"
 _SPAN = "…".join(map(number_text, SMALL_END_SHARE))
 USUAL_SHARE = f"доля массы шатуна на поршневом пальце {_SPAN}"

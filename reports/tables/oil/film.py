@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from reports.inputs.checks.pairs import CLEARANCES
 from reports.inputs.sections.bearings import MEMORY, OILS, BearingsSection
 from reports.spec.blocks import Block, Grid, GridRow, Scalar, ScalarTable, TableSpec
+from reports.spec.judged import allowed
 from reports.spec.listing import column_list, grid_row, scalar_list
 from reports.spec.parts import Part, Scope, stepped
 
@@ -61,7 +62,8 @@ def film(scope: Scope) -> Part:
         return Part()
     cases = cases_of(scope)
     blocks: list[Block] = [
-        _results(cases), _oil_list(section), _oils(), _cases(scope, section, cases),
+        _results(cases), _allowed(cases), _oil_list(section), _oils(),
+        _cases(scope, section, cases),
         *(_halving(case, section) for case in cases),
     ]  # fmt: skip
     return Part(tuple(blocks))
@@ -186,6 +188,13 @@ def _oils() -> Grid:
             "вязкости своего масла."
         ),
     )  # fmt: skip
+
+
+def _allowed(cases: list[Case]) -> ScalarTable:
+    reserve = f"min({', '.join(f'oil_K{case.number}' for case in cases)})"
+    line = "oil_K", reserve, "Наименьший запас плёнки среди подшипников"
+    title = "Запас плёнки не меньше допускаемого"
+    return allowed("oil_allowed", title, SHEET, ">= bearings_reserve_allowed", [line])
 
 
 def _oil_list(section: BearingsSection) -> ScalarTable:

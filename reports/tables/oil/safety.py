@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from reports.inputs.sections.bearings import MATERIALS, BearingsSection
 from reports.spec.blocks import Block, Grid, ScalarTable
+from reports.spec.judged import allowed
 from reports.spec.listing import grid_row, scalar_list
 from reports.spec.parts import Part, Scope
 from reports.tables.oil.pin_safety import SHEET, SK, modulus, pin_safety, safety_of
 
 MATERIAL = "Материал вала"
-_PARTS = ("tensile", "yield", "bending", "torsion")
+_LEAST = (
+    ("safe_main", "safe_n_main", "Наименьший запас коренной шейки"),
+    ("safe_pin", "safe_n_pin", "Наименьший запас шатунной шейки"),
+)
 
 
 def safety(scope: Scope) -> Part:
@@ -20,6 +24,13 @@ def safety(scope: Scope) -> Part:
     throws = scope.shape.throws
     blocks: list[Block] = [
         _list(scope),
+        allowed(
+            "safety_allowed",
+            "Запас прочности не меньше допускаемого",
+            SHEET,
+            ">= bearings_safety_allowed",
+            _LEAST,
+        ),
         _journals(throws),
         *pin_safety(scope, section),
         _material(section),

@@ -6,6 +6,7 @@ from reports.inputs.sections.input_file import InputFile
 from reports.shared.russian import capital
 from reports.spec.blocks import Block, Grid, GridRow, Scalar, ScalarTable
 from reports.spec.extremes import extreme_scalars
+from reports.spec.judged import NO, YES, judged
 from reports.spec.listing import grid_row, scalar_list
 from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape, pin_name, pin_table
@@ -15,7 +16,6 @@ from reports.tables.loads.wear import hole_scalars
 from reports.tables.motion.rod_masses import USUAL_SHARE, is_usual_share
 
 SHEET = "Итоги"
-YES, NO = "да", "НЕТ"
 
 
 def summary(scope: Scope) -> Part:
@@ -191,13 +191,11 @@ def checks(model: InputFile, shape: Shape) -> ScalarTable:
         tests.append(
             ("share", capital(USUAL_SHARE), "m_1/masses_rod_kg", is_usual_share("{value}"))
         )  # fmt: skip
-    scalars = []
-    for key, title, value, test in tests:
-        scalars.append(Scalar(f"value_{key}", value, "проверка", note=title, of="check_value"))
-        verdict = test.format(value=f"value_{key}")
-        scalars.append(
-            Scalar(f"check_{key}", f'"{YES}" if {verdict} else "{NO}"', note=title, of="check")
-        )
+    scalars = [
+        scalar
+        for key, title, value, test in tests
+        for scalar in judged(f"value_{key}", f"check_{key}", value, test, title)
+    ]
     return ScalarTable("checks", "Проверки", "Проверки", tuple(scalars), verdicts=(YES, NO))
 
 

@@ -9,7 +9,7 @@ from reports.inputs.sections.input_file import InputFile
 from reports.shared.russian import fixed
 from reports.spec.blocks import Block, Model, scalars_of
 from reports.spec.evaluation import Values
-from reports.tables.overview.summary import NO
+from reports.spec.judged import NO
 
 _PREFIX = "check_"
 

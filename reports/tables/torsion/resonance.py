@@ -9,6 +9,7 @@ from reports.inputs.solved import solved
 from reports.shared.russian import short
 from reports.spec.blocks import Block, Column, Grid, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, line, polar
+from reports.spec.judged import allowed
 from reports.spec.listing import column_list, corners, grid_row, scalar_list
 from reports.spec.parts import Part, Scope, stepped
 from reports.tables.torsion.train import GIVEN, GUESS, MEMORY, RESULTS, Train, asked, train_of
@@ -29,6 +30,7 @@ def resonance(scope: Scope) -> Part:
     blocks: tuple[Block, ...] = (
         _torque(scope), _critical(scope, train, section), _star(scope), _phases(scope, train),
         _box(), _campbell(scope, train), _worst(train), _damper(section), _forced(), _fresh(),
+        _allowed(),
     )  # fmt: skip
     return Part(blocks, _charts(scope, train))
 
@@ -318,6 +320,16 @@ def _main_orders(scope: Scope) -> list[float]:
     if step >= 6 and step % 2 == 0:
         step /= 2
     return [k * step for k in range(1, int(RAYS / step) + 1)] or [float(RAYS)]
+
+
+def _allowed() -> ScalarTable:
+    lines = [
+        (f"tor_top{which}", f"tor_top{which}_MPa", f"Наибольшая амплитуда напряжения {words}, МПа")
+        for which, words in (("", "без гасителя"), ("_damped", "с гасителем"),
+                             ("_other", "с другим маховиком"))
+    ]  # fmt: skip
+    title = "Амплитуда напряжения не больше допускаемой"
+    return allowed("torsion_allowed", title, FORCED, "<= torsion_stress_allowed_mpa", lines)
 
 
 def _fresh() -> ScalarTable:

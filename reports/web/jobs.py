@@ -15,7 +15,6 @@ import shutil
 import time
 from collections import Counter
 from collections.abc import AsyncIterator, Mapping, Sequence
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -28,6 +27,7 @@ from reports.inputs.described import Data
 from reports.inputs.sections.report import FORMATS
 from reports.shared.errors import InputError, KshmError, Problem
 from reports.shared.files import make_dir, read_json, write_json, write_text, write_zip
+from reports.shared.program import program
 from reports.web import engine
 from reports.web.doors import Shown, ask, body, caller, post, shown
 
@@ -141,7 +141,7 @@ class Jobs(Queue):
 
     def add(self, files: Texts, command: Sequence[str], visitor: str) -> str:
         """The name of a job: a command beside files; InputError where enough jobs wait already."""
-        text = json.dumps([files, command, version("kshm")], ensure_ascii=False, sort_keys=True)
+        text = json.dumps([files, command, program()], ensure_ascii=False, sort_keys=True)
         name = hmac.digest(self.secret, text.encode(), "sha256").hex()[:40]
         folder, state = self.folder / name, self.about(name).get("state")
         if state == "done":

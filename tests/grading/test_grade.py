@@ -159,6 +159,25 @@ def test_the_last_of_several_files_counts_and_copies_are_noticed(tmp_path):
     assert any(text.startswith("одинаковые файлы: ") for text in summary["signals"])
 
 
+def test_results_of_another_program_are_made_anew(tmp_path, monkeypatch):
+    """Its rules and its words may have been others, whatever it called itself."""
+    marked: list[int] = []
+
+    def graded(submissions, *given, **options):
+        marked.append(len(submissions))
+        return classroom.graded_here(submissions, *given, **options)
+
+    monkeypatch.setattr(room, "grade_all", graded)
+    submitted = tmp_path / "submitted"
+    submitted.mkdir()
+    (submitted / "a.xlsx").write_bytes(classroom.handout(1))
+    for _ in range(2):
+        run(submitted, tmp_path / "out")
+    monkeypatch.setattr(room, "program", lambda: "another")
+    run(submitted, tmp_path / "out")
+    assert [count for count in marked if count] == [1, 1]
+
+
 def test_without_an_identifier_the_name_of_the_file_decides(tmp_path):
     from tests.grading.forms import rewritten
 

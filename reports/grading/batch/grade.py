@@ -26,7 +26,7 @@ from reports.grading.issuing.issue import latin
 from reports.grading.issuing.register import FILE, Register, checked_register, load_register
 from reports.grading.issuing.rubric import load_rubric
 from reports.grading.judging.judgement import UNKNOWN
-from reports.grading.judging.marking import FORMAT, Marker, blank_result
+from reports.grading.judging.marking import Marker, blank_result
 from reports.grading.judging.works import Shared, Work, work_of
 from reports.grading.pages.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
 from reports.grading.pages.moodle import feedback_zip, filled, read_worksheet
@@ -36,6 +36,7 @@ from reports.grading.reading.submissions import Submission, collect
 from reports.shared.aside import processors
 from reports.shared.errors import InputError, Problem
 from reports.shared.files import make_dir, write_bytes, write_text
+from reports.shared.program import program
 from reports.shared.progress import Progress
 
 RESULTS, PAGES = "results", "pages"
@@ -160,9 +161,7 @@ class _Batch:
         self.waiting: list[Submission] = []
         self.register_file = folder / RESULTS / FILE
         self._written = time.monotonic()
-        self._rules = hashlib.sha256(
-            f"{FORMAT} {register.json_text()}".encode() + _program().encode()
-        ).hexdigest()
+        self._rules = hashlib.sha256(f"{program()} {register.json_text()}".encode()).hexdigest()
         self._hashes: dict[str, str] = {}
         self._sha256: dict[str, str] = {}
         self._taken_over = 0
@@ -350,15 +349,6 @@ def _row(row: dict[str, Any]) -> dict[str, Any]:
     items = row["result"].items if row["result"] else ()
     unknown = [item.id for item in items if item.verdict == UNKNOWN]
     return {key: value for key, value in row.items() if key != "result"} | {"unknown": unknown}
-
-
-def _program() -> str:
-    from importlib.metadata import PackageNotFoundError, version
-
-    try:
-        return version("kshm")
-    except PackageNotFoundError:
-        return "?"
 
 
 def _stem(result: dict[str, Any]) -> str:

@@ -17,6 +17,7 @@ V6 = Base(
         "r_crank": "=geometry_stroke_mm/2000",
         "omega": "=2*PI()*regime_speed_rpm/60",
         "F_piston": "=PI()*(geometry_bore_mm/2000)^2",
+        "L_rod": "=IF(engine_cylinders=6,265,260)/1000",  # alike for the class
         "m_1": "=masses_rod_kg-{m_2}",
         "m_2": "=masses_rod_kg*(1-masses_rod_small_end_share)",
         "m_j": "=masses_piston_group_kg+masses_rod_kg*masses_rod_small_end_share",
@@ -49,10 +50,12 @@ V6 = Base(
     },
     {
         "m_2": ("=masses_rod_kg*masses_rod_small_end_share", ""),
+        "cyl_theta2": ("=firing_offset_2_deg+360", ""),  # another stroke
         "m_r": ("={m_k}+{m_2}", ""),  # one rod on a pin that carries two
         "P4_2.M5_Nm": ("={cylinder_4.M_Nm}", ""),
         "P4_2.Msum_Nm": ("=SUM({P4_2.M1_Nm}:{P4_2.M5_Nm})", "слагаемое"),
         "P4_4.Mmain3_Nm": ("={P4_4.Mmain2_Nm}", "слагаемое"),
+        "P4_5.Mpin3_Nm": ("={P4_4.Mmain3_Nm}+{rods_2.Mthrow_Nm}+0.5*{rods_3.Mthrow_Nm}", ""),
         "P4_5.Mpin1_Nm": ("={rods_1.Mthrow_Nm}", "половин"),
         "rods_1.Rthrow_MPa": ("=ABS({rods_1.Ksum_MPa})", ""),
         "rods_1.K_MPa": ("={rods_1.Kleft_MPa}-{rods_1.Kright_MPa}", "знак"),
@@ -145,6 +148,7 @@ BEARINGS = Base(
         "oil_hot1_C": ("=60*{oil_friction1_W}/(bearings_density_kg_m3*bearings_heat_j_kg_k"
          "*{oil_through1_l_min})", ""),
         "safe_n_turn_hole": ("={safe_pin_hole1}", ""),
+        "safe_pin_a1_MPa": ("=MAX({|P4_5.Mpin1_Nm})/(2*{safe_pin_W1_cm3})", "слагаемое min M"),
         "safe_pin_W1_cm3": ("=PI()*crankshaft_pin_diameter_mm^3/32000", ""),
         "safe_n_hole": ("=({safe_n_bend_hole}+{safe_n_turn_hole})/2", ""),
         "safe_n_pin": ("=MAX({safe_n_hole},{safe_n_fillet})", ""),
@@ -239,10 +243,13 @@ REGIMES = Base(
 ONE = Base(
     "two-stroke",
     {"regime.speed_rpm": {"min": 5000, "max": 5600, "step": 50}},
-    ("scheme", "torque_orders"),
+    ("scheme", "torque_orders", "crankpin", "table_14"),
     {"torque_orders.cylinders_sum": "=SIN({torque_orders.order})^2+COS({torque_orders.order})^2",
      "cyl_rank1": "=1+0*{cyl_theta1}"},
-    {},
+    # What a condition picks, many wrong ones pick: no cause is told.
+    {"table_14.ray_XI_MPa": ("=IF(ROUND({crankpin.T_MPa}*SIN(RADIANS({pin_deg11}))"
+     "-{crankpin.Krod_MPa}*COS(RADIANS({pin_deg11}))-{crankpin.Rpin_MPa}/2,9)>=0,"
+     "{crankpin.Rpin_MPa},0)", None)},
     {"cyl_theta1": "=0*firing_offset_1_deg"},
 )  # fmt: skip
 

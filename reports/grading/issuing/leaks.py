@@ -98,13 +98,10 @@ def _is_given_anyway(node: str, assignment: Assignment) -> bool:
     while node not in seen:
         seen.add(node)
         tree = parse(graph.expression(node) or "0")
-        while True:
-            if isinstance(tree, ast.UnaryOp):
-                tree = tree.operand
-            elif isinstance(tree, ast.Call) and ast.unparse(tree.func) in _REPEATS:
-                tree = tree.args[0]
-            else:
-                break
+        while isinstance(tree, (ast.UnaryOp, ast.Call)):
+            if isinstance(tree, ast.Call) and ast.unparse(tree.func) not in _REPEATS:
+                return False
+            tree = tree.operand if isinstance(tree, ast.UnaryOp) else tree.args[0]
         if not isinstance(tree, (ast.Name, ast.Attribute)):
             return False
         node = node_of(ast.unparse(tree), node.partition(".")[0], assignment.model)

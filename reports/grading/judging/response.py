@@ -106,9 +106,9 @@ class Response:
 
     @cached_property
     def _idle(self) -> dict[str, NDArray[np.bool_]]:
-        """Where formulas react to nothing, of the tried nodes that no engine tells apart."""
+        """Where formulas react to nothing, of the tried nodes that no variant tells apart."""
         nodes = [n for n, made in self._values.items() if not isinstance(made, str)]
-        nodes = [node for node in nodes if self._fixed(node).all()]
+        nodes = [node for node in nodes if self._fixed(node, alike=True).all()]
         return self.shaking.idle(nodes) if nodes else {}
 
     def holds_somewhere(self, item: Item, node: str) -> bool:
@@ -117,6 +117,7 @@ class Response:
         if isinstance(values, str):
             return False
         own = np.ravel(np.asarray(self.student.expected.value(node), dtype=float))
+        item = replace(item, nodes=(node,))
         return any(
             not np.allclose(right, own, rtol=1e-9, atol=0, equal_nan=True)
             and bool(self._close(item, made, right, trial).all())
@@ -204,7 +205,8 @@ class Response:
         same = self._fixed(node)
         idle = self._idle.get(node, same & False)
         stands = ~np.any([_differ(values[0], other) for other in values], axis=0)
-        stands &= ~(same if stands.all() else self._fixed(node, alike=True))
+        # What is alike for the class may be typed in, beside something that is referred to.
+        stands &= ~(same | (self._fixed(node, alike=True) & ~idle))
         turn = self._turned(item, node) if stands.any() else None
         for run in self.student.runs(node):
             at = [index[row] for row in range(run.first, run.last + 1) if row in index]
@@ -233,7 +235,7 @@ class Response:
                         turn = turn or self._turned(item, node)
                         pasted = turn[0].mean() >= _MOST or reads_a_list(self.student, node)
                     letter = PASTED if pasted else letter
-                letters[i] = IDLE if idle[i] and letter in (RIGHT, ROUNDED) else letter
+                letters[i] = IDLE if idle[i] and same[i] and letter in (RIGHT, ROUNDED) else letter
         return "".join(letters)
 
     def _good(

@@ -85,12 +85,7 @@ def _hidden_circles(
     A formula that holds for some of them only is not paid, but it may still close a circle:
     which of the engines it fails for is a matter of what was drawn.
     """
-    items = {
-        node: replace(j.item, nodes=(node,))
-        for j in found.values()
-        for node in j.item.nodes
-        if student.runs(node)
-    }
+    items = {node: j.item for j in found.values() for node in j.item.nodes if student.runs(node)}
     paid = {node for node, item in items.items() if found[item.id].paid > 0}
     suspects = rings(student, items)
     if not suspects & paid:

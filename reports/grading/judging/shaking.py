@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 _LEAST, _NOISE = 1e-6, 1e-9  # share of a number, and what is left of A − A
 # By what the numbers are multiplied and what is added: noughts move too, roots and arcs have a
 # value for some, and what is cut off at a limit is not for all.
-_SHAKES = ((0.7, 0.0), (1.5, 0.0), (0.8, 1.0), (-1.0, -1.0), (0.1, 0.1), (-0.3, 0.5))
+_SHAKES = ((0.07, 0.0), (1.5, 0.0), (0.8, 1.0), (-1.0, -1.0), (0.1, 0.1), (-0.3, 0.5))
 
 
 @dataclass(frozen=True)
@@ -80,14 +80,11 @@ class Shaking:
         """
         graph = self.student.assignment.graph
         for shake in shakes:
-            left = {
-                name
-                for name in shake
-                if ("." in name and graph.expression(name) is None)
-                or not graph.ancestors(name).isdisjoint(shake)
-            }
-            run = self._run({name: shake[name] for name in shake.keys() - left})
-            yield shake | self._numbers(run, left)
+            stays = {name for name in shake if "." in name and graph.expression(name) is None}
+            freed = shake.keys() - stays
+            follows = {name for name in freed if not graph.ancestors(name).isdisjoint(freed)}
+            run = self._run({name: shake[name] for name in freed - follows})
+            yield shake | self._numbers(run, stays | follows)
 
     def _run(self, changes: Mapping[str, Array]) -> Evaluation:
         return self.trial.expected.fork({n: v if "." in n else v[0] for n, v in changes.items()})

@@ -162,17 +162,32 @@ def _qualified(formula: Formula, sheet: str) -> Formula:
 @lru_cache(maxsize=20_000)
 def rounds(formula: Formula) -> bool:
     """Whether a formula rounds: by a function, or by a typed π of some digits."""
-    return not formula.functions.isdisjoint(ROUNDINGS) or any(
+    return cuts(formula) or any(
         kind == "number" and full(float(value)) != float(value) for kind, value in formula.pattern
     )
 
 
 @lru_cache(maxsize=20_000)
-def unrounded(formula: Formula) -> Formula:
-    """A formula without its ROUND, ROUNDUP and ROUNDDOWN, and with all digits of π.
+def cuts(formula: Formula) -> bool:
+    """Whether a function of a formula takes digits away that tell something."""
+    return any(_cut(formula.pattern, at)[0] for at in range(len(formula.pattern)))
+
+
+def _cut(tokens: Sequence[tuple[str, str]], at: int) -> tuple[int, int]:
+    """Where the rounding at a place closes, and its comma; 0 where it only tidies up A − A.
 
     What is compared stays rounded: it would pick another case by its last digit.
     """
+    if tokens[at][0] != "name" or tokens[at][1].upper() not in _ROUNDINGS:
+        return 0, 0
+    end, comma = _arguments(tokens, at + 1)
+    fine = (_digits(tokens, comma, end) or 0) >= _FINE
+    return (0, 0) if not comma or fine or _is_compared(tokens, at, end) else (end, comma)
+
+
+@lru_cache(maxsize=20_000)
+def unrounded(formula: Formula) -> Formula:
+    """A formula without its ROUND, ROUNDUP and ROUNDDOWN, and with all digits of π."""
     if not rounds(formula):
         return formula
     tokens = [
@@ -181,12 +196,11 @@ def unrounded(formula: Formula) -> Formula:
     ]
     at = 0
     while at < len(tokens) - 1:
-        if tokens[at][0] == "name" and tokens[at][1].upper() in ROUNDINGS:
-            end, comma = _arguments(tokens, at + 1)
-            if end and comma and not _is_compared(tokens, at, end):
-                tokens[at : end + 1] = [*tokens[at + 1 : comma], ("op", ")")]
-                continue
-        at += 1
+        end, comma = _cut(tokens, at)
+        if end:
+            tokens[at : end + 1] = [*tokens[at + 1 : comma], ("op", ")")]
+        else:
+            at += 1
     return Formula(tuple(tokens))
 
 
@@ -215,7 +229,8 @@ def _is_compared(tokens: Sequence[tuple[str, str]], at: int, end: int) -> bool:
 
 
 _COMPARISONS = frozenset(("op", sign) for sign in ("=", "<>", "<", ">", "<=", ">="))
-ROUNDINGS = frozenset(("ROUND", "ROUNDUP", "ROUNDDOWN"))
+_FINE = 9  # decimals from which nothing that is printed is lost
+_ROUNDINGS = frozenset(("ROUND", "ROUNDUP", "ROUNDDOWN"))
 # What people type in for π, for degrees in radians, for revolutions in radians, and in
 # M = 9550·N/n, kW and rev/min.
 _OF_PI = tuple(np.pi * share for share in (1, 2, 1 / 2, 1 / 4, 1 / 30, 1 / 60, 1 / 180, 1 / 360))
@@ -246,13 +261,15 @@ def _arguments(tokens: Sequence[tuple[str, str]], start: int) -> tuple[int, int]
 def rounded_to(formula: Formula) -> int | None:
     """Digits that a whole formula is rounded to, None where it is no rounding."""
     tokens = formula.pattern
-    if len(tokens) < 4 or tokens[0][0] != "name" or tokens[0][1].upper() not in ROUNDINGS:
+    if len(tokens) < 4 or tokens[0][0] != "name" or tokens[0][1].upper() not in _ROUNDINGS:
         return None
     end, comma = _arguments(tokens, 1)
-    if end != len(tokens) - 1 or not comma:
-        return None
-    digits = "".join(value for _, value in tokens[comma + 1 : end])
+    return _digits(tokens, comma, end) if end == len(tokens) - 1 and comma else None
+
+
+def _digits(tokens: Sequence[tuple[str, str]], comma: int, end: int) -> int | None:
+    """The number that stands from a comma to an end."""
     try:
-        return int(digits)
+        return int("".join(value for _, value in tokens[comma + 1 : end]))
     except ValueError:
         return None

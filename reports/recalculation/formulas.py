@@ -215,7 +215,7 @@ def _references(found: tuple[Token, ...]) -> Iterator[Reference]:
         start = start if sheet is not None else at
         ends, name = _ends_of(kind, value), ""
         if kind == "ref" and tokens[at + 1] == ("op", ":"):
-            at += 2 + (tokens[at + 2 : at + 3] != () and tokens[at + 2][0] == "sheet")
+            at += 2
             if at >= len(found) or found[at][0] != "ref":
                 raise UnknownFormula("у диапазона одна граница")
             ends = (ref_of(value), ref_of(found[at][1]))

@@ -76,9 +76,16 @@ def tokens(text: str) -> list[Token]:
         match = _TOKEN.match(text, at)
         if match is None:
             raise UnknownFormula(f"непонятный знак «{text[at]}»")
-        if match.lastgroup != "space":
-            found.append((str(match.lastgroup), match.group()))
+        token = (str(match.lastgroup), match.group())
         at = match.end()
+        if token[0] == "sheet" and found[-1:] == [("op", ":")]:
+            # Лист!A1:Лист!B2 is Лист!A1:B2, which alone is calculated as it is meant.
+            if [kind for kind, _ in found[-3:-1]] != ["sheet", "cell"] or (
+                unquoted(found[-3][1]).casefold() != unquoted(token[1]).casefold()
+            ):
+                raise UnknownFormula("диапазон начинается и кончается на разных листах")
+        elif token[0] != "space":
+            found.append(token)
     return found
 
 

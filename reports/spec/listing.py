@@ -54,11 +54,12 @@ def scalar_list(*texts: str) -> tuple[Scalar, ...]:
 
 
 def grid_row(
-    of: str, texts: Iterable[str | None], source: str, key: str = "{of}{n}", first: int = 1
-) -> GridRow:
+    of: str, texts: Iterable[str | None], source: str, key: str = "{of}{n}", first: int = 1,
+    every: str = TURN,
+) -> GridRow:  # fmt: skip
     """A quantity of every instance, from number ``first`` on; ``key`` makes the scalars' keys."""
     cells = (
-        None if text is None else Scalar(key.format(of=of, n=n), text, source, of=of)
+        None if text is None else Scalar(key.format(of=of, n=n), text, source, of=of, every=every)
         for n, text in enumerate(texts, first)
     )
     return GridRow(of, tuple(cells))

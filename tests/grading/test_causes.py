@@ -84,6 +84,11 @@ def test_a_change_of_the_numbers_is_named(name, change, words):
     assert words in cause(name, change(right(name).copy()))
 
 
+def test_an_angle_is_no_hundredth_of_another_but_for_whole_turns():
+    name = "geometry.phi_vmax_deg"
+    assert "раз" not in cause(name, right(name) * 100 % 360)
+
+
 def test_a_cause_is_told_from_half_of_the_rows_on():
     wrong = -right(V1)
     half = len(wrong) // 2

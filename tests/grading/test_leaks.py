@@ -6,7 +6,7 @@ import io
 import random
 from collections.abc import Callable
 from functools import lru_cache
-from math import radians
+from math import cos, radians
 
 import pytest
 from openpyxl import Workbook, load_workbook
@@ -150,6 +150,17 @@ def test_angles_in_radians_are_not_the_speed_that_has_their_digits(rpm):
     assignment = assignment_of(model, rubric_of({"work": {"fill": ["geometry"]}}, "r"))
     plant = column(lambda _: [radians(angle) for angle in range(0, 720, 6)])
     assert leaks_of(planted(plant), assignment) == []
+
+
+def test_sines_of_a_circle_are_no_answers():
+    """A circle round a bearing has those of the rays of wear, and what is left of cos 90°."""
+    model = build_model(classroom.assignment().model.input)
+    assignment = assignment_of(model, rubric_of({"work": {"fill": ["table_14_sums"]}}, "r"))
+    book, stream = Workbook(), io.BytesIO()
+    for angle in range(0, 361, 5):
+        book.worksheets[0].append([cos(radians(angle))])
+    book.save(stream)
+    assert leaks_of(stream.getvalue(), assignment) == []
 
 
 def test_an_issued_book_has_no_answer_and_no_saved_value():

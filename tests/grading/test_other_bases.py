@@ -11,12 +11,13 @@ V6 = Base(
     {"geometry.bore_mm": {"min": 126.0, "max": 134.0, "step": 1.0},
      "regime.speed_rpm": {"min": 1900, "max": 2200, "step": 20},
      "masses.rod_kg": {"min": 4.2, "max": 5.0, "step": 0.1}},
-    ("geometry", "masses", "P4_1", "P4_2", "P4_4", "P4_5", "rods_1", "balance_orders",
-     "balance_vectors"),
+    ("scheme", "geometry", "masses", "P4_1", "P4_2", "P4_4", "P4_5", "rods_1", "balance_orders",
+     "balance_vectors", "summary_torque"),
     {
         "r_crank": "=geometry_stroke_mm/2000",
         "omega": "=2*PI()*regime_speed_rpm/60",
         "F_piston": "=PI()*(geometry_bore_mm/2000)^2",
+        "L_rod": "=IF(engine_cylinders=6,265,260)/1000",  # alike for the class
         "m_1": "=masses_rod_kg-{m_2}",
         "m_2": "=masses_rod_kg*(1-masses_rod_small_end_share)",
         "m_j": "=masses_piston_group_kg+masses_rod_kg*masses_rod_small_end_share",
@@ -29,7 +30,9 @@ V6 = Base(
         "P4_2.M4_Nm": "=_xlfn.XLOOKUP({cylinder_4.phase_deg},{|P4_1.phi_deg},{|P4_1.M_Nm})",
         "P4_2.Msum_Nm": "=SUM({P4_2.M1_Nm}:{P4_2.M6_Nm})",
         "P4_4.Mmain2_Nm": "={P4_2.M1_Nm}+{P4_2.M4_Nm}",
-        "P4_4.Mmain4_Nm": "={P4_2.Msum_Nm}",
+        "P4_4.Mmain4_Nm": "=SUM({P4_2.M1_Nm}:{P4_2.M6_Nm})",  # its sheet at both ends
+        "cyl_rank2": "=COUNTIF({cyl_theta1}:{cyl_theta6},\"<\"&{cyl_theta2})+1",
+        "phi_M_max_deg": "=INDEX({|P4_2.phi_deg},MATCH({M_max},{|P4_2.Msum_Nm},0))",
         "P4_5.Mpin1_Nm": "=({P4_2.M1_Nm}+{P4_2.M4_Nm})*50%",
         "P4_5.Mpin2_Nm": "=AVERAGE({P4_4.Mmain2_Nm},{P4_4.Mmain3_Nm})",
         "rods_1.T_MPa": "={P4_1.T_MPa}+{cylinder_4.T_MPa}",
@@ -47,10 +50,12 @@ V6 = Base(
     },
     {
         "m_2": ("=masses_rod_kg*masses_rod_small_end_share", ""),
+        "cyl_theta2": ("=firing_offset_2_deg+360", ""),  # another stroke
         "m_r": ("={m_k}+{m_2}", ""),  # one rod on a pin that carries two
         "P4_2.M5_Nm": ("={cylinder_4.M_Nm}", ""),
         "P4_2.Msum_Nm": ("=SUM({P4_2.M1_Nm}:{P4_2.M5_Nm})", "слагаемое"),
         "P4_4.Mmain3_Nm": ("={P4_4.Mmain2_Nm}", "слагаемое"),
+        "P4_5.Mpin3_Nm": ("={P4_4.Mmain3_Nm}+{rods_2.Mthrow_Nm}+0.5*{rods_3.Mthrow_Nm}", ""),
         "P4_5.Mpin1_Nm": ("={rods_1.Mthrow_Nm}", "половин"),
         "rods_1.Rthrow_MPa": ("=ABS({rods_1.Ksum_MPa})", ""),
         "rods_1.K_MPa": ("={rods_1.Kleft_MPa}-{rods_1.Kright_MPa}", "знак"),
@@ -69,7 +74,8 @@ TORSION = Base(
     "mwm-6",
     {"torsion.speed_max_rpm": {"min": 2200, "max": 2600, "step": 50},
      "torsion.other_flywheel_kg_m2": {"min": 1.0, "max": 2.0, "step": 0.1}},
-    ("torsion_train", "torsion_list", "torsion_forms", "torsion_results", "torsion_damper_list"),
+    ("torsion_train", "torsion_list", "torsion_forms", "torsion_results", "torsion_damper_list",
+     "torsion_fresh"),
     {
         "tor_greatest": "=MATCH(MAX({torJ1}:{torJ9}),{torJ1}:{torJ9},0)",
         "tor_flywheel": "=MAX({torJ1}:{torJ9})",
@@ -83,6 +89,7 @@ TORSION = Base(
         "{^torsion_forms.tor_J_kgm2}:{torsion_forms.tor_J_kgm2},"
         "{^torsion_forms.tor_theta2}:{torsion_forms.tor_theta2}^2)",
         "tor_brought1": "=SUMPRODUCT({|torsion_forms.tor_J_kgm2},{|torsion_forms.tor_theta1}^2)",
+        "tor_top_MPa": "=LARGE({|torsion_response.tor_tau_MPa},1)",  # of a table that is given
         "tor_twist1": "=MAX({|torsion_forms.tor_shaft1_MPa})",
         "tor_twist2": "=LARGE({|torsion_forms.tor_shaft2_MPa},1)",
         "tor_f1_change": "=100*({tor_f1_other_hz}-{tor_f1_hz})/{tor_f1_hz}",
@@ -113,8 +120,15 @@ BEARINGS = Base(
     {"bearings.pin_clearance_max_mm": {"min": 0.11, "max": 0.15, "step": 0.005},
      "regime.speed_rpm": {"min": 2000, "max": 2200, "step": 20},
      "crankshaft.pin_diameter_mm": {"min": 66.0, "max": 70.0, "step": 0.5}},
-    ("oil_list", "oil_results", "safety", "safe_main", "safe_pins"),
+    ("oil_list", "oil_results", "safety", "safe_main", "safe_pins", "balance_orders", "beam"),
     {
+        # Nought in every engine with this shaft.
+        "end_x1": "=ROUND({throw1_C10}*crankshaft_nose_arm_mm/1000,1)",
+        "end_x2": "=ROUND(-{throw4_C12}*crankshaft_rear_arm_mm/1000,1)",
+        "balance_orders.M_order_Nm": "=m_j*r_crank*omega^2/1000*IF(A{row}=1,1,IF(A{row}=2,"
+        "4*{neiman_p2},0))*SUM({cylinder_up_mm1}:{cylinder_up_mm4})",
+        "balance_orders.F_left_kN": "={balance_orders.F_order_kN}"
+        "*IF(A{row}=1,1-0,IF(A{row}=2,1-1,1))",  # shares that are alike for the class
         "oil_hcr_um": "=SUM(bearings_journal_roughness_um,bearings_shell_roughness_um)"
         "+bearings_form_um",
         "oil_vogel": "=LN({oil_eta40}/{oil_eta100})*135*195/60",
@@ -134,6 +148,7 @@ BEARINGS = Base(
         "oil_hot1_C": ("=60*{oil_friction1_W}/(bearings_density_kg_m3*bearings_heat_j_kg_k"
          "*{oil_through1_l_min})", ""),
         "safe_n_turn_hole": ("={safe_pin_hole1}", ""),
+        "safe_pin_a1_MPa": ("=MAX({|P4_5.Mpin1_Nm})/(2*{safe_pin_W1_cm3})", "слагаемое min M"),
         "safe_pin_W1_cm3": ("=PI()*crankshaft_pin_diameter_mm^3/32000", ""),
         "safe_n_hole": ("=({safe_n_bend_hole}+{safe_n_turn_hole})/2", ""),
         "safe_n_pin": ("=MAX({safe_n_hole},{safe_n_fillet})", ""),
@@ -201,8 +216,8 @@ REGIMES = Base(
         "{balance_orders.order_sin}))/A{row}",
         "firing_orders.theta3_deg": "=MOD(720-throw_angle_3_deg,360)-720"
         "+360*MOD(INT((A{row}-1)/2),2)",
-        "firing_orders.first_sin": "=SUM(SIN(PI()*{firing_orders.theta1_deg}/180),"
-        "SIN({firing_orders.theta2_deg}*PI()/180),SIN(RADIANS({firing_orders.theta3_deg})))",
+        "firing_orders.first_sin": "=ROUND(SUM(SIN(RADIANS({firing_orders.theta1_deg})),"
+        "SIN({firing_orders.theta2_deg}/57.3),SIN({firing_orders.theta3_deg}*3.1416/180)),9)",
         "firing_orders.half_order_sum": "=ROUND(SQRT(SUMSQ({firing_orders.half_cos},"
         "{firing_orders.half_sin})),6)",
         "governs_omega": "=INDEX('Режимы'!$C$4:$E$4,MATCH(MAX({cmp1_omega}:{cmp3_omega}),"
@@ -228,10 +243,13 @@ REGIMES = Base(
 ONE = Base(
     "two-stroke",
     {"regime.speed_rpm": {"min": 5000, "max": 5600, "step": 50}},
-    ("scheme", "torque_orders"),
+    ("scheme", "torque_orders", "crankpin", "table_14"),
     {"torque_orders.cylinders_sum": "=SIN({torque_orders.order})^2+COS({torque_orders.order})^2",
      "cyl_rank1": "=1+0*{cyl_theta1}"},
-    {},
+    # What a condition picks, many wrong ones pick: no cause is told.
+    {"table_14.ray_XI_MPa": ("=IF(ROUND({crankpin.T_MPa}*SIN(RADIANS({pin_deg11}))"
+     "-{crankpin.Krod_MPa}*COS(RADIANS({pin_deg11}))-{crankpin.Rpin_MPa}/2,9)>=0,"
+     "{crankpin.Rpin_MPa},0)", None)},
     {"cyl_theta1": "=0*firing_offset_1_deg"},
 )  # fmt: skip
 

@@ -65,6 +65,12 @@ def test_what_an_earlier_mistake_costs_is_told_as_the_rubric_has_it(share, words
     assert words in student_page(graded({"omega": ["=regime_speed_rpm"]}), rubric)
 
 
+def test_a_question_ends_with_its_own_mark():
+    result, rubric = graded({"omega": ["=regime_speed_rpm"]}), classroom.register().rubric
+    line(result, "geometry.omega")["reason"] = "вычислено ли это?"
+    assert "Вычислено ли это?</p>" in student_page(result, rubric)
+
+
 def test_full_feedback_draws_both_curves():
     html, item = page("full")
     chart = item["chart"]

@@ -207,10 +207,14 @@ def test_a_formula_of_the_angle_is_no_list_for_being_alike_for_the_class(formula
 
 @pytest.mark.parametrize(
     ("key", "largest", "allowed"),
-    [("s_mm", 94.0, 0.0005), ("j_m_s2", 13000.0, 0.5), ("Pg_MPa", 0.01, 0.0001)],
-)
+    [("s_mm", 94.0, 0.0005), ("j_m_s2", 13000.0, 0.5), ("Pg_MPa", 0.01, 0.0001),
+     ("F_re", 0.0, 1e-11)],
+)  # fmt: skip
 def test_the_tolerance_is_half_a_unit_of_the_last_printed_digit(key, largest, allowed):
-    """Of quantities smaller than their printed digits it is a share of the column."""
+    """Of quantities smaller than their printed digits it is a share of the column.
+
+    A nought may be what is left of a force of many newtons at 90°.
+    """
     rubric = SimpleNamespace(tolerance=Tolerance())
     student = SimpleNamespace(assignment=SimpleNamespace(rubric=rubric))
     item = SimpleNamespace(id=f"t.{key}", quantity=quantity(key))

@@ -292,10 +292,10 @@ def _wanted(block: Block, patterns: tuple[str, ...]) -> bool:
 
 
 def _needed(model: Model, fill: Iterable[Block]) -> set[str]:
-    """Blocks that the formulas of some blocks depend on."""
+    """Blocks that the formulas of some blocks depend on, and where columns without any stand."""
     graph = graph_of(model)
     nodes = frozenset().union(*(graph.ancestors(n) for block in fill for n in nodes_of(block)))
-    return {graph.owners[name] for name in nodes if name in graph.owners}
+    return {graph.owners.get(name, name.partition(".")[0]) for name in nodes}
 
 
 def _items(block: Block) -> Iterator[Item]:

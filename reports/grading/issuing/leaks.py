@@ -7,6 +7,7 @@ none of this hides it.  How many are alike by chance is reckoned, not guessed.
 
 from __future__ import annotations
 
+import ast
 import io
 import re
 import zipfile
@@ -18,14 +19,19 @@ from math import sqrt
 import numpy as np
 from lxml import etree
 
+from reports.formula.parse import SCALE_FUNCTIONS, parse
 from reports.grading.issuing.assignment import Assignment, Item
 from reports.shared.errors import InputError, Problem
 from reports.spec.evaluation import Evaluation
+from reports.spec.graph import node_of
 from reports.workbook.caches import sheet_parts
 
 _DIGITS = 4  # that are compared within one place: as few as a table prints
 _EXACT = 11  # that are compared of single values
+_NOUGHT = 1e-12
 _FEWEST = 4  # answers of a column in one place that are no chance
+_PICKS = {"abs", "element", "following", "previous", "col_max", "col_min", "col_last"}
+_REPEATS = SCALE_FUNCTIONS | _PICKS
 _TURNS = np.radians(np.arange(1, 721))  # angles in radians: ω at 3000 rpm has the digits of π
 _NUMBER = re.compile(r"(?<![\w.])[-+\u2212]?\d+(?:[.,]\d+)?(?:[eE][-+]?\d+)?(?![\w])")
 
@@ -87,27 +93,30 @@ def _asked(item: Item, run: Evaluation, assignment: Assignment) -> np.ndarray:
 
 
 def _is_given_anyway(node: str, assignment: Assignment) -> bool:
-    """Whether a value is by its formula a copy of an input or of a given number."""
+    """Whether a value by its formula repeats or picks out an input or a given number."""
     graph, seen = assignment.graph, set()
     while node not in seen:
         seen.add(node)
-        names = graph.references(node)
-        text = (graph.expression(node) or "").replace("(", "").replace(")", "").lstrip("-")
-        name = next(iter(names), "")
-        scale = re.sub(r"^(?:of|to)_[A-Za-z0-9]+?(?=" + re.escape(name) + "$)", "", text)
-        bare = len(names) == 1 and scale in (name, name.rpartition(".")[2])
-        if not bare:
+        tree = parse(graph.expression(node) or "0")
+        while isinstance(tree, (ast.UnaryOp, ast.Call)):
+            if isinstance(tree, ast.Call) and ast.unparse(tree.func) not in _REPEATS:
+                return False
+            tree = tree.operand if isinstance(tree, ast.UnaryOp) else tree.args[0]
+        if not isinstance(tree, (ast.Name, ast.Attribute)):
             return False
-        node = name
-        if node in assignment.model.fields or node in assignment.given_nodes:
+        node = node_of(ast.unparse(tree), node.partition(".")[0], assignment.model)
+        if graph.expression(node) is None or node in assignment.given_nodes:
             return True
     return False
 
 
 def _digits(values: Iterable[float], count: int) -> set[str]:
-    """The first digits of numbers without sign and point; short and round ones tell nothing."""
+    """The first digits of numbers without sign and point; short and round ones tell nothing.
+
+    Nor does what is left of the cosine of 90°.
+    """
     least = min(count, 4) - 1
-    texts = {f"{abs(value):.{count - 1}e}"[: count + 1] for value in values if value}
+    texts = {f"{abs(v):.{count - 1}e}"[: count + 1] for v in values if abs(v) > _NOUGHT}
     found = {text.replace(".", "") for text in texts}
     return {text for text in found if text.isdigit() and len(text.rstrip("0")) >= least}
 
@@ -141,7 +150,7 @@ def _of_scalars(
     found = []
     angles = _digits(_TURNS.tolist(), _EXACT)
     for place, numbers in places.items():
-        given, short = _digits(numbers, _EXACT) - angles, _digits(numbers, 5)
+        given, short = _digits(numbers, _EXACT) - angles - known, _digits(numbers, 5)
         hits = [n for n, d in exact.items() if d & given and not _short(asked[n])]
         few = [n for n, d in shown.items() if d & short - known and not _is_round(d)]
         chance = len(asked) * len(short) / 90_000
@@ -163,11 +172,14 @@ def _short(value: float) -> bool:
 
 
 def _known(assignment: Assignment) -> set[str]:
-    """Digits of the input data, the angles and their sines: they stand in the book by right."""
+    """Digits of the input data, the angles and their sines: they stand in the book by right.
+
+    Of all whole degrees: a circle round a bearing has its sines closer than the rays of wear.
+    """
     numbers = [float(f.value) for f in assignment.model.inputs if isinstance(f.value, (int, float))]
     for table in assignment.model.tables.values():
-        angles = np.radians(table.rows)
-        numbers += [*table.rows, *np.sin(angles).tolist(), *np.cos(angles).tolist()]
+        numbers += table.rows
+    numbers += np.sin(_TURNS).tolist()
     return _digits(numbers, _DIGITS) | _digits(numbers, 5) | _digits(numbers, _EXACT)
 
 

@@ -101,10 +101,15 @@ class Causes:
         if right is None:
             return ""
         beyond = np.full(len(values), np.nan) if rows else values  # no row explains itself
-        for words, attempt in self._attempts(item, run, right, beyond):
-            if attempt is not None and self._fits(item, values, attempt, right, rows):
-                return words
-        return ""
+        fitting = (
+            words
+            for words, attempt in self._attempts(item, run, right, beyond)
+            if attempt is not None and self._fits(item, values, attempt, right, rows)
+        )
+        found = next(fitting, "")
+        # What a condition picks, many wrong ones pick.
+        picks = any(isinstance(self._tree(node), ast.IfExp) for node in item.nodes)
+        return "" if picks and any(words != found for words in fitting) else found
 
     def _known(self, judgement: Judgement) -> dict[str, object]:
         """The student's own earlier values, where they are not the right ones."""
@@ -134,11 +139,10 @@ class Causes:
         there = np.isfinite(values[at])
         if there.sum() < max(1, len(at) // 2):
             return False
-        explained, known = (
-            close(item, one, other, allowed, self.student.expected)[at]
-            for one, other in ((values, attempt), (attempt, right))
-        )
-        return bool(explained[there].all()) and not known.all()
+        # Any angle is a hundred times another, but for whole turns.
+        explained = np.abs(values - attempt)[at][there] <= allowed
+        known = close(item, attempt, right, allowed, self.student.expected)[at]
+        return bool(explained.all()) and not known.all()
 
     def _attempts(
         self, item: Item, run: Evaluation, right: Array, values: Array

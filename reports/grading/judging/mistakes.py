@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Iterator
 
-from reports.formula.parse import names, parse
+from reports.formula.parse import SCALE_FUNCTIONS, SHIFTS, names, parse
 from reports.grading.judging.rewriting import (
     MIXED,
     SIGNS,
@@ -80,16 +80,25 @@ def _shorter(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
         yield f"показатель степени на единицу {words}", OtherExponent(more=more).visit
 
 
+# How people call the functions of the language; what is not here is called as in Excel.
+_CALLED = {"col_max": "max", "col_min": "min", "col_mean": "среднее", "col_sum": "Σ", "total": "Σ",
+           "running_sum": "Σ", "sqrt": "√"}  # fmt: skip
+_NAMELESS = SCALE_FUNCTIONS | SHIFTS | {"rad", "deg", "element", "col_last", "round"}
+
+
 def symbol_of(name: str, block: str, model: Model) -> str:
     """Symbol of a name in a formula of a block."""
-    node = model.nodes.get(node_of(name, block, model))
+    key = node_of(name, block, model)
+    node = model.nodes.get(model.grid_runs.get(key, (key,))[0])
     if node is not None:
         return node.quantity.symbol
     return model.fields[name].title if name in model.fields else name
 
 
 def _symbols(tree: ast.expr, block: str, model: Model) -> str:
-    found = "·".join(symbol_of(name, block, model) for name in sorted(names(ast.unparse(tree))))
+    used = sorted(names(ast.unparse(tree)))
+    found = "·".join(dict.fromkeys(symbol_of(name, block, model) for name in used))
     if isinstance(tree, ast.Call) and isinstance(tree.func, ast.Name):
-        return f"{tree.func.id} {found}"
+        name = tree.func.id
+        return found if name in _NAMELESS else f"{_CALLED.get(name, name)} {found}"
     return found or ast.unparse(tree).replace("pi", "π")

@@ -8,7 +8,7 @@ it costs it nothing, and a number in the guise of a formula does not follow.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -22,7 +22,7 @@ from reports.grading.judging.tolerances import close, tolerance
 from reports.grading.judging.trials import Trial, fixed, turned
 from reports.grading.judging.tryout import Tryout
 from reports.grading.reading.student import Student
-from reports.recalculation.bench import ROUNDINGS, pinned, rounded_to
+from reports.recalculation.bench import cuts, pinned, rounded_to, unrounded_grid
 
 Array = NDArray[np.float64]
 
@@ -93,20 +93,22 @@ class Response:
 
     def letters(self, item: Item) -> str:
         """A letter for each value of an item: how its formula responds, whatever its value."""
-        return "".join(self._of_node(item, node) for node in item.nodes)
+        return "".join(self._of_node(replace(item, nodes=(n,)), n) for n in item.nodes)
 
     def fixed(self, item: Item) -> NDArray[np.bool_]:
         """Where the right value is the same whatever the engine: 0 at dead centre."""
         return np.concatenate([self._fixed(node) for node in item.nodes])
 
-    def _fixed(self, node: str) -> NDArray[np.bool_]:
-        return fixed(node, self.student.expected, self.trials)
+    def _fixed(self, node: str, *, alike: bool = False) -> NDArray[np.bool_]:
+        """The same of a node, or where it is the same for the class alone."""
+        trials = [trial for trial in self.trials if trial.decides or not alike]
+        return fixed(node, self.student.expected, trials)
 
     @cached_property
     def _idle(self) -> dict[str, NDArray[np.bool_]]:
-        """Where formulas react to nothing, of the tried nodes that no engine tells apart."""
+        """Where formulas react to nothing, of the tried nodes that no variant tells apart."""
         nodes = [n for n, made in self._values.items() if not isinstance(made, str)]
-        nodes = [node for node in nodes if self._fixed(node).all()]
+        nodes = [node for node in nodes if self._fixed(node, alike=True).all()]
         return self.shaking.idle(nodes) if nodes else {}
 
     def holds_somewhere(self, item: Item, node: str) -> bool:
@@ -115,6 +117,7 @@ class Response:
         if isinstance(values, str):
             return False
         own = np.ravel(np.asarray(self.student.expected.value(node), dtype=float))
+        item = replace(item, nodes=(node,))
         return any(
             not np.allclose(right, own, rtol=1e-9, atol=0, equal_nan=True)
             and bool(self._close(item, made, right, trial).all())
@@ -127,7 +130,8 @@ class Response:
     def shaking(self) -> Shaking:
         """The work on nobody's variant: what tells its own from others is not seen."""
         cells = self.tryout.cells(self.trials[-1], everything=True)
-        return Shaking(self.student, self.trials[-1], pinned(self.student.grid, cells))
+        grid = unrounded_grid(pinned(self.student.grid, cells))  # small changes show
+        return Shaking(self.student, self.trials[-1], grid)
 
     def _close(self, item: Item, own: Array, right: Array, trial: Trial) -> NDArray[np.bool_]:
         allowed = tolerance(item, right, self.student)
@@ -200,7 +204,9 @@ class Response:
         others = good[1] if roughly is None else good[1] | roughly[2]
         same = self._fixed(node)
         idle = self._idle.get(node, same & False)
-        stands = ~same & ~np.any([_differ(values[0], other) for other in values], axis=0)
+        stands = ~np.any([_differ(values[0], other) for other in values], axis=0)
+        # What is alike for the class may be typed in, beside something that is referred to.
+        stands &= ~(same | (self._fixed(node, alike=True) & ~idle))
         turn = self._turned(item, node) if stands.any() else None
         for run in self.student.runs(node):
             at = [index[row] for row in range(run.first, run.last + 1) if row in index]
@@ -229,7 +235,7 @@ class Response:
                         turn = turn or self._turned(item, node)
                         pasted = turn[0].mean() >= _MOST or reads_a_list(self.student, node)
                     letter = PASTED if pasted else letter
-                letters[i] = IDLE if idle[i] and letter in (RIGHT, ROUNDED) else letter
+                letters[i] = IDLE if idle[i] and same[i] and letter in (RIGHT, ROUNDED) else letter
         return "".join(letters)
 
     def _good(
@@ -257,8 +263,7 @@ class Response:
         found = exact.copy()
         half = self.student.assignment.rubric.tolerance.units * 10.0**-item.quantity.digits.decimals
         coarse = rounds_coarsely(self.student, item, node)
-        used = (formula.functions for formula in self.tryout.formulas(node))
-        inside = not ROUNDINGS.isdisjoint(frozenset().union(*used))
+        inside = any(map(cuts, self.tryout.formulas(node)))
         for trial, own, wanted in zip(self.trials, values, right, strict=True):
             if trial.decides and inside:  # digits of π cost what they cost
                 largest = float(np.nanmax(np.abs(wanted))) if wanted.size else 0.0

@@ -32,7 +32,8 @@ def tolerance(item: Item, expected: Array, student: Student) -> float:
     finite = np.abs(expected[np.isfinite(expected)])
     largest = float(finite.max()) if finite.size else 0.0
     # A double carries about sixteen digits: results that differ in the tenth are equal.
-    return max(min(rules.units * unit * (1 + 1e-9), rules.share * largest), 1e-10 * largest, 1e-12)
+    noise = max(1e-10 * largest, 1e-10 * unit, 1e-12)
+    return max(min(rules.units * unit * (1 + 1e-9), rules.share * largest), noise)
 
 
 def close(

@@ -128,6 +128,10 @@ def _by_rows(
     item = made.item
     allowed = tolerance(item, made.expected, student)
     good = close(item, made.values, made.expected, allowed, student.expected)
+    if say.PARTLY in letters and (alone := response.tryout.alone(item)) is not None:
+        # Two mistakes that make up for each other are no number in the place of a reference.
+        fits = close(item, alone, made.expected, allowed, student.expected)
+        good &= fits | (np.array(list(letters)) != say.PARTLY)
     # A nought typed in among formulas is one; a column typed in is numbers throughout.
     still = response.fixed(item)
     formulas = [letter for letter in letters if letter != say.NOTHING]
@@ -191,8 +195,8 @@ def _word(kind: str, letter: str, good: bool, fixed: bool) -> str:
 def _reason(verdict: str, words: Sequence[str], kinds: str, letters: str, *, unlinked: bool) -> str:
     if verdict == STILL:
         return (
-            "значения верны только для вашего варианта: взяты готовые числа, при других исходных "
-            "данных формула неверна"
+            "значения верны только для вашего варианта: взяты готовые числа или совпало случайно, "
+            "при других исходных данных формула неверна"
         )
     if verdict == EMPTY:
         return "заполнены не все строки"

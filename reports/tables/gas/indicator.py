@@ -71,7 +71,8 @@ def timing(model: InputFile, shape: Shape, phi: str) -> tuple[Column, ...]:
     if not _is_timed(model, shape):
         return ()
     angle = f"mod({phi} - phi_tdc_deg, {shape.period}) + phi_tdc_deg"
-    return (Column(TIMING, angle, "угол от действительной ВМТ", helper=True, of="phase_deg"),)
+    return (Column(TIMING, angle, "угол от действительной ВМТ", helper=True, of="phase_deg",
+                   every=f"{shape.period}"),)  # fmt: skip
 
 
 def _is_timed(model: InputFile, shape: Shape) -> bool:

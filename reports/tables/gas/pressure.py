@@ -74,7 +74,7 @@ def corner_points(model: InputFile, corners: Corners) -> ScalarTable:
         source = "геометрия прицепного шатуна"
 
     def scalar(key: str, text: str, where: str) -> Scalar:
-        return Scalar(name(key), text, where)
+        return Scalar(name(key), text, where, every=f"{corners.shape.period}")
 
     scalars = [
         scalar("phi_c_deg", corners.after_tdc(start), "Dinn: 360° − УОВ + УЗВ"),

@@ -55,8 +55,8 @@ def _shifted(
         (
             *column_list(f"""
                 phi_deg
-                phase_deg of phase{number}_deg = round(mod(phi_deg - {offset}, {shape.period}), 9)
-                    | угол в цикле
+                phase_deg of phase{number}_deg every {shape.period}
+                    = round(mod(phi_deg - {offset}, {shape.period}), 9) | угол в цикле
                 volume_ratio = {shape.volume_ratio("phase_deg")} | {displaced(shape)}
                 p_MPa = {text} | Гоц, 2.4
                 Pg_MPa = p_MPa - gas_ambient_pressure_mpa | Гоц (33)

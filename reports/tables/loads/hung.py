@@ -23,8 +23,8 @@ def hung_table(model: InputFile, rows: tuple[float, ...], number: int) -> TableS
     columns = [
         *column_list(f"""
             phi_deg
-            phase_deg of phase{number}_deg = round(mod(phi_deg - {offset}, {period}), 9)
-                | угол в цикле
+            phase_deg of phase{number}_deg every {period}
+                = round(mod(phi_deg - {offset}, {period}), 9) | угол в цикле
             volume_ratio = {hung_ratio('y')} | {SOURCE}
             p_MPa = {text} | Гоц, 2.4
             Pg_MPa = p_MPa - gas_ambient_pressure_mpa | Гоц (33)
@@ -39,7 +39,7 @@ def hung_table(model: InputFile, rows: tuple[float, ...], number: int) -> TableS
             Mrod_Nm = of_MPa(bend)*F_piston | статика главного шатуна
         """),
         *hung_helpers(shape, "phase_deg"),
-        Column(TIMING, timing, "угол от ВМТ", helper=True, of="phase_deg"),
+        Column(TIMING, timing, "угол от ВМТ", helper=True, of="phase_deg", every=f"{period}"),
         *helpers,
         _force("push_x", f"N_MPa - to_MPa({unit}*q_x2/F_piston)"),
         _force("push_y", f"-Ps_MPa - to_MPa({unit}*q_y2/F_piston)"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from reports.spec.blocks import Grid, GridRow
+from reports.spec.blocks import TURN, Grid, GridRow
 from reports.spec.charts import ChartSpec, Series
 from reports.spec.listing import grid_row
 from reports.spec.parts import Part, Scope
@@ -29,8 +29,8 @@ def _lean(shape: Shape) -> str:
 def _cylinders(shape: Shape) -> Grid:
     numbers = range(1, shape.cylinders + 1)
 
-    def row(of: str, texts: Iterable[str]) -> GridRow:
-        return grid_row(of, texts, _SOURCE)
+    def row(of: str, texts: Iterable[str], every: str = TURN) -> GridRow:
+        return grid_row(of, texts, _SOURCE, every=every)
 
     def axis(i: int) -> str:
         return f"rad({shape.axis(i)} - {_lean(shape)})"
@@ -43,7 +43,7 @@ def _cylinders(shape: Shape) -> Grid:
         (
             row("cyl_throw", (str(shape.throw_of(i)) for i in numbers)),
             row("cyl_axis", map(shape.axis, numbers)),
-            row("cyl_theta", (f"firing_offset_{i}_deg" for i in numbers)),
+            row("cyl_theta", (f"firing_offset_{i}_deg" for i in numbers), f"{shape.period}"),
             row("cyl_rank", (f"rank(cyl_theta{i}, {FIRING})" for i in numbers)),
             row("cyl_x", (f"{_REACH}*sin({axis(i)})" for i in numbers)),
             row("cyl_y", (f"{_REACH}*cos({axis(i)})" for i in numbers)),

@@ -62,6 +62,18 @@ def test_shapes_are_checked():
         one(T[:-1])
 
 
+def test_orders_stand_on_stems_and_nothing_joins_them():
+    """Amplitudes by order were joined by a line, as if there were something between two orders."""
+    orders = np.array([1.0, 2.0, 3.0])
+    curves = [Curve("a", [3.0, 2.0, 0.0]), Curve("b", [1.0, 4.0, 2.0])]
+    drawn = curves_figure(orders, [Panel(curves, "y", stems=True)], "$k$", angle=False)
+    stems = re.findall(r'd="([^"]*)" fill="none"[^>]*stroke-linecap="butt"', drawn)
+    assert [data.count("M") for data in stems] == [2, 3]
+    for foot, top in re.findall(r"M([\d.]+) [\d.]+L([\d.]+)", "".join(stems)):
+        assert foot == top
+    assert {"a", "b"} <= {text.strip() for text in texts(drawn)}
+
+
 def rays(count):
     """A Campbell diagram: rays from one point leave no room for names beside them."""
     speed = np.array([0.0, 17160.0])

@@ -145,6 +145,7 @@ def _panel(
         tuple(Mark(name, float(x[row]), float(y[row])) for name, row in rows),
         chart.from_zero,
         tuple((x, terms.column(series.y)) for series in drawn) if marked else (),
+        chart.stems,
     )
 
 

@@ -85,12 +85,12 @@ def set_widths(sheet: Worksheet, model: Model, layout: Layout, values: Values) -
     sheet.freeze_panes = Cell(sheet.title, FIRST_ROW, 2).coordinate
     sheet.print_title_rows = f"{HEADER_ROW - 1}:{NUMBER_ROW}"
     _widths(sheet, dict.fromkeys(range(1, last + 1), NARROW))
+    widths: dict[int, float] = {}
     for block in blocks:
         if isinstance(block, ScalarTable):
-            first = layout.places[block.id].column
-            _widths(
-                sheet, {first + i: width for i, width in enumerate(_fitting(sheet, layout, block))}
-            )
+            fitting = enumerate(_fitting(sheet, layout, block), layout.places[block.id].column)
+            widths |= {index: max(width, widths.get(index, 0)) for index, width in fitting}
+    _widths(sheet, widths)
     _widen(sheet, blocks, layout, values)
     _raise_labels(sheet, blocks, layout)
     sheet.row_dimensions[HEADER_ROW].height = _HEADER_LINE * max(

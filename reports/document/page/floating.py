@@ -176,7 +176,9 @@ def _table(html: str, style: Style) -> Block:
         around = (2.575 if _LINED.search(html) else 2.005) * _PT
         each = [_row_lines(row, widths, em) * em * 1.2 + around for row in rows[heads:]]
     height += sum(each)
-    kind: Kind = "float" if re.search(r'class="data[^"]* keep', html) else "table"
+    kind: Kind = "table"
+    if re.search(r'class="data[^"]* keep', html):  # a part stays with those before it
+        kind = "other" if re.search(r'class="data[^"]* part"', html) else "float"
     more = head + 1.5 * style.em_px
     return Block(html, kind, height, 10 * _PT, 10.5 * _PT, head=more, rows=tuple(each))
 

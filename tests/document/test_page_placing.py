@@ -228,6 +228,14 @@ def test_headings_have_the_lines_that_were_counted():
     assert [headings[n] for n, lines in enumerate(counted) if lines != found[n]] == []
 
 
+def test_words_divide_before_two_letters_as_russian_books_do():
+    """Whole words of four to eight letters went over and left a line twice as wide apart."""
+    said = "нагрузка шейки и толщина плёнки " * 9
+    widths = [5.5, 6.5, 8.5, 10.0]
+    found = set_alone([f'<p class="flush" style="width:{w}em">{said}</p>' for w in widths])
+    assert [found[n] for n in range(4)] == [line_count(said, w) for w in widths] == [32, 24, 18, 15]
+
+
 @pytest.mark.usefixtures("nothing_is_drawn")
 def test_paragraphs_have_the_lines_that_were_counted():
     """All but one or two in a hundred: letters are not set closer here as they are there."""

@@ -224,6 +224,8 @@ def _axes(
         first, last = values.columns[table][column][[0, -1]].tolist()
         if first == 0:  # a whole turn or cycle; of a part the axis is the program's choice
             _turn(chart, last)
+    elif spec.x_step:
+        chart.x_axis.majorUnit = spec.x_step
     for axis, is_reversed in ((chart.x_axis, spec.x_reversed), (chart.y_axis, spec.y_reversed)):
         if is_reversed:
             axis.scaling.orientation = "maxMin"

@@ -7,6 +7,8 @@ import pytest
 from reports.document.figures.curves import Curve, Panel, curves_figure
 from reports.document.figures.labels import text_size
 from reports.document.figures.style import SMALL
+from reports.tables.registry import build_model
+from tests.conftest import sample
 from tests.document.figure_samples import FIGURES, FORCE, PHI, T, texts
 
 
@@ -72,6 +74,15 @@ def test_orders_stand_on_stems_and_nothing_joins_them():
     for foot, top in re.findall(r"M([\d.]+) [\d.]+L([\d.]+)", "".join(stems)):
         assert foot == top
     assert {"a", "b"} <= {text.strip() for text in texts(drawn)}
+
+
+def test_an_abscissa_that_counts_has_a_mark_at_each_number():
+    """Forms over masses 1 to 5 had marks at 0, 2, 4, 6, in the workbook at every half."""
+    drawn = curves_figure(np.arange(1.0, 6.0), [Panel([Curve("a", [1, 0, -9, 0, 1])], "y")], "$i$",
+                          angle=False, x_step=1.0)  # fmt: skip
+    assert [text for text in texts(drawn) if text in list("012345678")][:5] == list("12345")
+    forms = next(c for c in build_model(sample("mwm-6")).charts if c.id == "torsion_forms")
+    assert forms.x_step == 1
 
 
 def rays(count):

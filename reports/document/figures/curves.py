@@ -114,8 +114,8 @@ def curves_figure(
         panels: Curves and ordinate of each panel.
         x_title: Name and unit of the abscissa, set under the lowest panel.
         height: Height of a panel [mm].
-        angle: Marks at multiples of 30, 60, 90, 120 or of ``x_step``.
-        x_step: Step of the marks instead of the one chosen.
+        angle: Marks at multiples of 30, 60, 90, 120.
+        x_step: Step of the marks instead of the one chosen; the axis ends where the curves do.
         same_scale: One range of ordinates for all panels.
 
     Raises:
@@ -125,7 +125,8 @@ def curves_figure(
     for panel in panels:
         panel.ordinates(abscissa.size)
     low, high = bounds([abscissa.tolist()])
-    x_ticks = angle_ticks(low, high, step=x_step) if angle else value_ticks(low, high)
+    stepped = angle or x_step is not None
+    x_ticks = angle_ticks(low, high, step=x_step) if stepped else value_ticks(low, high)
     ranges = [panel.bounds() for panel in panels]
     if same_scale:
         ranges = [bounds(ranges)] * len(ranges)

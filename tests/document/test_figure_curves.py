@@ -85,6 +85,13 @@ def test_an_abscissa_that_counts_has_a_mark_at_each_number():
     assert forms.x_step == 1
 
 
+@pytest.mark.parametrize(("low", "first"), [(900.0, "0"), (2400.0, "2000")])
+def test_an_abscissa_far_from_zero_begins_where_the_curve_does(low, first):
+    """A third of the chart was empty: speeds from 2400 to 6600 stood over marks from zero."""
+    drawn = curves_figure([low, 6600.0], [Panel([Curve("a", [1, 2])], "y")], "$n$", angle=False)
+    assert texts(drawn)[0] == first
+
+
 def rays(count):
     """A Campbell diagram: rays from one point leave no room for names beside them."""
     speed = np.array([0.0, 17160.0])

@@ -35,6 +35,7 @@ _LEVEL = Look(0.9, (12, 3, 2, 3))
 # Of a legend [pt]: length of its lines, the gap before a name, between columns, between rows.
 _SAMPLE, _GAP, _COLUMNS_GAP, LEGEND_ROW = 30.8, 8.8, 15.4, 16.5
 _IN_ROW, _INSET = 4, 3.3
+_NEAR = 1 / 3  # of its length, the abscissa's beginning from which it is drawn from zero
 _BESIDE, _DOT = 4.0, 3.4  # pt between the stems of one order; dots at their ends
 
 
@@ -126,7 +127,10 @@ def curves_figure(
         panel.ordinates(abscissa.size)
     low, high = bounds([abscissa.tolist()])
     stepped = angle or x_step is not None
-    x_ticks = angle_ticks(low, high, step=x_step) if stepped else value_ticks(low, high)
+    x_ticks = (
+        angle_ticks(low, high, step=x_step) if stepped
+        else value_ticks(low, high, zero=low < _NEAR * (high - low))
+    )  # fmt: skip
     ranges = [panel.bounds() for panel in panels]
     if same_scale:
         ranges = [bounds(ranges)] * len(ranges)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +28,7 @@ from reports.drawing.primitives import (
     Canvas,
     Dash,
     Point,
+    Words,
     polar,
 )
 from reports.drawing.scales import STEP, Scale, round_scale, unit_text
@@ -36,6 +39,7 @@ from reports.spec.charts import ChartSpec, Series
 
 _DASHES: tuple[Dash, ...] = ((), DASHED, CENTRE, DOTTED, (8.0, 2.0, 3.0, 2.0))
 _ANGLES = (15.0, 30.0, 45.0, 60.0, 90.0, 120.0, 180.0)
+_POLE, _FAR = 1.2, 9.0  # radius of a pole; how far its name stands without a line to it
 _SIDE, _FOOT = 16.0, 9.0  # room for marks left of and below a diagram
 Values = NDArray[np.float64]
 
@@ -136,14 +140,14 @@ def path(canvas: Canvas, room: Room, terms: Terms, chart: ChartSpec) -> None:
     """Path of a force's end in one scale with the pole and the crank angles."""
     (drawn,) = chart.drawn_by("report")
     x, y = terms.curves([drawn.x, drawn.y])
-    poles = [(0.0, 0.0, "O")] + [
-        (0.0, float(evaluate(expr, terms.value)), plain(tex).replace("_", ""))
-        for tex, expr in chart.poles
-    ]
-    room = headed(canvas, room, chart.words)
     signs = (-1.0 if chart.x_reversed else 1.0, -1.0 if chart.y_reversed else 1.0)
+    poles = {"O": 0.0} | {
+        plain(tex).replace("_", ""): signs[1] * float(evaluate(expr, terms.value))
+        for tex, expr in chart.poles
+    }
+    room = headed(canvas, room, chart.words)
     xs, ys = signs[0] * x, signs[1] * y
-    across, up = _equal(xs, [*(signs[1] * p for _, p, _ in poles), *ys], room)
+    across, up = _equal(xs, [*poles.values(), *ys], room)
     titles = _unit(terms, drawn.x), _unit(terms, drawn.y)
     said = f"М {unit_text(up.unit)} {terms.unit(drawn.y)} в мм; вправо {'−' if signs[0] < 0 else ''}{titles[0]}, вверх {'−' if signs[1] < 0 else ''}{titles[1]}"  # noqa: E501
     canvas.words((room.middle[0], room.high - TEXT - 1), said,
@@ -153,12 +157,34 @@ def path(canvas: Canvas, room: Room, terms: Terms, chart: ChartSpec) -> None:
     points = _points(origin, across, up, xs, ys)
     canvas.line(*points, layer=CURVES, closed=True, name=f"{chart.id}:{drawn.y}")
     frame = (origin[0], origin[1], origin[0] + across.length, origin[1] + up.length)
-    for px, py, name in poles:
-        place = (origin[0] + across.at(signs[0] * px), origin[1] + up.at(signs[1] * py))
-        canvas.circle(place, 1.2, layer=CONTOUR)
-        near = _beside(place, name, TEXT, (45, 135, -45, -135, 90, -90))
-        canvas.words_where_free(near, name, TEXT, frame)
+    places = [(origin[0] + across.at(0.0), origin[1] + up.at(pole)) for pole in poles.values()]
+    # Beyond a narrow grid rather than over the curve.
+    _poles(
+        canvas, dict(zip(poles, places, strict=True)), (room.left, room.low, room.right, frame[3])
+    )
     _angles(canvas, terms, drawn, (origin, across, up, signs), frame)
+
+
+def _poles(canvas: Canvas, poles: dict[str, Point], within: Box) -> None:
+    """Small circles, each with its name nearer to it than to the others, or at a thin line."""
+    for place in poles.values():
+        canvas.circle(place, _POLE, layer=CONTOUR)
+    for name, place in poles.items():
+        half = width_of(name, TEXT) / 2
+        near = {
+            at: (at[0] + half, at[1] + TEXT / 2)
+            for at in _beside(place, name, TEXT, (45, 135, -45, -135, 90, -90), (2.5, 5, 8, 12, 18))
+        }
+        own = [at for at, middle in near.items()
+               if min(poles.values(), key=partial(math.dist, middle)) == place]  # fmt: skip
+        if not canvas.words_where_free(own, name, TEXT, within):
+            continue
+        middle = near[cast(Words, canvas.items[-1]).place]
+        far = math.dist(place, middle)
+        if far > _FAR:
+            along = np.subtract(middle, place) / far
+            ends = place + np.outer((_POLE, far - half - 0.5), along)
+            canvas.line(*map(tuple, ends.tolist()), layer=THIN)
 
 
 def _equal(xs: Values, ys: Sequence[float], room: Room) -> tuple[Scale, Scale]:
@@ -219,13 +245,19 @@ def _angles(
                 said.add(row)
 
 
-def _beside(point: Point, text: str, height: float, turns: Sequence[float]) -> list[Point]:
+def _beside(
+    point: Point,
+    text: str,
+    height: float,
+    turns: Sequence[float],
+    afar: Sequence[float] = (2.5, 5, 8),
+) -> list[Point]:
     """Places of a text around a point, the near ones first; angles clockwise from above [deg]."""
     half = width_of(text, height) / 2
     ways = [(math.sin(math.radians(turn)), math.cos(math.radians(turn))) for turn in turns]
     return [
         (point[0] + across * (far + half) - half, point[1] + up * far - height / 2)
-        for far in (2.5, 5, 8) for across, up in ways
+        for far in afar for across, up in ways
     ]  # fmt: skip
 
 

@@ -37,6 +37,8 @@ class ChartSpec:
         x_tex: name and unit of the report's abscissa where they are not its column's.
         y_tex: name and unit of the report's ordinate where they are not the workbook's.
         x_is_angle: the abscissa is a crank angle [deg].
+        stems: the abscissa is an order: nothing lies between two, each value stands alone.
+        x_step: the abscissa's step where the programs do not choose it, 1 where it counts things.
         x_reversed: positive x to the left, as the axes of the journals run.
         y_reversed: positive y downwards.
         from_zero: the report's ordinate takes zero in.
@@ -64,6 +66,8 @@ class ChartSpec:
     x_tex: str = ""
     y_tex: str = ""
     x_is_angle: bool = False
+    stems: bool = False
+    x_step: float | None = None
     x_reversed: bool = False
     y_reversed: bool = False
     from_zero: bool = True
@@ -105,6 +109,8 @@ class More(TypedDict, total=False):
     caption: str
     x_tex: str
     y_tex: str
+    stems: bool
+    x_step: float
     from_zero: bool
     levels: tuple[str, ...]
     extremes: bool

@@ -8,6 +8,7 @@ from math import floor, isfinite, log10
 
 from openpyxl.chart import ScatterChart
 from openpyxl.chart.data_source import AxDataSource, NumData, NumDataSource, NumRef, NumVal
+from openpyxl.chart.error_bar import ErrorBars
 from openpyxl.chart.label import DataLabel, DataLabelList
 from openpyxl.chart.layout import Layout as PlotLayout
 from openpyxl.chart.layout import ManualLayout
@@ -62,7 +63,9 @@ def make_chart(
     chart = _empty(spec.heading)
     curves = spec.drawn_by("workbook")
     for number, series in enumerate(curves):
-        chart.series.append(_series(series, number, layout, smooth=is_smooth(spec)))
+        chart.series.append(
+            _series(series, number, layout, smooth=is_smooth(spec), stems=spec.stems)
+        )
     if spec.kind == "wear":
         for line in rays(spec, layout):
             chart.series.append(_ray(len(chart.series), line))
@@ -88,8 +91,7 @@ def _ray(number: int, line: Curve) -> XYSeries:
 def _mark(number: int, point: Curve) -> XYSeries:
     """A small point with its name beside it."""
     made = _curve(number, point, _hidden())
-    made.marker = Marker(symbol="circle", size=4)
-    made.marker.spPr = GraphicalProperties(solidFill=_COLOURS[0])
+    made.marker = _dot(4, _COLOURS[0])
     made.dLbls = DataLabelList(dLblPos="r", showSerName=True, showVal=False)
     made.dLbls.showLegendKey = made.dLbls.showCatName = made.dLbls.showPercent = False
     return made
@@ -100,8 +102,7 @@ def _pole(number: int) -> XYSeries:
     made = _mark(number, Curve("O", "", ""))
     zero = NumData(ptCount=1, pt=[NumVal(idx=0, v="0")])
     made.xVal, made.yVal = AxDataSource(numLit=zero), NumDataSource(numLit=zero)
-    made.marker.size = 7
-    made.marker.spPr = GraphicalProperties(solidFill="C00000")
+    made.marker = _dot(7)
     return made
 
 
@@ -146,8 +147,7 @@ def drawing(
             _hidden() if line.hidden or line.point else look,
         )  # fmt: skip
         if line.point:
-            made.marker = Marker(symbol="circle", size=9)
-            made.marker.spPr = GraphicalProperties(solidFill="C00000")
+            made.marker = _dot(9)
         chart.series.append(made)
     _titles(chart, *axes)
     _legend(chart, shown=not shape and len(lines) > 2)
@@ -224,6 +224,8 @@ def _axes(
         first, last = values.columns[table][column][[0, -1]].tolist()
         if first == 0:  # a whole turn or cycle; of a part the axis is the program's choice
             _turn(chart, last)
+    elif spec.x_step:
+        chart.x_axis.majorUnit = spec.x_step
     for axis, is_reversed in ((chart.x_axis, spec.x_reversed), (chart.y_axis, spec.y_reversed)):
         if is_reversed:
             axis.scaling.orientation = "maxMin"
@@ -273,7 +275,9 @@ def is_smooth(spec: ChartSpec) -> bool:
     return spec.x_is_angle and chapter_of(spec.sheet).smooth
 
 
-def _series(series: SeriesSpec, number: int, layout: Layout, *, smooth: bool) -> XYSeries:
+def _series(
+    series: SeriesSpec, number: int, layout: Layout, *, smooth: bool, stems: bool
+) -> XYSeries:
     node = layout.model.nodes.get(series.y)  # a column; rows of grids are called by quantity
     known = node.quantity if node is not None else quantity(series.y.split(".")[1])
     name = series.name or known.symbol
@@ -281,11 +285,16 @@ def _series(series: SeriesSpec, number: int, layout: Layout, *, smooth: bool) ->
     ranges = layout.range_of(series.x), layout.range_of(series.y)
     if series.point:
         made = _mark(number, Curve(name, *ranges))
-        made.marker.size = 9
-        made.marker.spPr = GraphicalProperties(solidFill="C00000")
+        made.marker = _dot(9)
         return made
-    made = _curve(number, Curve(name, *ranges), line)
+    made = _curve(number, Curve(name, *ranges), _hidden() if stems else line)
     made.smooth = smooth
+    if stems:
+        made.marker = _dot(5, _COLOURS[number % len(_COLOURS)])
+        made.errBars = ErrorBars(
+            errDir="y", errBarType="minus", errValType="percentage", val=100, noEndCap=True,
+            spPr=GraphicalProperties(ln=line),
+        )  # fmt: skip
     return made
 
 
@@ -299,6 +308,10 @@ def _curve(number: int, curve: Curve, line: LineProperties) -> XYSeries:
     made.spPr = GraphicalProperties(ln=line)
     made.marker = _unmarked()
     return made
+
+
+def _dot(size: int, colour: str = "C00000") -> Marker:
+    return Marker(symbol="circle", size=size, spPr=GraphicalProperties(solidFill=colour))
 
 
 @cache

@@ -81,6 +81,7 @@ class Layout:
     columns: dict[str, tuple[TableSpec, int]] = field(default_factory=dict)  # table.column
     next_row: dict[str, int] = field(default_factory=dict)
     next_column: dict[str, int] = field(default_factory=dict)
+    beside: dict[str, int] = field(default_factory=dict)  # row of the next list beside a table
 
     @classmethod
     def of(cls, model: Model) -> Layout:
@@ -137,18 +138,16 @@ class Layout:
 
     def _list(self, block: ScalarTable, *, beside_table: bool) -> None:
         # Beside a table below the rows that stay in view and are repeated on every sheet.
-        row = FIRST_ROW if beside_table else self.next_row.get(block.sheet, HEADER_ROW)
-        column = self.next_column.get(block.sheet, 1) if beside_table else 1
+        rows, top = (self.beside, FIRST_ROW) if beside_table else (self.next_row, HEADER_ROW)
+        row = rows.get(block.sheet, top)
+        column = self.next_column[block.sheet] if beside_table else 1
         self.places[block.id] = Cell(block.sheet, row, column)
         in_row = 1 if block.verdicts is None else 2  # a verdict beside its value
         for index, scalar in enumerate(block.scalars):
             at = column + VALUE_COLUMN - 1 + index % in_row
             self.cells[scalar.key] = Cell(block.sheet, row + 1 + index // in_row, at)
             self.named.add(scalar.key)
-        if beside_table:
-            self.next_column[block.sheet] = column + 6
-        else:
-            self.next_row[block.sheet] = row + len(block.scalars) // in_row + 2
+        rows[block.sheet] = row + len(block.scalars) // in_row + 2
 
     def _grid(self, grid: Grid, *, below_table: bool) -> None:
         row = self.next_row.get(grid.sheet, HEADER_ROW)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import accumulate, pairwise
 from math import ceil, floor, isfinite
 
@@ -40,7 +40,7 @@ from reports.workbook.places import (
     wrap_across,
 )
 from reports.workbook.sheets import NARROW, SOURCE_WIDTH, SYMBOL_WIDTH, TITLE_WIDTH
-from reports.workbook.styles import HEADER
+from reports.workbook.styles import HEADER, SUBTITLE
 
 _LIST = {
     1: TITLE_WIDTH, 2: SYMBOL_WIDTH, VALUE_COLUMN: 14, 4: 11, SOURCE_COLUMN: SOURCE_WIDTH, 6: 30,
@@ -59,6 +59,8 @@ UPRIGHT = 1290  # px: wider sheets lie
 PAPER = {"portrait": (690, 1010), "landscape": (1030, 670)}  # px: A4 less its margins
 _LEAST = 0.45  # scale below which a sheet rather takes more pages, down and across
 SURE = 0.93  # part of the paper that no program's own widths of columns go beyond
+_BEGINNING = 3  # rows of a long list that stand with its heading
+_FINE = 54  # per cent to which nothing is made smaller only to save a page
 _SQUEEZED = 0.3  # what is made smaller by less than this saves a page
 
 
@@ -83,12 +85,12 @@ def set_widths(sheet: Worksheet, model: Model, layout: Layout, values: Values) -
     sheet.freeze_panes = Cell(sheet.title, FIRST_ROW, 2).coordinate
     sheet.print_title_rows = f"{HEADER_ROW - 1}:{NUMBER_ROW}"
     _widths(sheet, dict.fromkeys(range(1, last + 1), NARROW))
+    widths: dict[int, float] = {}
     for block in blocks:
         if isinstance(block, ScalarTable):
-            first = layout.places[block.id].column
-            _widths(
-                sheet, {first + i: width for i, width in enumerate(_fitting(sheet, layout, block))}
-            )
+            fitting = enumerate(_fitting(sheet, layout, block), layout.places[block.id].column)
+            widths |= {index: max(width, widths.get(index, 0)) for index, width in fitting}
+    _widths(sheet, widths)
     _widen(sheet, blocks, layout, values)
     _raise_labels(sheet, blocks, layout)
     sheet.row_dimensions[HEADER_ROW].height = _HEADER_LINE * max(
@@ -267,8 +269,9 @@ def set_page(sheet: Worksheet, boxes: Sequence[Box], *, charts_alone: bool = Fal
     sheet.sheet_properties.pageSetUpPr.fitToPage = True
     if across > 1 and (boxes or not _part(sheet, height)):
         sheet.print_title_cols = "A:A"
-    if boxes and pages != 1 and across == 1:
-        _end_between(sheet, boxes, width)
+    parts = [*boxes, *(() if charts_alone else _sections(sheet))]
+    if parts and pages != 1 and across == 1:
+        _end_between(sheet, parts, width)
     sheet.print_area = area(Cell("", 1, 1), last)
     set_margins(sheet)
 
@@ -282,15 +285,32 @@ def set_margins(sheet: Worksheet) -> None:
     sheet.oddFooter.center.text = "&A — лист &P из &N"
 
 
+def _sections(sheet: Worksheet) -> Iterator[Box]:
+    """Lists one below the other, each with its heading, and of each how it begins."""
+    if sheet.print_title_rows:
+        return
+    starts = [cell.row for cell in sheet["A"] if cell.style == SUBTITLE]
+    tops = _tops(sheet, sheet.max_row)
+    for start, following in pairwise([*starts, sheet.max_row + 2]):
+        for end in (min(start + _BEGINNING, following - 2), following - 2):
+            yield Box(0, tops[start - 1], 0, tops[end] - tops[start - 1])
+
+
+def _tops(sheet: Worksheet, last: int) -> list[int]:
+    """Upper edges of the rows and the lower one of the last."""
+    return [0, *accumulate(row_px(sheet, row) for row in range(1, last + 1))]
+
+
 def _end_between(sheet: Worksheet, boxes: Sequence[Box], width: int) -> None:
-    """Pages that end between charts, where these take several; smaller where that saves pages."""
+    """Pages that end between charts and lists; smaller where that saves pages."""
     w, h = (SURE * side for side in PAPER[sheet.page_setup.orientation])
     most = floor(100 * min(w / width, 1))
     if max(box.bottom for box in boxes) <= 100 * h / most:
         return
-    tops = [0, *accumulate(row_px(sheet, row) for row in range(1, last_cell(sheet, boxes)[0] + 1))]
+    tops = _tops(sheet, last_cell(sheet, boxes)[0])
     repeated = tops[NUMBER_ROW] - tops[HEADER_ROW - 2] if sheet.print_title_rows else 0
-    scales = range(most, floor(most / (1 + _SQUEEZED)), -1)
+    least = max(floor(most / (1 + _SQUEEZED)), min(most - 1, _FINE))
+    scales = range(most, least, -1)
     ends = {scale: _ends(boxes, tops, 100 * h / scale, repeated) for scale in scales}
     scale = min(scales, key=lambda scale: len(ends[scale]))
     for row in ends[scale]:
@@ -303,7 +323,9 @@ def _ends(boxes: Sequence[Box], tops: Sequence[int], room: float, repeated: int)
     top, rows = 0, list[int]()
     while (end := top + room - (repeated if top else 0)) < max(box.bottom for box in boxes):
         row = bisect_right(tops, end) - 1
-        while cut := [box.y for box in boxes if top < box.y < tops[row] < box.bottom]:
+        while cut := [
+            box.y for box in boxes if top < box.y < tops[row] < box.bottom and box.height <= room
+        ]:
             row = bisect_right(tops, min(cut)) - 1
         rows.append(row)
         top = tops[row]

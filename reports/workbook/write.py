@@ -201,7 +201,7 @@ def _room(sheet: Worksheet, specs: Sequence[ChartSpec], *, frozen: bool) -> list
         top = top_of(sheet, FIRST_ROW if frozen else HEADER_ROW)
         return flow(sizes, width + GAP, top, max(UPRIGHT, width + GAP + WIDE))
     tallest = max(size[1] for size in sizes)
-    if height + tallest <= FOLD + tallest // 2:  # their greater halves in sight
+    if height + GAP + tallest <= FOLD + tallest // 2:  # their greater halves in sight
         return flow(sizes, GAP, height + GAP, SCREEN)
     return None
 

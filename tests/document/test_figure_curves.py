@@ -7,6 +7,8 @@ import pytest
 from reports.document.figures.curves import Curve, Panel, curves_figure
 from reports.document.figures.labels import text_size
 from reports.document.figures.style import SMALL
+from reports.tables.registry import build_model
+from tests.conftest import sample
 from tests.document.figure_samples import FIGURES, FORCE, PHI, T, texts
 
 
@@ -60,6 +62,34 @@ def test_not_finite_is_refused(bad):
 def test_shapes_are_checked():
     with pytest.raises(ValueError, match="Кривая «a»"):
         one(T[:-1])
+
+
+def test_orders_stand_on_stems_and_nothing_joins_them():
+    """Amplitudes by order were joined by a line, as if there were something between two orders."""
+    orders = np.array([1.0, 2.0, 3.0])
+    curves = [Curve("a", [3.0, 2.0, 0.0]), Curve("b", [1.0, 4.0, 2.0])]
+    drawn = curves_figure(orders, [Panel(curves, "y", stems=True)], "$k$", angle=False)
+    stems = re.findall(r'd="([^"]*)" fill="none"[^>]*stroke-linecap="butt"', drawn)
+    assert [data.count("M") for data in stems] == [2, 3]
+    for foot, top in re.findall(r"M([\d.]+) [\d.]+L([\d.]+)", "".join(stems)):
+        assert foot == top
+    assert {"a", "b"} <= {text.strip() for text in texts(drawn)}
+
+
+def test_an_abscissa_that_counts_has_a_mark_at_each_number():
+    """Forms over masses 1 to 5 had marks at 0, 2, 4, 6, in the workbook at every half."""
+    drawn = curves_figure(np.arange(1.0, 6.0), [Panel([Curve("a", [1, 0, -9, 0, 1])], "y")], "$i$",
+                          angle=False, x_step=1.0)  # fmt: skip
+    assert [text for text in texts(drawn) if text in list("012345678")][:5] == list("12345")
+    forms = next(c for c in build_model(sample("mwm-6")).charts if c.id == "torsion_forms")
+    assert forms.x_step == 1
+
+
+@pytest.mark.parametrize(("low", "first"), [(900.0, "0"), (2400.0, "2000")])
+def test_an_abscissa_far_from_zero_begins_where_the_curve_does(low, first):
+    """A third of the chart was empty: speeds from 2400 to 6600 stood over marks from zero."""
+    drawn = curves_figure([low, 6600.0], [Panel([Curve("a", [1, 2])], "y")], "$n$", angle=False)
+    assert texts(drawn)[0] == first
 
 
 def rays(count):

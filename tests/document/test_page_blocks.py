@@ -36,6 +36,7 @@ class Case:
     numbers: bool = True
     after: bool = True
     slow: bool = False
+    wide: bool = False
 
     @property
     def label(self) -> Label:
@@ -46,6 +47,9 @@ class Case:
 
     @property
     def block(self) -> TableBlock:
+        if self.wide:  # two parts one below the other
+            heads = [Column(f"M{place}") for place in range(20)]
+            return table_block(heads, [[self.mark(i), *["−1234,5"] * 19] for i in range(self.rows)])
         rows = [[self.mark(i), "1,5", "−2,5", "0,25"] for i in range(self.rows)]
         columns = SIMPLE
         if self.slow:  # unequal columns: cells, not lines
@@ -71,11 +75,17 @@ SHAPES += [
 ]
 SHAPES += [{**shape, "slow": True} for shape in SHAPES if shape["rows"] >= 12]
 CASES = [Case(number, **shape) for number, shape in enumerate(SHAPES, 1)]
+WIDE = [
+    Case(len(CASES) + number, rows, above, wide=True)
+    for number, (rows, above) in enumerate(
+        [(4, 0), (4, 195), (25, 0), (25, 90), (37, 60), (41, 100), (73, 20), (110, 0)], 1
+    )
+]
 
 
 @pytest.fixture(scope="module")
 def pages(tmp_path_factory):
-    html = environment().from_string(SOURCE).render(doc=DocumentInfo("x"), cases=CASES)
+    html = environment().from_string(SOURCE).render(doc=DocumentInfo("x"), cases=[*CASES, *WIDE])
     result = render(html)
     assert result.warnings == ()
     folder = tmp_path_factory.mktemp("tables")
@@ -132,6 +142,14 @@ def test_layout(pages, case):
     for page, text in enumerate(texts):
         if page not in found:
             assert f"таблицы П{case.number}\n" not in text
+
+
+@pytest.mark.parametrize("case", WIDE, ids=lambda case: f"{case.rows}r-{case.above}")
+def test_a_table_in_parts_ends_once(pages, case):
+    """A last part that went over a page was called the end twice, where it began and on top."""
+    said = re.findall(rf"(\w+)\s+(?:таблицы )?П{case.number}\n", "\n".join(pages[0]))
+    assert set(said[:-1]) <= {"Продолжение"}
+    assert said[-1] == "Окончание"
 
 
 def test_many_layouts_really_continue(pages):

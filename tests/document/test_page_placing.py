@@ -11,7 +11,7 @@ from weasyprint.text.fonts import FontConfiguration
 
 from reports.document.page import render
 from reports.document.page.blocks import DocumentInfo
-from reports.document.page.floating import _title_lines
+from reports.document.page.floating import _title_lines, arranged
 from reports.document.page.placing import Block, Spot, after, filled
 from reports.document.page.style import USUAL
 from reports.document.text.lines import line_count
@@ -228,6 +228,14 @@ def test_headings_have_the_lines_that_were_counted():
     assert [headings[n] for n, lines in enumerate(counted) if lines != found[n]] == []
 
 
+def test_words_divide_before_two_letters_as_russian_books_do():
+    """Whole words of four to eight letters went over and left a line twice as wide apart."""
+    said = "нагрузка шейки и толщина плёнки " * 9
+    widths = [5.5, 6.5, 8.5, 10.0]
+    found = set_alone([f'<p class="flush" style="width:{w}em">{said}</p>' for w in widths])
+    assert [found[n] for n in range(4)] == [line_count(said, w) for w in widths] == [32, 24, 18, 15]
+
+
 @pytest.mark.usefixtures("nothing_is_drawn")
 def test_paragraphs_have_the_lines_that_were_counted():
     """All but one or two in a hundred: letters are not set closer here as they are there."""
@@ -243,3 +251,18 @@ def test_paragraphs_have_the_lines_that_were_counted():
     assert len(paragraphs) > 60 and sum(counted) > 150
     assert len(wrong) <= 0.03 * len(paragraphs)
     assert all(abs(counted[n] - found[n]) == 1 for n in wrong)
+
+
+@pytest.mark.parametrize(("lines", "runs_on"), [(10, True), (16, False), (60, True)])
+def test_a_chapter_does_not_run_on_to_leave_a_few_lines_on_its_last_page(lines, runs_on):
+    """Three lines stood alone on a page where the last chapter might have begun on it."""
+
+    def chapter(number, count):
+        said = "\n".join("<p>Строка.</p>" for _ in range(count))
+        return f'<h1 id="c{number}" class=""><span class="hn">{number}</span> Глава</h1>\n{said}'
+
+    closing = '<h1 id="end" class="plain">Заключение</h1>\n<p>Строка.</p>'
+    body = "\n".join([chapter(1, 18), chapter(2, lines), closing])
+    placed = arranged(body, USUAL, run_on=0.3)
+    assert ("runon" in placed) == runs_on
+    assert placed.count("<p>") == 18 + lines + 1

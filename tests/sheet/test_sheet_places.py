@@ -7,8 +7,8 @@ import itertools
 import pytest
 
 from reports.document.text.numbers import of_digits
+from reports.drawing.primitives import CURVES, THIN, Canvas, Line, Words, box_of, overlap
 from reports.drawing.primitives import SIZES as DIMENSIONS
-from reports.drawing.primitives import THIN, Canvas, Line, Words, box_of, overlap
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.sheet import DIAGRAMS, USUAL, SheetSection
@@ -29,6 +29,11 @@ def faults(t) -> list[str]:
     for one, other in itertools.combinations(texts, 2):
         if overlap(one.box, other.box):
             found.append(f"{one.text!r} over {other.text!r} at {one.place}")
+    found += [
+        f"a curve through {words.text!r}"
+        for words in texts
+        if not Canvas([item for item in canvas.items if item.layer is CURVES]).clear(words)
+    ]
     for item in canvas.items:
         left, low, right, high = box_of(item)
         edge = 0.0 if not isinstance(item, Words) else 4.9

@@ -93,6 +93,9 @@ def _series_problems(root: etree._Element) -> Iterator[str]:
     series = root.findall(f".//{C}ser")
     if not series:
         yield "no series"
+    titles = {
+        "".join(t.text or "" for t in title.iter(f"{A}t")) for title in root.iter(f"{C}title")
+    }
     for place, one in enumerate(series):
         where = one.findtext(f"{C}xVal/{C}numRef/{C}f", "")
         round_too = chapter_of(where.rpartition("!")[0].strip("'")).smooth
@@ -101,7 +104,11 @@ def _series_problems(root: etree._Element) -> Iterator[str]:
         symbol = one.find(f"{C}marker/{C}symbol")
         ends = where.rpartition("!")[2].split(":")
         moving = ends[0] == ends[-1]  # a point by one cell
-        if symbol is None or symbol.get("val") != ("circle" if moving else "none"):
+        stem = one.find(f"{C}errBars") is not None
+        if stem != bool({"порядок k", "ν"} & titles):
+            yield f"series {place}: orders stand on stems, nothing lies between them"
+        dotted = moving or stem
+        if symbol is None or symbol.get("val") != ("circle" if dotted else "none"):
             yield f"series {place} has markers"
         line = one.find(f"{C}spPr/{A}ln")
         if line is None or (line.find(f"{A}noFill") is None and line.get("w") not in _LINES):

@@ -16,7 +16,7 @@ from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_text
 from reports.inputs.own_engine import own_engine
 from reports.inputs.own_file import file_text
-from reports.spec.blocks import Model
+from reports.spec.blocks import Model, ScalarTable, TableSpec
 from reports.spec.evaluation import Values
 from reports.tables.registry import build_model
 from reports.workbook import styles
@@ -246,3 +246,19 @@ def test_no_text_of_input_data_is_cut_by_the_next_cell() -> None:
     masses = [item for item in made.inputs if item.value == name]
     first = layout.cells[masses[0].name]
     assert _REGULAR.getlength(name) * _PX < column_px(sheet, first.column)
+
+
+@pytest.mark.parametrize("name", ["d-240-bearings", "gots-diesel"])
+def test_lists_beside_a_table_stand_one_below_the_other(name: str) -> None:
+    """Side by side they made the print of «Орбиты подшипников» too small to be read."""
+    model = coarse_model(name)
+    layout, met = Layout.of(model), 0
+    tables = {block.sheet for block in model.blocks if isinstance(block, TableSpec)}
+    for title in tables:
+        lists = [b for b in model.blocks if b.sheet == title and isinstance(b, ScalarTable)]
+        assert len({layout.places[block.id].column for block in lists}) <= 1
+        cells = [layout.cells[scalar.key] for block in lists for scalar in block.scalars]
+        rows = [cell.row for cell in cells] + [layout.places[block.id].row for block in lists]
+        assert len(set(rows)) == len(rows)
+        met += len(lists) > 1
+    assert met

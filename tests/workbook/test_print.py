@@ -14,6 +14,7 @@ from openpyxl import load_workbook
 from reports.workbook.layout import HEADER_ROW, NUMBER_ROW
 from reports.workbook.paper import PAPER
 from reports.workbook.places import column_px, extent, top_of
+from reports.workbook.styles import SUBTITLE
 from tests.cover import charts, quantities, samples_with
 from tests.workbook.made import book, coarse_opened
 from tests.workbook.test_places import boxes_of
@@ -29,6 +30,25 @@ def test_the_textbooks_diesel_takes_few_pages(libreoffice: LibreOffice, tmp_path
     pages = done.stdout.split("\f")[:-1]
     assert len(pages) <= MOST_PAGES
     assert all(re.search(r". — лист \d+ из \d+", page) for page in pages)
+
+
+@pytest.mark.parametrize("name", ["d-240-bearings", "yamz-238"])
+def test_no_list_is_cut_from_its_heading_by_the_end_of_a_page(name: str) -> None:
+    """«Плечи колен» went on over the page without the names of its columns."""
+    ended = []
+    for sheet in coarse_opened(name).worksheets:
+        page = sheet.page_setup
+        if sheet.print_title_rows or (page.fitToWidth, page.fitToHeight) == (1, 1):
+            continue
+        starts = [cell.row for cell in sheet["A"] if cell.style == SUBTITLE]
+        breaks = [found.id for found in sheet.row_breaks.brk]
+        ended += [sheet.title] if starts and breaks else []
+        for start, following in pairwise([*starts, sheet.max_row + 2]):
+            within = [row for row in breaks if start <= row < following - 2]
+            high = top_of(sheet, following - 1) - top_of(sheet, start)
+            whole = high * page.scale / 100 <= 0.9 * PAPER[page.orientation][1]
+            assert not within or (not whole and within[0] > start + 1), (sheet.title, start)
+    assert "Исходные данные" in ended
 
 
 def test_tables_repeat_their_headers_and_nothing_of_the_lists_beside_them() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -35,6 +35,8 @@ _LEVEL = Look(0.9, (12, 3, 2, 3))
 # Of a legend [pt]: length of its lines, the gap before a name, between columns, between rows.
 _SAMPLE, _GAP, _COLUMNS_GAP, LEGEND_ROW = 30.8, 8.8, 15.4, 16.5
 _IN_ROW, _INSET = 4, 3.3
+_NEAR = 1 / 3  # of its length, the abscissa's beginning from which it is drawn from zero
+_BESIDE, _DOT = 4.0, 3.4  # pt between the stems of one order; dots at their ends
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +66,7 @@ class Mark:
 
 @dataclass(frozen=True, slots=True)
 class Panel:
-    """One plot of a figure; ``zero`` takes zero into the ordinate, ``points`` get dots."""
+    """One plot: ``zero`` is taken into the ordinate, ``points`` get dots, ``stems`` no curves."""
 
     curves: Sequence[Curve]
     y_title: str
@@ -72,6 +74,7 @@ class Panel:
     marks: Sequence[Mark] = ()
     zero: bool = True
     points: Sequence[tuple[ArrayLike, ArrayLike]] = ()
+    stems: bool = False
 
     def ordinates(self, size: int) -> list[NDArray[np.float64]]:
         """The curves as arrays, shape (size,) each.
@@ -112,8 +115,8 @@ def curves_figure(
         panels: Curves and ordinate of each panel.
         x_title: Name and unit of the abscissa, set under the lowest panel.
         height: Height of a panel [mm].
-        angle: Marks at multiples of 30, 60, 90, 120 or of ``x_step``.
-        x_step: Step of the marks instead of the one chosen.
+        angle: Marks at multiples of 30, 60, 90, 120.
+        x_step: Step of the marks instead of the one chosen; the axis ends where the curves do.
         same_scale: One range of ordinates for all panels.
 
     Raises:
@@ -123,7 +126,11 @@ def curves_figure(
     for panel in panels:
         panel.ordinates(abscissa.size)
     low, high = bounds([abscissa.tolist()])
-    x_ticks = angle_ticks(low, high, step=x_step) if angle else value_ticks(low, high)
+    stepped = angle or x_step is not None
+    x_ticks = (
+        angle_ticks(low, high, step=x_step) if stepped
+        else value_ticks(low, high, zero=low < _NEAR * (high - low))
+    )  # fmt: skip
     ranges = [panel.bounds() for panel in panels]
     if same_scale:
         ranges = [bounds(ranges)] * len(ranges)
@@ -155,7 +162,12 @@ def _plot(axes: Axes, x: NDArray[np.float64], panel: Panel) -> None:
     axes.name_y(panel.y_title)
     lines = [axes.at(x, y) for y in panel.ordinates(x.size)]
     for number, line in enumerate(lines):
-        axes.page.line(line, PATTERNS[number % len(PATTERNS)])
+        look = PATTERNS[number % len(PATTERNS)]
+        if panel.stems:
+            beside = _BESIDE * (number - (len(lines) - 1) / 2)
+            _stems(axes, line + np.array([beside, 0.0]), look)
+        else:
+            axes.page.line(line, look)
     for number, points in enumerate(panel.points):
         # Segments of no length, which round caps make dots.
         dots = np.repeat(axes.at(*points), 2, axis=0).reshape(-1, 2, 2)
@@ -164,6 +176,15 @@ def _plot(axes: Axes, x: NDArray[np.float64], panel: Panel) -> None:
     for level in panel.levels:
         axes.level(level.y, _LEVEL)
     _name(axes, panel, lines)
+
+
+def _stems(axes: Axes, tops: NDArray[np.float64], look: Look) -> None:
+    """A line from zero to each value, a dot at its end; nothing where the value is zero."""
+    feet = np.column_stack([tops[:, 0], np.full(len(tops), axes.at(0.0, 0.0)[1])])
+    seen = np.abs(tops - feet)[:, 1] > _DOT / 2
+    axes.page.lines(np.stack([feet, tops], axis=1)[seen], replace(look, cap="butt"))
+    dots = np.repeat(tops[seen], 2, axis=0).reshape(-1, 2, 2)
+    axes.page.lines(dots, Look(_DOT, colour=look.colour, cap="round"))
 
 
 def _name(axes: Axes, panel: Panel, lines: Sequence[Points]) -> None:
@@ -183,10 +204,10 @@ def _name(axes: Axes, panel: Panel, lines: Sequence[Points]) -> None:
     if len(panel.curves) < 2:
         return
     places = []
-    for curve, line in zip(panel.curves, lines, strict=True):
+    for curve, line in () if panel.stems else zip(panel.curves, lines, strict=True):
         others = [other for other in lines if other is not line]
         places.append(label_curve(room, line, others, text_size(curve.name, FONT_SIZE)))
-    if all(places):
+    if places and all(places):
         for curve, place in zip(panel.curves, places, strict=True):
             axes.page.text(place or (0, 0), curve.name, halo=True)
     else:

@@ -92,8 +92,9 @@ def _curves(
         curves = (Curve(c.name, np.append(c.y, np.asarray(c.y)[0])) for c in panel.curves)
         panel = replace(panel, curves=tuple(curves))
     return partial(
-        curves_figure, x, (panel,), _axis(terms, name), height=size, angle=chart.x_is_angle
-    )
+        curves_figure, x, (panel,), _axis(terms, name),
+        height=size, angle=chart.x_is_angle, x_step=chart.x_step,
+    )  # fmt: skip
 
 
 Column = NDArray[np.float64]
@@ -145,6 +146,7 @@ def _panel(
         tuple(Mark(name, float(x[row]), float(y[row])) for name, row in rows),
         chart.from_zero,
         tuple((x, terms.column(series.y)) for series in drawn) if marked else (),
+        chart.stems,
     )
 
 

@@ -35,6 +35,8 @@ _SMALL = re.compile(r"<su[bp]>(.*?)</su[bp]>", re.DOTALL)
 _TAGS = re.compile(r"<(?!/?su[bp]\b)[^>]*>")  # all but those of indices
 _PT = 96 / 72  # CSS pixels in a point
 _SLACK = 0.1  # px kept free on every page: estimates are no measures
+_RUN_ON = 'class="runon '
+_SCANT = 0.3  # of a page, the last one before a chapter on a page of its own
 _NEARLY = 0.07  # of a page: too little for a heading and what must follow it
 
 
@@ -53,20 +55,34 @@ def arranged(body: str, style: Style, *, run_on: float = 1.0) -> str:
     spot = Spot(room, page=0)
     for block in _blocks(str(body), style):  # no Markup: nothing is escaped here
         if block.kind == "chapter":
-            placed, spot = filled(chapter, spot, room, line)
-            out += placed
+            placed, end = filled(chapter, spot, room, line)
             follows = bool(chapter) and not {_number(chapter[0]), _number(block)} & {""}
-            chapter = []
             # A page all but full may run over by a line: then the heading follows that line.
-            free = (room - spot.used) / room
+            free = (room - end.used) / room
             if follows and run_on < 1 and (free > run_on or free < _NEARLY):
-                html = block.html.replace('class="', 'class="runon ', 1)
+                html = block.html.replace('class="', _RUN_ON, 1)
                 block = replace(block, html=html, above=18 * _PT)  # noqa: PLW2901
+                spot = end
             else:
-                spot = Spot(0.0, page=spot.page + 1)
+                placed, end = _fuller(chapter, spot, (placed, end), room, line)
+                spot = Spot(0.0, page=end.page + 1)
+            out += placed
+            chapter = []
         chapter.append(block)
-    placed, spot = filled(chapter, spot, room, line)
+    placed, spot = _fuller(chapter, spot, filled(chapter, spot, room, line), room, line)
     return "\n".join([*out, *placed, f'<div data-page="{spot.page}"></div>'])
+
+
+def _fuller(
+    chapter: Sequence[Block], spot: Spot, found: tuple[list[str], Spot], room: float, line: float
+) -> tuple[list[str], Spot]:
+    """What ran on and left its page for a few lines begins on the next page instead."""
+    _, end = found
+    if not spot.used or end.page == spot.page or end.used > _SCANT * room:
+        return found
+    heading = replace(chapter[0], html=chapter[0].html.replace(_RUN_ON, 'class="', 1), above=0.0)
+    other = filled([heading, *chapter[1:]], Spot(0.0, page=spot.page + 1), room, line)
+    return other if other[1].page == end.page else found
 
 
 def _number(chapter: Block) -> str:
@@ -176,7 +192,9 @@ def _table(html: str, style: Style) -> Block:
         around = (2.575 if _LINED.search(html) else 2.005) * _PT
         each = [_row_lines(row, widths, em) * em * 1.2 + around for row in rows[heads:]]
     height += sum(each)
-    kind: Kind = "float" if re.search(r'class="data[^"]* keep', html) else "table"
+    kind: Kind = "table"
+    if re.search(r'class="data[^"]* keep', html):  # a part stays with those before it
+        kind = "other" if re.search(r'class="data[^"]* part"', html) else "float"
     more = head + 1.5 * style.em_px
     return Block(html, kind, height, 10 * _PT, 10.5 * _PT, head=more, rows=tuple(each))
 

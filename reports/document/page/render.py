@@ -195,16 +195,11 @@ def _environment(overrides: Path | None, media: str, style: Style) -> Environmen
         else style.model_copy(update={"tagged_tables": False}),
     }
     result.filters |= {
-        "plain": texts.plain,
-        "sym": inline_html,
-        "titled": texts.titled,
-        "pictured": texts.pictured,
-    }
-    result.filters |= {
         "joined": joined,
         "plain": texts.plain,
         "sym": inline_html,
         "titled": texts.titled,
+        "pictured": texts.pictured,
         "least_width": fitting.least_width,
         "fitted": lambda block, size: (
             fitting.fitted(block, size, style) if media == "print" else ([block], size)

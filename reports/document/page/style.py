@@ -16,6 +16,7 @@ HINT = "исправьте файл оформления; ключи описа�
 PX = 96 / 25.4  # CSS pixels in a millimetre
 FRAMED_MM = 30.0  # bottom margin of a sheet with the title block, form 2а
 _TABLE = 12 / 14  # type of tables relative to the text's
+_ROW, _HEAD_ROWS = 1.37, 4  # height of a row relative to its type; caption, titles, numbers
 _SIZES = {"": 1.0, "dense": 0.875, "tiny": 0.75}  # relative to the usual type of tables
 
 
@@ -86,6 +87,11 @@ class Style(_Strict):
     def table_em_px(self, size: str) -> float:
         """Size of a table's type [CSS pixels] by the name of its size."""
         return self.table_pt * _SIZES[size] * 96 / 72
+
+    def rows_on_page(self, size: str) -> int:
+        """Rows of one line that a page holds at most, below the heading of a table."""
+        height = (297.0 - self.margins.top - self.margins.bottom) * PX
+        return int(height / (_ROW * self.table_em_px(size))) - _HEAD_ROWS
 
     def formula_em(self, *, numbered: bool) -> float:
         """Room for a line of a displayed formula, in em of the text."""

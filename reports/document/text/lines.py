@@ -13,7 +13,7 @@ from reports.document.text.fonts import text_em
 if TYPE_CHECKING:
     from pyphen import Pyphen
 
-_LEAST, _HEAD, _TAIL = 6, 3, 3  # letters of a word that is divided and of its parts
+_LEAST, _HEAD, _TAIL = 4, 2, 2  # letters of a word that is divided and of its parts
 _SMALL = 0.7  # of indices
 _TOKEN = re.compile(r"<(/?)(\w+)([^>]*)>|([^<]+)")
 _UNBROKEN = re.compile(r'class="(?:nb|ref)"')

@@ -225,9 +225,9 @@ def _charts(*, motored: bool) -> tuple[ChartSpec, ...]:
              Series(f"{o}.order", f"{o}.inertia_amplitude_MPa"),
              Series(f"{o}.order", f"{o}.total_amplitude_MPa", only="workbook"),
              caption="Амплитуды гармоник удельной тангенциальной силы по порядкам",
-             y_tex="$t_k^a$, МПа"),
+             y_tex="$t_k^a$, МПа", stems=True),
         line("torque_engine", SHEET, "Амплитуды гармоник момента двигателя", (k, "M, Н·м"),
-             Series(f"{o}.order", f"{o}.M_engine_order_Nm")),
+             Series(f"{o}.order", f"{o}.M_engine_order_Nm"), stems=True),
     )  # fmt: skip
 
 

@@ -218,5 +218,6 @@ def _charts(train: Train) -> tuple[ChartSpec, ...]:
     f = "torsion_forms"
     return (
         line("torsion_forms", FORMS, "Формы крутильных колебаний", ("номер массы", "a"),
-             *(Series(f"{f}.tor_mass", f"{f}.tor_theta{m}", f"форма {m}") for m in train.modes)),
+             *(Series(f"{f}.tor_mass", f"{f}.tor_theta{m}", f"форма {m}") for m in train.modes),
+             x_step=1.0),
     )  # fmt: skip

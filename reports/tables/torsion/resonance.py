@@ -362,7 +362,7 @@ def _charts(scope: Scope, train: Train) -> tuple[ChartSpec, ...]:
     return (
         line("torsion_resonance", CRITICAL, "Резонансные напряжения по порядкам", ("ν", "τ, МПа"),
              *(Series(f"{c}.tor_order", f"{c}.tor_in{m}_MPa", f"форма {m}") for m in train.modes),
-             caption="Резонансные напряжения в рабочем диапазоне по порядкам"),
+             caption="Резонансные напряжения в рабочем диапазоне по порядкам", stems=True),
         polar("torsion_star", STAR, "Звёзды фаз первой формы", ("x", "y"),
               "torsion_star_box.tor_star_box",
               *(Series(f"torsion_star.tor_star_x{o}", f"torsion_star.tor_star_y{o}",

@@ -25,7 +25,7 @@ def test_a_chart_says_its_caption_axes_and_curves():
         f"${T.tex(f'P4_1.{key}')}$" for key in ("Pg_MPa", "Pj_MPa", "Ps_MPa")
     ]
     assert np.array_equal(shown.curves[2].y, T.column("P4_1.Ps_MPa"))
-    assert figure.draw.keywords == {"height": 80, "angle": True} and x[-1] == 720
+    assert figure.draw.keywords == {"height": 80, "angle": True, "x_step": None} and x[-1] == 720
 
 
 def test_one_curve_is_named_at_its_axis_with_its_levels_and_extremes():

@@ -391,3 +391,5 @@ def test_the_conclusion_tells_of_every_chapter(name, said, word):
     page = page_of(name, "course")
     end = plain(page[page.index("Заключение</h1>") :])
     assert said in end and word in plain(page)
+    # Between «…» and a bracket no line ends: a line with a word for each quarter of it came before.
+    assert "» (" not in end

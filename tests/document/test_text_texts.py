@@ -97,6 +97,7 @@ def test_lines_are_filled_whatever_follows_a_space(end, tmp_path):
         ('Гоца [<a class="ref" href="#x">1</a>]', 'Гоца\xa0[<a class="ref" href="#x">1</a>]'),
         ('по [<a class="ref">1</a>, формулы (4)', 'по [<a class="ref">1</a>, формулы (4)'),
         ('по [<a class="ref">1</a>,\xa0п.', 'по\xa0[<a class="ref">1</a>,\xa0п.'),
+        ('сложены [<a class="ref">1</a>,\xa0п.', 'сложены [<a class="ref">1</a>,\xa0п.'),
         ('на рисунке <a class="ref">1</a>', 'на рисунке\xa0<a class="ref">1</a>'),
         ('в таблицах <a class="ref">1</a>', 'в таблицах\xa0<a class="ref">1</a>'),
         (">А. Н. Гоц в США. Но", ">А.\xa0Н.\xa0Гоц в США. Но"),

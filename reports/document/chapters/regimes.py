@@ -47,8 +47,9 @@ def concluded(chapter: Chapter) -> Markup:
     by_regime: dict[str, list[str]] = {}
     for part, name in _governing(chapter):
         by_regime.setdefault(name, []).append(part)
+    # Between a quotation mark and a bracket no line ends by itself, not even at a space.
     told = [
-        Markup("«{}» ({})").format(printable(name), "; ".join(parts))
+        Markup("«{}» \u200b({})").format(printable(name), "; ".join(parts))
         for name, parts in by_regime.items()
     ]
     count = len(chapter.input.regimes) + 1

@@ -89,12 +89,13 @@ _SPACE_BEFORE_UNBROKEN = re.compile('([ \u00a0])(<span class="nb">|<a class="ref
 # Units as sentences of the templates put them behind a number, and the pages of a book.
 _UNIT = r"(?:%|°C|с\.|(?:(?:кН|Н)(?:·м)?|[мМ]?Па|мк?м|кг|к?Дж|к?Вт|мин|рад|Гц|л|м)(?![А-Яа-яё]))"
 # Spaces that no line ends at: of initials, «А. Н. Гоц»; before a short reference, «Гоца [1]»,
-# the number of a thing, «рисунок 1», «шейки 2», «№ 3», and a dash, but not the one of a caption
-# after its number; within «а — размеры»; round the sign of «φ = 56°»; before a unit.  The space
-# stands first: it is looked for at once.
+# or a longer one after «по»; before the number of a thing, «рисунок 1», «шейки 2», «№ 3», and a
+# dash, but not the one of a caption after its number; within «а — размеры»; round the sign of
+# «φ = 56°»; before a unit.  The space stands first: it is looked for at once.
 _UNBROKEN = re.compile(
     r" (?:(?<=[^А-ЯЁа-яёA-Za-z][А-ЯЁ]\. )(?=[А-ЯЁ])"
-    rf'|(?=\[<a class="ref"[^<>]*>\d+</a>(?:\]|,{NBSP}|, <a))'
+    r'|(?=\[<a class="ref"[^<>]*>\d+</a>(?:\]|, <a))'
+    rf'|(?<=\bпо )(?=\[<a class="ref"[^<>]*>\d+</a>,{NBSP})'
     r"|(?:(?<=шейк[а-я] )|(?<=подшипник )|(?<=подшипник[а-я] )|(?<=цилиндр[а-я] )|(?<=колен[а-я] )"
     r"|(?<=№ ))(?=\d+(?!\d|,\d))"
     r'|(?:(?<=рисун[а-я]{2} )|(?<=рисунках )|(?<=аблиц[а-я] )|(?<=аблицах ))(?=<a class="ref")'

@@ -7,7 +7,8 @@ from dataclasses import replace
 import pytest
 
 from reports.grading.judging.copied import known_numbers, stepping
-from reports.grading.judging.trials import trials_of
+from reports.grading.judging.trials import Trial, fixed, trials_of
+from reports.spec.evaluation import Evaluation
 from tests.grading.classroom import assignment, register
 
 
@@ -40,3 +41,11 @@ def test_angles_of_ones_own_are_not_taken_for_input_data() -> None:
     data = {("Мой вариант", 2, i): value for i, value in enumerate((90.0, 94.0, 148.0, 4400.0))}
     alike = {("Мой вариант", 3, i): 0.245 for i in range(6)}
     assert stepping(angles | data | alike) == set(angles)
+
+
+def test_an_angle_is_no_other_a_turn_further() -> None:
+    """Extremes at 0, 360 and 720 are alike for all engines: ``=360+0*n`` follows from nothing."""
+    own, node = Evaluation(assignment().model), "phi_vmax_deg"
+    for further, same in ((360.0, True), (-720.0, True), (180.0, False)):
+        other = own.fork({node: own.value(node) + further})
+        assert fixed(node, own, (Trial({}, other, decides=True),)).all() == same

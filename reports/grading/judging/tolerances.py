@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Sequence
 from fnmatch import fnmatchcase
 
 import numpy as np
@@ -39,25 +40,31 @@ def tolerance(item: Item, expected: Array, student: Student) -> float:
 def close(
     item: Item, values: Array, expected: Array, allowed: float, run: Evaluation
 ) -> NDArray[np.bool_]:
-    """Where two columns of an engine agree.
+    """Where two columns of an engine agree."""
+    with np.errstate(invalid="ignore"):
+        return np.asarray(apart(item.nodes, values, expected, run) <= allowed)
+
+
+def apart(nodes: Sequence[str], values: Array, expected: Array, run: Evaluation) -> Array:
+    """How far the values of nodes are from what an engine has there.
 
     Directions are the same again after a turn or a part of it, and nothing has any direction.
     """
     with np.errstate(invalid="ignore", divide="ignore"):
         difference = np.abs(values - expected)
-        if item.quantity.unit != "deg":
-            return np.asarray(difference <= allowed)
-        every, nothing = _turns(item, run)
+        if run.model.nodes[nodes[0]].quantity.unit != "deg":
+            return difference
+        every, nothing = _turns(nodes, run)
         turns = np.where(every > 0, np.round(difference / every), 0)
-        near = np.abs(difference - turns * every) <= allowed
-        return np.asarray(near | (nothing & np.isfinite(values)))
+        near = np.abs(difference - turns * every)
+        return np.where(nothing & np.isfinite(values), 0.0, near)
 
 
-def _turns(item: Item, run: Evaluation) -> tuple[Array, NDArray[np.bool_]]:
-    """After how many degrees each angle of an item is the same, 0: never; where there is none."""
+def _turns(nodes: Sequence[str], run: Evaluation) -> tuple[Array, NDArray[np.bool_]]:
+    """After how many degrees each angle is the same, 0: never; where there is none."""
     every: list[Array] = []
     nothing: list[Array] = []
-    for node in item.nodes:
+    for node in nodes:
         spec = run.model.nodes[node]
         tree, none = parse(spec.expr or "0"), parse("0")
         if isinstance(tree, ast.IfExp) and isinstance(tree.body, ast.Constant):

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.register import Issued
+from reports.grading.judging.tolerances import apart
 from reports.inputs.fields import Field, cell_name
 from reports.inputs.ranges import Range
 from reports.spec.evaluation import Evaluation
@@ -72,7 +73,8 @@ def fixed(node: str, own: Evaluation, trials: Sequence[Trial]) -> NDArray[np.boo
         return np.zeros(len(right), dtype=bool)
     digit = 10.0 ** -own.model.nodes[node].quantity.digits.decimals
     allowed = max(1e-9 * float(np.nanmax(np.abs(right))), _NOUGHT * digit)
-    return np.asarray(np.logical_and.reduce([np.abs(other - right) <= allowed for other in others]))
+    near = [apart([node], other, right, own) <= allowed for other in others]
+    return np.asarray(np.logical_and.reduce(near))
 
 
 def _first(

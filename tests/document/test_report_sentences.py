@@ -246,15 +246,16 @@ def assert_decimals_agree(text):
             assert len({len(number.partition(",")[2]) for number in pair}) == 1, pair
 
 
+_UNSEEN = {"\n", "\u00ad", "\u200b"}  # where lines may end: no font draws them
+
+
 def assert_set_well(page):
     """Every sign is in the report's font, no number leaves its unit, no line ends in «1-го»."""
     bare = re.sub(r"<(style|svg).*?</\1>", "", page, flags=re.DOTALL)
     free = re.sub('<span class="nb">.*?</span>|<[^>]+>', "", bare)
     assert re.findall(r".{0,20}(?<![\w-])\d+-[а-яё]{1,3}(?![\w-])", free) == []
     text = html.unescape(re.sub("<[^>]+>", "", bare))
-    assert {
-        sign for sign in set(text) - {"\n", "\u00ad"} if ord(sign) not in signs.coverage()
-    } == set()
+    assert {sign for sign in set(text) - _UNSEEN if ord(sign) not in signs.coverage()} == set()
     assert PARTED.findall(text) == []
 
 

@@ -15,6 +15,7 @@ from kshm.nomenclature.digits import Digits
 
 MINUS = "\u2212"
 NBSP = "\u00a0"
+BREAK = "\u200b"  # a line may end here, nothing is seen
 _GROUP_FROM = 5
 _SPREADSHEET = 15  # significant digits that Excel rounds by
 _ROUNDING = Context(prec=400, rounding=ROUND_HALF_UP)

@@ -79,7 +79,7 @@ def _number_pages(root: HtmlElement, style: Style) -> int:
     """Turn the estimated pages of headings into pages of the file; how many there are."""
     fronts = root.xpath("//section[contains(concat(' ', @class, ' '), ' sheet ')"
                         " or contains(concat(' ', @class, ' '), ' brief ')]")  # fmt: skip
-    height = (297 - style.margins.top - style.margins.bottom) * 96 / 25.4
+    height = style.height_px
     entries = len(root.xpath("//nav//li"))
     before = len(fronts) + -(-int((entries + 2) * 1.3 * style.em_px) // int(height))
     page = before

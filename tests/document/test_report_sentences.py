@@ -19,6 +19,7 @@ from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.solved import solved
 from reports.shared import signs
+from reports.shared.russian import BREAK
 from tests import layouts
 from tests.conftest import sample
 from tests.cover import charts, choices, samples_with
@@ -246,7 +247,7 @@ def assert_decimals_agree(text):
             assert len({len(number.partition(",")[2]) for number in pair}) == 1, pair
 
 
-_UNSEEN = {"\n", "\u00ad", "\u200b"}  # where lines may end: no font draws them
+_UNSEEN = {"\n", "\u00ad", BREAK}  # where lines may end: no font draws them
 
 
 def assert_set_well(page):

@@ -5,11 +5,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from markupsafe import Markup
 
-from reports.document.page.render import render
+from reports.document.page.render import environment, render
 from reports.document.text import fonts, texts
 from reports.document.text.fonts import fonts_css
 from reports.shared import signs
-from reports.shared.resources import templates_dir
 from tests.document.pdftools import pages_of
 
 
@@ -134,7 +133,7 @@ def test_no_line_ends_within_an_ordinal_or_a_relation(text, said):
 
 def test_short_words_are_divided_too_before_a_line_is_stretched(tmp_path):
     """Russian print leaves two letters behind: «ре-жиме», «ча-стоте», «шату-на»."""
-    sheet = (templates_dir() / "report" / "report.css.j2").read_text(encoding="utf-8")
+    sheet = environment().get_template("report/report.css.j2").render()
     limit = re.search(r"hyphenate-limit-chars:[^;]+;", sheet)[0]
     css = f"html{{font:14pt STIXGeneral;hyphens:auto;{limit}}}p{{margin:0}}@page{{margin:0}}"
     text = "на установившемся режиме частота равна"

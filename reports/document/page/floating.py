@@ -48,7 +48,7 @@ def arranged(body: str, style: Style, *, run_on: float = 1.0) -> str:
         style: Sizes of sheet and type.
         run_on: A numbered chapter follows on the same page if this share of it is free.
     """
-    room = (297 - style.margins.top - style.margins.bottom) * 96 / 25.4 - _SLACK
+    room = style.height_px - _SLACK
     line = style.em_px * style.line_spacing
     out: list[str] = []
     chapter: list[Block] = []
@@ -187,7 +187,7 @@ def _table(html: str, style: Style) -> Block:
     height = caption + head
     lines = html.find('<tr class="lines">')
     if lines > 0:
-        each = [1.37 * em] * html.count("\n", lines)
+        each = [style.row_em * em] * html.count("\n", lines)
     else:
         around = (2.575 if _LINED.search(html) else 2.005) * _PT
         each = [_row_lines(row, widths, em) * em * 1.2 + around for row in rows[heads:]]

@@ -18,6 +18,7 @@ from reports.document.page.finish import finish
 from reports.document.page.style import USUAL, Style
 from reports.document.text import fonts, texts
 from reports.document.text.complaints import complaints
+from reports.document.text.lines import DIVIDED
 from reports.document.text.mathsvg import formula_lines
 from reports.document.text.symbols import inline_html
 from reports.shared.doctor import need_pango
@@ -190,6 +191,7 @@ def _environment(overrides: Path | None, media: str, style: Style) -> Environmen
         "font_stack": Markup(fonts.STACK),
         "formula_lines": formula_lines,
         "nbsp": NBSP,
+        "divided": DIVIDED,
         "style": style
         if style.tagged_tables is not None
         else style.model_copy(update={"tagged_tables": False}),

@@ -16,7 +16,7 @@ HINT = "исправьте файл оформления; ключи описа�
 PX = 96 / 25.4  # CSS pixels in a millimetre
 FRAMED_MM = 30.0  # bottom margin of a sheet with the title block, form 2а
 _TABLE = 12 / 14  # type of tables relative to the text's
-_ROW, _HEAD_ROWS = 1.37, 4  # height of a row relative to its type; caption, titles, numbers
+_HEAD_ROWS = 4  # of a table: caption, titles, numbers
 _SIZES = {"": 1.0, "dense": 0.875, "tiny": 0.75}  # relative to the usual type of tables
 
 
@@ -75,6 +75,16 @@ class Style(_Strict):
         return self.width_mm * PX
 
     @property
+    def height_px(self) -> float:
+        """Height of the text on a page [CSS pixels]."""
+        return (297.0 - self.margins.top - self.margins.bottom) * PX
+
+    @property
+    def row_em(self) -> float:
+        """Height of a row of one line in a table relative to its type."""
+        return 1.37
+
+    @property
     def em_px(self) -> float:
         """Size of the text's type [CSS pixels]."""
         return self.font_size_pt * 96 / 72
@@ -90,8 +100,7 @@ class Style(_Strict):
 
     def rows_on_page(self, size: str) -> int:
         """Rows of one line that a page holds at most, below the heading of a table."""
-        height = (297.0 - self.margins.top - self.margins.bottom) * PX
-        return int(height / (_ROW * self.table_em_px(size))) - _HEAD_ROWS
+        return int(self.height_px / (self.row_em * self.table_em_px(size))) - _HEAD_ROWS
 
     def formula_em(self, *, numbered: bool) -> float:
         """Room for a line of a displayed formula, in em of the text."""

@@ -13,7 +13,7 @@ from reports.document.text.fonts import text_em
 if TYPE_CHECKING:
     from pyphen import Pyphen
 
-_LEAST, _HEAD, _TAIL = 4, 2, 2  # letters of a word that is divided and of its parts
+DIVIDED = (4, 2, 2)  # letters of a word that is divided and of its parts, at least
 _SMALL = 0.7  # of indices
 _TOKEN = re.compile(r"<(/?)(\w+)([^>]*)>|([^<]+)")
 _UNBROKEN = re.compile(r'class="(?:nb|ref)"')
@@ -93,7 +93,7 @@ def _runs(html: str) -> Iterator[tuple[str, bool, bool, bool]]:
 
 def _divided(text: str, room: float) -> float:
     """Width of the part of a word that goes on to the next line; 0 if none fits before."""
-    found = next((m for m in _LETTERS.finditer(text) if len(m.group()) >= _LEAST), None)
+    found = next((m for m in _LETTERS.finditer(text) if len(m.group()) >= DIVIDED[0]), None)
     if found is None:
         return 0.0
     for place in reversed(_places(found.group())):
@@ -112,4 +112,4 @@ def _places(word: str) -> tuple[int, ...]:
 def _dictionary() -> Pyphen:
     from pyphen import Pyphen
 
-    return Pyphen(lang="ru_RU", left=_HEAD, right=_TAIL)
+    return Pyphen(lang="ru_RU", left=DIVIDED[1], right=DIVIDED[2])

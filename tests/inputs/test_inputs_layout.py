@@ -30,6 +30,17 @@ def test_order_may_begin_with_any_cylinder(raw):
     assert shaft.firing_offsets_deg == (0.0, 540.0, 180.0, 360.0)
 
 
+def test_cylinders_that_fire_together_are_told(raw):
+    """540° typed twice fits the throws: nothing else shows it."""
+    offsets = [0.0, 540.0, 540.0, 360.0]
+    given = in_line_four(raw, firing_offsets_deg=offsets, throw_angles_deg=[0, 180, 180, 0])
+    (told,) = (w for w in load_mapping(given, source="f.toml").warnings if "то же" in w.what)
+    assert told.where == "f.toml: crankshaft.firing_offsets_deg[3]"
+    assert told.what == "начало рабочего хода то же, что у цилиндра 2: 540°"
+    given["crankshaft"]["firing_offsets_deg"][2] = 180.0
+    assert not any("то же" in w.what for w in load_mapping(given, source="f.toml").warnings)
+
+
 def test_order_beside_uneven_offsets_that_agree(raw):
     raw = v_six(raw)
     raw["crankshaft"]["firing_order"] = "1-4-2-5-3-6"

@@ -121,6 +121,11 @@ def _phases(values: Values) -> Iterator[Finding]:
         if strokes == 2 and offset >= 360:
             what = f"начало рабочего хода {number_text(offset)}° вне цикла двухтактного двигателя"
             yield Finding(("crankshaft", "firing_offsets_deg", index), what, "допустимо до 360°")
+        first = offsets.index(offset) if strokes == 4 else index
+        if first < index:
+            what = f"начало рабочего хода то же, что у цилиндра {first + 1}: {number_text(offset)}°"
+            hint = "проверьте порядок работы: обычно цилиндры работают по очереди"
+            yield Finding(("crankshaft", "firing_offsets_deg", index), what, hint, warning=True)
     places = _arrangement(values)
     if not offsets or not angles or places is None or len(offsets) != len(places):
         return

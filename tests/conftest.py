@@ -57,6 +57,7 @@ SLOW = (
     "tests/cycle/test_cycle_sheets.py::test_a_changed_cell_recalculates",
     "tests/cycle/test_cycle_sheets.py::test_the_gas_sheet",
     "tests/document/test_document_tables.py::test_layout",
+    "tests/document/test_page_blocks.py::test_a_table_in_parts",
     "tests/document/test_page_blocks.py::test_continuation",
     "tests/document/test_page_blocks.py::test_layout",
     "tests/document/test_page_blocks.py::test_many_layouts",

@@ -42,7 +42,7 @@ FRAME = Layer("Рамка", 0.8)
 LAYERS = (CONTOUR, CURVES, THIN, AXES, GRID, LETTERS, SIZES, TABLES, FRAME)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Line:
     """A polyline; ``dash`` instead of its layer's; ``filled`` closed ones are black."""
 
@@ -53,6 +53,12 @@ class Line:
     dash: Dash = ()
     name: str = ""  # what of the calculation it shows
 
+    @cached_property
+    def box(self) -> Box:
+        """Bounds on the sheet; asked for by every text, and a curve has hundreds of points."""
+        xs, ys = zip(*self.points, strict=True)
+        return min(xs), min(ys), max(xs), max(ys)
+
 
 @dataclass(frozen=True, slots=True)
 class Circle:
@@ -62,6 +68,12 @@ class Circle:
     radius: float
     layer: Layer = THIN
     filled: bool = False
+
+    @property
+    def box(self) -> Box:
+        """Bounds on the sheet."""
+        (x, y), r = self.centre, self.radius
+        return x - r, y - r, x + r, y + r
 
 
 @dataclass(frozen=True)
@@ -100,17 +112,6 @@ Item = Line | Circle | Words
 def overlap(one: Box, other: Box) -> bool:
     """Whether two boxes cover each other."""
     return one[0] < other[2] and one[2] > other[0] and one[1] < other[3] and one[3] > other[1]
-
-
-def box_of(item: Item) -> Box:
-    """Bounds of anything."""
-    if isinstance(item, Words):
-        return item.box
-    if isinstance(item, Circle):
-        (x, y), r = item.centre, item.radius
-        return x - r, y - r, x + r, y + r
-    xs, ys = zip(*item.points, strict=True)
-    return min(xs), min(ys), max(xs), max(ys)
 
 
 def moved(items: Iterable[Item], dx: float, dy: float, scale: float = 1.0) -> list[Item]:
@@ -204,13 +205,22 @@ def _cuts(item: Item, words: Words) -> bool:
         return False
     left, low, right, high = words.box
     around = (left - _NEAR, low - _NEAR, right + _NEAR, high + _NEAR)
-    if not overlap(box_of(item), around):
+    if not overlap(item.box, around):
         return False
     if isinstance(item, Circle):
         ends = [polar(item.centre, item.radius, turn) for turn in range(0, 375, 15)]
     else:
         ends = [*item.points, item.points[0]] if item.closed else list(item.points)
-    return any(_within(a, b, words, 0.0) for a, b in pairwise(ends))
+    return any(_within(a, b, words, 0.0) for a, b in pairwise(ends) if _passes(a, b, around))
+
+
+def _passes(start: Point, end: Point, box: Box) -> bool:
+    """Whether a straight line is not wholly on one side of a box."""
+    left, low, right, high = box
+    return not (
+        (start[0] < left and end[0] < left) or (start[0] > right and end[0] > right)
+        or (start[1] < low and end[1] < low) or (start[1] > high and end[1] > high)
+    )  # fmt: skip
 
 
 def _within(start: Point, end: Point, words: Words, gap: float) -> tuple[float, float] | None:
@@ -267,5 +277,5 @@ def polar(centre: Point, radius: float, angle: float) -> Point:
 
 def bounds(items: Sequence[Item]) -> Box:
     """Bounds of all items."""
-    lefts, lows, rights, highs = zip(*map(box_of, items), strict=True)
+    lefts, lows, rights, highs = zip(*(item.box for item in items), strict=True)
     return min(lefts), min(lows), max(rights), max(highs)

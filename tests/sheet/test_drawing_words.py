@@ -16,7 +16,6 @@ from reports.drawing.primitives import (
     Circle,
     Line,
     Words,
-    box_of,
     interrupted,
     overlap,
 )
@@ -92,7 +91,7 @@ def test_no_axis_runs_through_the_number_of_a_throw(name):
     texts = [item for item in canvas.items if isinstance(item, Words)]
     axes = [item for item in canvas.items if isinstance(item, Line) and item.layer is AXES]
     assert len(axes) == 3
-    assert [text.text for text in texts for axis in axes if overlap(text.box, box_of(axis))] == []
+    assert [text.text for text in texts for axis in axes if overlap(text.box, axis.box)] == []
 
 
 def test_a_circle_goes_there_and_back():

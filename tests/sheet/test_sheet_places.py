@@ -7,7 +7,7 @@ import itertools
 import pytest
 
 from reports.document.text.numbers import of_digits
-from reports.drawing.primitives import CURVES, THIN, Canvas, Line, Words, box_of, overlap
+from reports.drawing.primitives import CURVES, THIN, Canvas, Line, Words, overlap
 from reports.drawing.primitives import SIZES as DIMENSIONS
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
@@ -35,7 +35,7 @@ def faults(t) -> list[str]:
         if not Canvas([item for item in canvas.items if item.layer is CURVES]).clear(words)
     ]
     for item in canvas.items:
-        left, low, right, high = box_of(item)
+        left, low, right, high = item.box
         edge = 0.0 if not isinstance(item, Words) else 4.9
         if left < edge or low < edge or right > width - edge or high > height - edge:
             found.append(f"outside: {item}")

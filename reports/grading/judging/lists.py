@@ -90,11 +90,21 @@ def _chooses(formula: Formula) -> bool:
     texts = (value for kind, value in tokens if kind == "text")
     return (
         arguments >= _CASES
-        or tokens.count(("op", "=")) >= _CASES
+        or (tokens.count(_EQUAL) >= _CASES and _told(tokens) >= _CASES * _SHORT)
         or any(sum(map(str.isdigit, text)) >= _DIGITS for text in texts)
     )
 
 
+def _told(tokens: Sequence[Token]) -> int:
+    """Digits of a formula's numbers but for those that its cases are told by."""
+    around = zip((("", ""), *tokens), tokens, (*tokens[1:], ("", "")), strict=False)
+    return sum(
+        map(_digits, {at[1] for before, at, after in around
+                      if at[0] == "number" and _EQUAL not in (before, after)})
+    )  # fmt: skip
+
+
+_EQUAL = ("op", "=")
 _BEFORE = frozenset(("op", sign) for sign in "(,;{")
 _AFTER = frozenset(("op", sign) for sign in "),;}")
 

@@ -26,6 +26,21 @@ def test_the_two_that_decide_are_far_from_each_other(seed: int) -> None:
         assert abs(first.inputs[name] - second.inputs[name]) >= 0.249 * (high - low), name
 
 
+@pytest.mark.parametrize("seed", range(40))
+def test_the_third_leaves_no_ratio_of_neighbours_as_it_was(seed: int) -> None:
+    """λ, where no student has another: a column made with one's own was right for it by chance."""
+    first, _, third = trials_of(assignment(), register().books, str(seed))
+    fields = assignment().model.fields
+    kept = ("geometry", "regime", "gas")
+    made = [third.inputs[name] / float(fields[name].value) for name in third.inputs
+            if name.startswith(kept) and name not in first.inputs]  # fmt: skip
+    times = list(dict.fromkeys(round(factor, 9) for factor in made))
+    assert len(times) > 5
+    least = 0.2 * (max(times) - min(times))
+    for further in (1, 2):
+        assert all(abs(a - b) > least for a, b in zip(times, times[further:], strict=False))
+
+
 def test_a_speed_is_known_in_thousands_but_not_where_it_may_be_anything() -> None:
     fields, trials = assignment().model.fields, trials_of(assignment(), register().books, "1")
     speed = replace(fields["regime_speed_rpm"], value=4250)

@@ -26,6 +26,7 @@ from reports.spec.evaluation import Evaluation
 
 _TRIES = 12
 _LEAST, _MOST = 0.02, 0.08  # how much the third set changes a number
+_GOLDEN = 0.618034  # of three in a row no two come nearer than a quarter
 _EDGE, _APART = 0.02, 0.25  # of the range: from its ends, between the first two sets
 _TURN = 1.7  # ° or %, which no table has as its step
 _NOUGHT = 1e-6  # of the last digit that is printed: what is left of A − A
@@ -149,7 +150,10 @@ def _between(
 def _everything(
     assignment: Assignment, start: Mapping[str, float], rng: random.Random
 ) -> Iterator[dict[str, float]]:
-    """All numbers changed a little; equal ones stay equal, for a student may use either."""
+    """All numbers changed a little; equal ones stay equal, for a student may use either.
+
+    Those that stand together differ in by how much: no ratio of theirs stays as it was.
+    """
     fields = [
         field
         for field in assignment.model.inputs
@@ -159,13 +163,16 @@ def _everything(
     while True:
         factors: dict[tuple[str, float], float] = {}
         up = rng.choice((-1, 1))  # all the same way, so that no sum stays as it was
+        share = rng.random()
         made = dict(start)
         for given in fields:
             value = float(given.value)
             key = (given.unit, value)
+            if given.name in start or not value:
+                continue
             if key not in factors:
-                factors[key] = 1 + up * rng.uniform(most / 4, most)
-            if given.name not in start:
-                made[given.name] = value * factors[key]
+                share = (share + _GOLDEN) % 1
+                factors[key] = 1 + up * most * (1 + 3 * share) / 4
+            made[given.name] = value * factors[key]
         yield made
         most = max(most / 2, _LEAST / 2)

@@ -1,7 +1,8 @@
-"""``INDEX`` of a range at a place that is written out, ``INDEX(B:B,17)``: one cell is meant.
+"""Cells that a formula means and does not name as such.
 
-As a look-up it refers to all of the range, and a book that keeps everything in one column would
-refer to itself throughout.
+``INDEX`` of a range at a place that is written out, ``INDEX(B:B,17)``, means one cell: as a look-up
+it refers to all of the range, and a book that keeps everything in one column would refer to itself
+throughout.  ``B6#`` means all cells of the array formula in ``B6``.
 """
 
 from __future__ import annotations
@@ -9,8 +10,8 @@ from __future__ import annotations
 import re
 
 from reports.recalculation.formulas import formula_of
-from reports.recalculation.grid import Grid
-from reports.recalculation.language import Ref, Token
+from reports.recalculation.grid import Grid, Run
+from reports.recalculation.language import Ref, Token, ref_of, unquoted
 from reports.recalculation.ranges import area_of
 
 _OPEN, _COMMA, _CLOSE, _TO = (("op", sign) for sign in "(,):")
@@ -20,10 +21,48 @@ _WHOLE = re.compile(r"[1-9][0-9]{0,6}")
 def pick(grid: Grid) -> None:
     """Put the cells that are meant into the formulas of a grid."""
     for run in grid.runs():
-        if run.formula is not None and not run.problem and "INDEX" in run.formula.functions:
-            made = tuple(_picked(run.formula.pattern, grid))
-            if made != run.formula.pattern:
-                run.formula = formula_of(made)
+        if run.formula is None or run.problem:
+            continue
+        made = run.formula.pattern
+        if "ANCHORARRAY" in run.formula.functions:
+            made = tuple(_spilled(made, run, grid))
+        if "INDEX" in run.formula.functions:
+            made = tuple(_picked(made, grid))
+        if made != run.formula.pattern:
+            run.formula = formula_of(made)
+
+
+def _spilled(tokens: tuple[Token, ...], run: Run, grid: Grid) -> list[Token]:
+    """Tokens with the extents of array formulas for ``ANCHORARRAY`` of their first cells."""
+    made: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        end = tokens.index(_CLOSE, at) if _CLOSE in tokens[at:] else at
+        extent: list[Token] = []
+        if tokens[at][1].upper().endswith("ANCHORARRAY") and tokens[at + 1 : at + 2] == (_OPEN,):
+            extent = _extent(tokens[at + 2 : end], run, grid)
+        made += extent or [tokens[at]]
+        at = end + 1 if extent else at + 1
+    return made
+
+
+def _extent(tokens: tuple[Token, ...], run: Run, grid: Grid) -> list[Token]:
+    """The cells of the array formula in a cell; nothing where each row has another, or none."""
+    sheet = [token for token in tokens[:1] if token[0] == "sheet"]
+    if [kind for kind, _ in tokens[len(sheet) :]] != ["ref"]:
+        return []
+    ref = ref_of(tokens[-1][1])
+    if run.first != run.last and run.array is None and not ref.row_fixed:
+        return []
+    row = ref.row if ref.row_fixed else run.first + ref.row
+    column = ref.column if ref.column_fixed else run.column + ref.column
+    title = grid.title(unquoted(sheet[0][1])) if sheet else run.sheet
+    for other in grid.column(title or "", column).runs_in(row, row):
+        area = other.array
+        if area is not None and (area.first_row, area.first_column) == (row, column):
+            ends = ("ref", f"R{row}C{column}"), ("ref", f"R{area.last_row}C{area.last_column}")
+            return [*sheet, ends[0], _TO, ends[1]]
+    return []
 
 
 def _picked(tokens: tuple[Token, ...], grid: Grid) -> list[Token]:

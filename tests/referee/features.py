@@ -78,7 +78,7 @@ SUM({1,2;3,4})  {SUM({1,2,3}*2)  {SUM(RADIANS(E1:E5)*F1:F5)  {SUM(SIN(RADIANS(F1
 одна+1  SUM(много)  ОДНА  INDEX(много,2)  SUMPRODUCT(много*2)  нет_такого
 E1:E5  E1:E5*2  INDEX(E1:F5,0,2)  INDIRECT("A1")  OFFSET(A1,1,0)  RAND()  TODAY()  VALUE("1,5")
 "1,5"+1  "1.5"+1  TEXT(1.5,"0.00")  _xlfn.LET(_xlpm.x,1,_xlpm.x+1)  _xlfn.XLOOKUP(3,E1:E5,F1:F5)
-SUM(E5:E1)
+_xlfn.XMATCH(3,E1:E5)  _xlfn.XMATCH(3.5,E1:E5,-1)  _xlfn.XMATCH(3.5,E1:E5)  SUM(E5:E1)
 """  # a row below each other, two spaces between
 
 FEATURES: tuple[str, ...] = tuple(dict.fromkeys((
@@ -145,6 +145,9 @@ DIFFERENT: dict[str, tuple[float | str | None, str]] = {
     'MAX("5",7)': (7.0, _TEXT),
     "_xlfn.LET(_xlpm.x,1,_xlpm.x+1)": (2.0, _NEWER),
     "_xlfn.XLOOKUP(3,E1:E5,F1:F5)": (30.0, _NEWER),
+    "_xlfn.XMATCH(3,E1:E5)": (3.0, _NEWER),
+    "_xlfn.XMATCH(3.5,E1:E5,-1)": (3.0, _NEWER),
+    "_xlfn.XMATCH(3.5,E1:E5)": ("#N/A", _NEWER),
     **dict.fromkeys(
         ('INDIRECT("A1")', "OFFSET(A1,1,0)", "RAND()", "TODAY()", 'VALUE("1,5")',
          'TEXT(1.5,"0.00")'), (None, _LISTED)),

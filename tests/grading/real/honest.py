@@ -278,6 +278,9 @@ def _new_functions(desk: Desk) -> dict[str, Cells]:
         "D{r}*SIN(_xlpm.a+_xlpm.b)/COS(_xlpm.b))",
         "P4_4.Mmain2_Nm": "=SUMPRODUCT(--('П4.2'!$A$6:$A$30=A{r}),'П4.2'!$B$6:$B$30)",
         "P4_5.Mpin1_Nm": "=+'П4.2'!B{r} * 50%",
+        "P4_1.beta_rad": "=INDEX('П3.2'!B$6:B$18,_xlfn.XMATCH(MOD(A{r},360),'П3.2'!A$6:A$18))",
+        "P3_1.s1_mm": ArrayFormula("B6:B18", "=1000*r_crank*(1-COS(RADIANS(A6:A18)))"),
+        "P3_1.s_mm": ArrayFormula("D6:D18", "=_xlfn.ANCHORARRAY(B6)+C6:C18"),
     }
 
 

@@ -112,6 +112,20 @@ def test_a_number_that_is_not_the_formula_s_is_calculated_and_told(marker):
     assert "П4.1!I9" in result["altered"][0]
 
 
+@pytest.mark.parametrize("saved", [lambda v: "0", lambda v: f"{float(v):.6g}"])
+def test_a_program_that_saves_noughts_or_few_digits_has_altered_nothing(marker, saved):
+    """XlsxWriter saves a nought for every formula; 21,1284 is not told from 21,12841."""
+
+    def change(name: str, data: bytes) -> bytes:
+        if not name.startswith("xl/worksheets/"):
+            return data
+        return re.sub(rb"(<f[^>]*(?:/>|>[^<]*</f>)<v>)(-?[0-9][^<]*)",
+                      lambda m: m[1] + saved(m[2]).encode(), data)  # fmt: skip
+
+    result = mark(marker, rewritten(right(), change))
+    assert (result["points"], result["altered"]) == (100, [])
+
+
 def test_a_book_without_saved_numbers_is_calculated(marker):
     data = filled_book(classroom.handout(), classroom.assignment())
     assert not settled(marker, data)[1] & classroom.assignment().fill_nodes

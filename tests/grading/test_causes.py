@@ -53,6 +53,7 @@ V1, S1, S, V, J1 = (f"P3_1.{key}" for key in ("v1_m_s", "s1_mm", "s_mm", "v_m_s"
         (V1, lambda v: -v, "обратный знак"),
         (S1, lambda v: v / 1000, "значения меньше правильных в 1000 раз"),
         (S1, lambda v: v * 1e6, "значения больше правильных в 1\u00a0000\u00a0000 раз"),
+        ("geometry.omega", lambda v: 60 * v, "больше правильных в 60 раз"),  # turns a minute
         ("P3_2.beta_rad", np.degrees, "в градусах вместо радиан"),
         (J1, lambda v: np.roll(v, 1), "на одну строку вниз"),
         (J1, lambda v: np.roll(v, -1), "на одну строку вверх"),

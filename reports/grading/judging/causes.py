@@ -23,7 +23,7 @@ from reports.inputs.sections.input_file import METHODS
 from reports.shared.russian import fixed, short
 from reports.spec.evaluation import Evaluation
 
-_FACTORS = (10.0, 100.0, 1000.0, 1e4, 1e5, 1e6, 1e9)
+_FACTORS = (10.0, 60.0, 100.0, 1000.0, 1e4, 1e5, 1e6, 1e9)
 _OTHERS = 200  # variants that are tried
 _PI = re.compile(r"\bpi\b")
 _ENOUGH, _SAME = 3, 1e-7  # of fewer wrong rows the values must be the very same

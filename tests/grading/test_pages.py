@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import io
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
 from openpyxl import load_workbook
 
-from reports.grading.judging.works import Entry
+from reports.grading.judging.works import Entry, work_of
 from reports.grading.pages.chart import line_chart
 from reports.grading.pages.gradebook import gradebook_xlsx
 from reports.grading.pages.pages import number, student_page
 from reports.grading.pages.printed import TITLE
+from reports.grading.pages.summary import summarise
 from tests.grading import classroom
 from tests.grading.test_verdicts import formulas, graded, line
 
@@ -42,6 +44,17 @@ def test_hints_do_not_draw_the_right_curve():
     for cell in item["cells"]:
         right = number(cell["right"], item["digits"])
         assert right in shown or f">{right}<" not in html
+
+
+def test_what_a_person_must_look_at_is_not_counted_as_wrong():
+    texts = {ITEM: ['=INDIRECT("A6")'] * 13, "V_c": ['=INDIRECT("C10")/17'], "omega": ["=1"]}
+    work = work_of(graded(texts), {})
+    (omega,) = summarise(classroom.register(), [work])["hardest"]
+    assert (omega["wrong"], omega["unknown"]) == (1, 0)
+    typed = work_of(graded({ITEM: [1.0] * 13}), {})
+    counts = summarise(classroom.register(), [replace(typed, number=2), work])["hardest"]
+    (found,) = [entry for entry in counts if "vп1" in entry["title"]]
+    assert (found["wrong"], found["unknown"]) == (1, 1)
 
 
 def test_what_is_begun_is_to_be_mended_and_what_is_not_stands_apart():

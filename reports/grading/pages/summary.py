@@ -8,7 +8,7 @@ from statistics import mean, median
 from typing import Any
 
 from reports.grading.issuing.register import Register
-from reports.grading.judging.judgement import CARRIED, EMPTY, RIGHT, TYPED
+from reports.grading.judging.judgement import CARRIED, EMPTY, RIGHT, TYPED, UNKNOWN, WRONG
 from reports.grading.judging.similarity import signals, suspicions
 from reports.grading.judging.works import Work
 from reports.grading.pages.pages import moment
@@ -232,11 +232,11 @@ def _hardest(graded: list[Work], limit: int = 15) -> list[dict[str, Any]]:
                 continue
             entry = lines.setdefault(
                 line.id,
-                {"title": f"{line.label} — {line.title}", "right": 0, "carried": 0,
-                 "typed": 0, "wrong": 0, "empty": 0},
+                {"title": f"{line.label} — {line.title}",
+                 **dict.fromkeys((RIGHT, CARRIED, TYPED, WRONG, EMPTY, UNKNOWN), 0)},
             )  # fmt: skip
             verdict = line.verdict
-            entry[verdict if verdict in (RIGHT, CARRIED, TYPED, EMPTY) else "wrong"] += 1
+            entry[verdict if verdict in entry else WRONG] += 1
             if line.cause:
                 causes.setdefault(line.id, Counter())[line.cause] += 1
     for key, entry in lines.items():

@@ -9,25 +9,29 @@ import numpy as np
 from reports.document.chapters import facts
 from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms
-from reports.drawing.lettering import fitted
+from reports.drawing.lettering import width_of
 from reports.drawing.primitives import TABLES, THIN, Canvas
 from reports.shared.russian import capital, fixed
 from reports.sheet.cell import TEXT, Room, headed
 from reports.spec.shape import Shape
 
 ROW = 6.0  # mm
+_PADDING = 1.0  # on each side of the words in a cell [mm]
 _STEPS = (30.0, 60.0, 90.0, 120.0, 180.0)
 _RESULTS = ("M_mean", "M_max", "M_min", "M_e", "p_i_calc", "N_i_calc")
 
 
-def grid(
-    canvas: Canvas, room: Room, rows: Sequence[Sequence[str]], shares: Sequence[float],
-    *, head: int = 1,
-) -> None:  # fmt: skip
-    """Rows of cells from the top of a room; the first ``head`` of them above a thick line."""
-    unit = room.width / sum(shares)
+def grid(canvas: Canvas, room: Room, rows: Sequence[Sequence[str]]) -> None:
+    """Rows of cells from the top of a room, the first of them above a thick line.
+
+    Columns are as wide as their longest words ask, so that all letters are of one height.
+    """
+    needs = [max(width_of(text, TEXT) for text in column) for column in zip(*rows, strict=True)]
+    share = (room.width - 2 * _PADDING * len(needs)) / sum(needs)
+    wides = [need * share + 2 * _PADDING for need in needs]
     tall = min(ROW, room.height / len(rows))
-    xs = [room.left + unit * sum(shares[:n]) for n in range(len(shares) + 1)]
+    height = min(TEXT, 0.6 * tall, TEXT * share)
+    xs = [room.left + sum(wides[:n]) for n in range(len(wides) + 1)]
     low = room.high - tall * len(rows)
     canvas.box(xs[0], low, xs[-1], room.high, TABLES)
     for x in xs[1:-1]:
@@ -36,15 +40,13 @@ def grid(
         y = room.high - tall * (number + 1)
         if number + 1 < len(rows):
             ends = (xs[0], y), (xs[-1], y)
-            canvas.line(*ends, layer=TABLES if number + 1 == head else THIN)
+            canvas.line(*ends, layer=THIN if number else TABLES)
+        middle = y + (tall - height) / 2
         for place, text in enumerate(row):
-            wide = xs[place + 1] - xs[place]
-            height = fitted(text, wide - 2, min(TEXT, 0.6 * tall), least=1.5)
-            middle = y + (tall - height) / 2
-            if place or number < head:
-                canvas.words((xs[place] + wide / 2, middle), text, height, align=0.5)
+            if place or not number:
+                canvas.words((xs[place] + wides[place] / 2, middle), text, height, align=0.5)
             else:
-                canvas.words((xs[place] + 1, middle), text, height)
+                canvas.words((xs[place] + _PADDING, middle), text, height)
 
 
 def running(canvas: Canvas, room: Room, terms: Terms) -> None:
@@ -62,7 +64,7 @@ def running(canvas: Canvas, room: Room, terms: Terms) -> None:
              for n in kept]  # fmt: skip
     swings = [terms.num(f"dM_main{k}") for k in range(2, throws + 2)]
     rows.append(["размах", *swings])
-    grid(canvas, room, rows, [1.2, *[1.0] * throws])
+    grid(canvas, room, rows)
 
 
 def results(canvas: Canvas, room: Room, terms: Terms) -> None:
@@ -77,4 +79,4 @@ def results(canvas: Canvas, room: Room, terms: Terms) -> None:
         for key in keys
         if terms.has(key)
     ]
-    grid(canvas, room, rows, [5.0, 1.4, 1.0])
+    grid(canvas, room, rows)

@@ -12,6 +12,7 @@ from reports.drawing.primitives import SIZES as DIMENSIONS
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.sheet import DIAGRAMS, USUAL, SheetSection
+from reports.sheet import tables
 from reports.sheet.cell import Room
 from reports.sheet.layout import SIZES, cells
 from reports.sheet.schemes import balance
@@ -144,3 +145,12 @@ def test_no_curve_runs_through_an_angle_of_a_polar_diagram(name):
     assert len(near) >= 6
     for left, low, right, high in near:
         assert not any(left < x < right and low < y < high for x, y in curve.points)
+
+
+@pytest.mark.parametrize("table", [tables.results, tables.running])
+def test_letters_of_a_table_are_of_one_height(table):
+    canvas = Canvas()
+    table(canvas, Room(0.0, 0.0, 150.0, 120.0), terms("d-240"))
+    _, *cells = [item for item in canvas.items if isinstance(item, Words)]
+    assert len({words.height for words in cells}) == 1
+    assert not any(overlap(one.box, other.box) for one, other in itertools.combinations(cells, 2))

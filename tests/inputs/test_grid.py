@@ -9,7 +9,7 @@ from click.testing import CliRunner
 
 from kshm import solve
 from reports.cli import main
-from reports.inputs.checks.grid import grid_errors, grid_remark
+from reports.inputs.checks.grid import GridError, grid_errors, grid_remark, remark_on
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.to_si.engine import engine_and_cycle
@@ -109,3 +109,9 @@ def test_of_alike_pins_the_first_is_named_and_goes_first():
         assert len(equal) > 1 or numbers == sorted(numbers)
     one = [e for e in grid_errors(stepped("two-stroke", 30.0)) if "Rpin" in e.key]
     assert all(e.title.endswith("шейку") for e in one)
+
+
+def test_no_number_is_told_in_place_of_the_same():
+    """«−8 вместо −8»: by the digits of the quantity the two are alike."""
+    for coarse, fine, told in ((-8.2, -7.9, "−8,2 вместо −7,9"), (-8.4, -7.4, "−8 вместо −7")):
+        assert told in remark_on([GridError("M_min", coarse, fine)], sample("d-240"))

@@ -190,7 +190,7 @@ class Chapter:
 
     def fine(self, error: GridError) -> Markup:
         """The value by the fine step with its unit."""
-        digits = error.quantity.digits.within(error.coarse)
+        digits = error.digits.within(error.coarse)
         return with_unit(of_digits(error.fine, digits), self.terms.unit(error.key))
 
     def worst(self, key: str) -> int:

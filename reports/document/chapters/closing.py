@@ -110,7 +110,7 @@ def _grid_table(chapter: Chapter) -> TableBlock:
     for error in chapter.terms.grid_errors:
         q, percent = error.quantity, error.percent
         unit = f", {q.unit_label}" if q.unit_label else ""
-        shown = [of_digits(value, q.digits) for value in (error.coarse, error.fine)]
+        shown = [of_digits(value, error.digits) for value in (error.coarse, error.fine)]
         apart = fixed(percent, 1) if abs(percent) < _MOST_PERCENT else "—"
         rows.append([capital(error.title) + unit, *shown, apart])
     return table_block(columns, rows)

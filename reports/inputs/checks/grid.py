@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from kshm.arrays import Tables
 from kshm.mechanics.wear import ray_sums
+from kshm.nomenclature.digits import Digits
 from kshm.nomenclature.quantity import Quantity, quantity
 from kshm.results.solution import Solution
 from reports.inputs.sections.input_file import InputFile
@@ -21,6 +22,7 @@ from reports.shared.russian import NBSP, fixed, written
 _PIN = re.compile(r"шейк\w*")  # in a title, before its number
 FINE = 1  # step that the others are held against [deg]
 MOST = 2.0  # difference that is told [%]
+_FINEST = 9  # decimals beyond which nothing is told apart
 _TOLD = 4  # differences in the one line; the report has them all
 # Extremes and integrals of a cycle, which depend on where the rows stand; the first matter most.
 _KINDS = tuple(
@@ -53,6 +55,19 @@ class GridError:
     def quantity(self) -> Quantity:
         """What it is."""
         return quantity(self.key, self.small)
+
+    @property
+    def digits(self) -> Digits:
+        """Those of the quantity; more where the two would be written alike."""
+        digits = self.quantity.digits
+        while digits.decimals < _FINEST and written(self.coarse, digits) == written(
+            self.fine, digits
+        ):
+            zeros = digits.zeros
+            digits = replace(
+                digits, zeros=max(0, zeros - 1), decimals=digits.decimals + (not zeros)
+            )
+        return digits
 
     @property
     def title(self) -> str:
@@ -177,6 +192,6 @@ def remark_on(errors: Sequence[GridError], model: InputFile) -> str:
 
 def _said(error: GridError) -> str:
     q = error.quantity
-    coarse, fine = (written(value, q.digits) for value in (error.coarse, error.fine))
+    coarse, fine = (written(value, error.digits) for value in (error.coarse, error.fine))
     unit = q.unit_label if q.unit_label in ("", "°") else f"{NBSP}{q.unit_label}"
     return f"{error.title}: {coarse} вместо {fine}{unit}"

@@ -103,7 +103,7 @@ def _number_hint(value: object, *, in_book: bool) -> str:
     number = re.match(r"\s*([-+]?\d+([.,]\d+)?)", value)
     if in_book or number is None:
         return "сделайте ячейку числом" if in_book else ""
-    return f"пишите без кавычек и с точкой: {number[1].replace(',', '.')}"
+    return f"напишите одно число: {number[1].replace(',', '.')}"
 
 
 def likely_key(key: str, model: type[Strictly]) -> str | None:

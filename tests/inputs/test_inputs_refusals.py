@@ -26,8 +26,7 @@ def put(data, path, value):
 CASES = {
     "text for number": (
         {"geometry.bore_mm": "88,0 мм"},
-        "geometry.bore_mm: нужно число, а задано: строка «88,0 мм»; "
-        "пишите без кавычек и с точкой: 88.0",
+        "geometry.bore_mm: нужно число, а задано: строка «88,0 мм»; напишите одно число: 88.0",
     ),
     "bool for number": (
         {"geometry.bore_mm": True},

@@ -37,7 +37,7 @@ UNDERSTOOD = [
     ("crankshaft.main_lengths_mm.2", "33,5", 33.5),
 ]
 REFUSED = [
-    ("geometry.bore_mm", "88,0 мм", "пишите без кавычек и с точкой: 88.0"),
+    ("geometry.bore_mm", "88,0 мм", "напишите одно число: 88.0"),
     ("geometry.bore_mm", "88,000", "неясно, 88.000 или 88000"),
     ("geometry.bore_mm", "1,234.5", "нужно число"),
     ("geometry.bore_mm", "8 8", "нужно число"),

@@ -95,6 +95,7 @@ def test_the_pressure_is_told_by_symbols_that_are_known(name):
     t = terms(name)
     lead, branches = parts(_pressure_tex(t))
     assert lead == t.tex("gas.p_MPa") + " ="
+    assert branches[-1][-1].endswith(",")  # «где» follows
     assert sum("n_" in formula for formula, _ in branches) >= 2
     own = [t.tex(f"gas.p_{part}_MPa") for part in ("compression", "burning", "exhaust")]
     assert [formula for formula, _ in branches if formula.strip(", ") in own] == []

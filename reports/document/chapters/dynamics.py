@@ -127,7 +127,7 @@ def _pressure_tex(terms: Terms) -> str:
         for piece in inner:
             condition = piece.condition or outer.condition
             if condition is None:
-                branches.append((piece.formula, rf"\varphi > {low}."))
+                branches.append((piece.formula, rf"\varphi > {low},"))
                 continue
             limit = condition.split(r"\leq ")[1]
             limit += r"^{\circ}" if limit.isdigit() and limit != "0" else ""

@@ -17,6 +17,7 @@ from hypothesis import given, settings
 from kshm import solve
 from kshm.engine.engine import Engine
 from kshm.mechanics import balance, harmonics, torque_harmonics
+from kshm.nomenclature.quantity import quantity
 from tests.kshm.engines import basic_engines
 from tests.textbook.book import beyond, checks, recorded, solution
 
@@ -188,3 +189,11 @@ def test_unknowable_orders_are_refused() -> None:
         torque_harmonics.analyse(np.zeros(25), 4 * np.pi, np.array([6.0]))
     with pytest.raises(ValueError, match="orders must be"):
         torque_harmonics.analyse(np.zeros(73), 4 * np.pi, np.array([0.3]))
+
+
+def test_what_differs_has_symbols_that_differ():
+    """Coefficients of the series, of two terms, of the article, in its unit: one list has all."""
+    keys = ("t_inertia2", "t_j2", "t_j_order2", "d_j", "d_j_technical", "gas_phase_deg")
+    found = [quantity(key) for key in keys]
+    assert len({q.symbol for q in found}) == len({q.tex for q in found}) == len(keys)
+    assert found[-1].tex.startswith(r"\gamma")  # as the text of the chapter has it

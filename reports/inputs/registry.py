@@ -146,7 +146,7 @@ _ALL = (
             "pin_lengths_mm": ListKey("Длины шатунных шеек", "pin_length_{n}_mm"),
             "main_diameters_mm": ListKey("Диаметры коренных шеек", "main_diameter_{n}_mm"),
             "main_lengths_mm": ListKey("Коренные шейки", "main_length_{n}_mm"),
-            "webs": ListKey("Щеки и противовесы", "web_{n}_{key}"),
+            "webs": ListKey("Щёки и противовесы", "web_{n}_{key}"),
             "arms": ListKey("Плечи колен", "throw_{n}_{key}"),
         },
     ),

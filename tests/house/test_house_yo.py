@@ -17,7 +17,7 @@ ALLOWED |= {f"kshm/mechanics/{name}.py" for name in ("dimensionless", "torque_ha
 SHORT = {"учеб"}  # учебное пособие
 WORD = re.compile("[а-яё]*е[а-яё]*", re.IGNORECASE)
 # The dictionary has other words that are written so, which do not occur here.
-MEANT = re.compile(r"(?i)\b(?:объем|берет(?:ся)?|н?ее|(?:с|раз)вернут|все же)\b")
+MEANT = re.compile(r"(?i)\b(?:объем|берет(?:ся)?|н?ее|(?:с|раз)вернут|все же|(?-i:Щеки))\b")
 TITLES = re.compile(r"Конструкция и расчет|Несущая способность и расчет|«Расчет авто")
 SEEN = (("kshm", "py"), ("reports", "py"), ("reports", "js"), ("templates", "j2"),
         ("samples", "toml"), ("tools", "py"), ("docs", "md"), (".", "ru.md"))  # fmt: skip
@@ -52,9 +52,9 @@ def test_what_a_user_reads_has_its_dots() -> None:
 
 
 def test_a_word_that_is_another_one_without_its_dots_is_noticed() -> None:
-    for words in ("объем", "берется", "нее", "развернут", "Все же"):
+    for words in ("объем", "берется", "нее", "развернут", "Все же", "Щеки"):
         assert MEANT.search(words), words
-    for words in ("объём", "берег", "все", "неё"):
+    for words in ("объём", "берег", "все", "неё", "Щёки", "щеки"):
         assert not MEANT.search(words), words
 
 

@@ -70,7 +70,7 @@ def test_a_field_tells_all(raw):
     assert field == fields.Field(
         path=("crankshaft", "webs", 2, "mass_kg"),
         name="web_3_mass_kg",
-        section="Щеки и противовесы",
+        section="Щёки и противовесы",
         title="Щека 3: приведённая масса",
         symbol="m_щ3",
         unit="кг",

@@ -51,6 +51,26 @@ class Shape:
         return len(self.groups)
 
     @property
+    def numbers(self) -> range:
+        """Numbers of the cylinders."""
+        return range(1, self.cylinders + 1)
+
+    @property
+    def throw_numbers(self) -> range:
+        """Numbers of the throws from the nose."""
+        return range(1, self.throws + 1)
+
+    @property
+    def journal_numbers(self) -> range:
+        """Numbers of the main journals from the nose."""
+        return range(1, self.throws + 2)
+
+    @property
+    def pin_numbers(self) -> range:
+        """Numbers of the crankpins that have a table."""
+        return range(1, len(self.pins) + 1)
+
+    @property
     def single_rods(self) -> bool:
         """Whether every throw carries one rod."""
         return all(len(group) == 1 for group in self.groups)
@@ -186,3 +206,8 @@ def rods_table(throw: int) -> str:
 def pin_name(number: int) -> str:
     """Number of a crankpin within keys: empty for the first one."""
     return "" if number == 1 else str(number)
+
+
+def cylinder_table_id(number: int) -> str:
+    """Id of the table with the forces of a cylinder."""
+    return "P4_1" if number == 1 else f"cylinder_{number}"

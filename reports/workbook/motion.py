@@ -21,8 +21,7 @@ from reports.formula.excel import compile_formula
 from reports.formula.numeric import evaluate
 from reports.inputs.to_si.engine import smallness_of
 from reports.spec.blocks import Model
-from reports.spec.shape import Shape
-from reports.tables.loads.cylinder import cylinder_table_id
+from reports.spec.shape import Shape, cylinder_table_id
 from reports.workbook import styles
 from reports.workbook.charts import HIGH, drawing
 from reports.workbook.drawn import Drawn

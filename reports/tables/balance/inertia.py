@@ -9,8 +9,7 @@ from reports.spec.blocks import Column, Scalar, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, columns_of, over_phi
 from reports.spec.listing import column_list, scalar_list
 from reports.spec.parts import Part, Scope
-from reports.spec.shape import Shape
-from reports.tables.loads.cylinder import cylinder_table_id
+from reports.spec.shape import Shape, cylinder_table_id
 
 _BOTH = ", точно и приближённо"
 SHEET, RESULTS, MODEL_SHEET = "Момент инерции", "Маховик", "Модель шатуна"

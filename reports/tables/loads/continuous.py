@@ -6,8 +6,7 @@ from reports.spec.blocks import Grid, GridRow, Scalar, TableSpec
 from reports.spec.charts import ChartSpec, Series, over_phi
 from reports.spec.listing import column_list, grid_row
 from reports.spec.parts import Part, Scope
-from reports.spec.shape import Shape
-from reports.tables.loads.cylinder import cylinder_table_id
+from reports.spec.shape import Shape, cylinder_table_id
 
 SHAFT, RESULTS = "Неразрезная схема", "Схемы опор"
 UNIT = "r_crank*omega**2"

@@ -7,8 +7,7 @@ from reports.spec.charts import ChartSpec, Series, columns_of, over_phi, polar
 from reports.spec.extremes import extreme_columns
 from reports.spec.listing import column_list, corners
 from reports.spec.parts import Part, Scope
-from reports.spec.shape import Shape, pin_figure, pin_name, pin_table, rods_table
-from reports.tables.loads.cylinder import cylinder_table_id
+from reports.spec.shape import Shape, cylinder_table_id, pin_figure, pin_name, pin_table, rods_table
 
 SPLIT = "rad(crankshaft_split_pin_deg)"
 

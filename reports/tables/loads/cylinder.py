@@ -7,7 +7,7 @@ from reports.spec.blocks import Column, TableSpec
 from reports.spec.charts import ChartSpec, columns_of, over_phi
 from reports.spec.listing import column_list
 from reports.spec.parts import Part, Scope
-from reports.spec.shape import Shape
+from reports.spec.shape import Shape, cylinder_table_id
 from reports.tables.gas.indicator import displaced, own_pressure, timing
 from reports.tables.loads.hung import hung_table
 from reports.tables.motion.mechanism import acceleration
@@ -83,11 +83,6 @@ def _chain(model: InputFile, shape: Shape, phi: str) -> tuple[Column, ...]:
         beta_rad = {shape.beta(phi)} | Гоц (7), (17)
         j_m_s2 = {acceleration(model, phi, "beta_rad")} | Гоц (6) или точно
     """)
-
-
-def cylinder_table_id(number: int) -> str:
-    """Id of the table with the forces of a cylinder."""
-    return "P4_1" if number == 1 else f"cylinder_{number}"
 
 
 def cylinders(scope: Scope) -> Part:

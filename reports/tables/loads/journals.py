@@ -7,9 +7,8 @@ from reports.spec.charts import ChartSpec, Series, over_phi, polar
 from reports.spec.extremes import extreme_columns
 from reports.spec.listing import column_list
 from reports.spec.parts import Part, Scope
-from reports.spec.shape import Shape, rods_table
+from reports.spec.shape import Shape, cylinder_table_id, rods_table
 from reports.tables.loads.crankpins import angle, polar_box
-from reports.tables.loads.cylinder import cylinder_table_id
 from reports.tables.loads.torques import rod_shares
 
 

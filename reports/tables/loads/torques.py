@@ -7,8 +7,7 @@ from reports.spec.charts import ChartSpec, over_phi
 from reports.spec.extremes import extreme_columns
 from reports.spec.listing import column_list
 from reports.spec.parts import Part, Scope
-from reports.spec.shape import Shape, rods_table
-from reports.tables.loads.cylinder import cylinder_table_id
+from reports.spec.shape import Shape, cylinder_table_id, rods_table
 
 INDEX = Column("phi_deg", None)
 

@@ -6,9 +6,8 @@ from reports.inputs.sections.bearings import BearingsSection
 from reports.spec.blocks import Block, Grid, TableSpec
 from reports.spec.listing import column_list, grid_row
 from reports.spec.parts import Scope
-from reports.spec.shape import Shape, pin_name, rods_table
+from reports.spec.shape import Shape, cylinder_table_id, pin_name, rods_table
 from reports.tables.loads.crankpins import throw_pull
-from reports.tables.loads.cylinder import cylinder_table_id
 
 SHEET, BENDING = "Прочность шеек", "Изгиб шеек"
 SK, IACS = "Серенсен, Кинасошвили", "IACS UR M53, по памяти"

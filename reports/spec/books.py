@@ -1,0 +1,401 @@
+"""Books: tables as text, read into the blocks that every output takes; docs/books.md."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from functools import lru_cache, partial
+from pathlib import Path
+from typing import Any
+
+import jinja2
+from jinja2.sandbox import ImmutableSandboxedEnvironment
+
+from kshm.arrays import Columns
+from reports.formula.parse import FormulaError, parse
+from reports.inputs.sections.input_file import InputFile
+from reports.inputs.solved import solved
+from reports.shared.resources import templates_dir
+from reports.spec.blocks import TURN, Block, Column, Grid, GridRow, Node, Scalar, ScalarTable
+from reports.spec.blocks import TableSpec as Table
+from reports.spec.chart_lines import ChartLines
+from reports.spec.charts import ChartSpec
+from reports.spec.extremes import extreme_columns, extreme_scalars
+from reports.spec.judged import NO, YES, judged
+from reports.spec.listing import corners
+from reports.spec.parts import Part, stepped
+from reports.spec.rename import renamed
+
+_MARK = "\x1f"
+_MARKS = re.compile(f"{_MARK}([^{_MARK}]*):(\\d+){_MARK}")
+_STATEMENT = re.compile(r"\s*(%|#|\{%.*%\}$|$)")
+_VALUE = re.compile(
+    r"(?P<helper>helper )?(?P<key>[A-Za-z_]\w*)(?: of (?P<of>\w+))?(?: every (?P<every>\S+))?"
+    r"(?: = (?P<expr>.*?))?(?: \| (?P<source>.*?)(?: \| (?P<note>.*))?)?"
+)
+_HEADS = {
+    "sheet": (r"(?P<title>.+)", "sheet НАЗВАНИЕ"),
+    "list": (r'(?P<id>\w+)(?P<verdicts> verdicts(?: "(?P<good>.*)" "(?P<bad>.*)")?)?: (?P<title>.+)',
+             "list ИМЯ: ЗАГОЛОВОК"),
+    "table": (r"(?P<id>\w+) (?P<number>.+) over (?P<rows>turn|cycle|\S+…\S+ by \S+)"
+              r"(?P<options>(?: helper| computed)*): (?P<title>.+)",
+              "table ИМЯ НОМЕР over turn: ЗАГОЛОВОК"),
+    "grid": (r"(?P<id>\w+): (?P<title>.+)", "grid ИМЯ: ЗАГОЛОВОК"),
+    "box": (r"(?P<id>\w+) (?P<key>\w+)(?: of (?P<of>\w+))? = (?P<size>.+?)(?: \| (?P<source>.+?))?"
+            r": (?P<title>.+)", "box ИМЯ КЛЮЧ = РАЗМЕР: ЗАГОЛОВОК"),
+    "allowed": (r"(?P<id>\w+) (?P<limit>[<>]= \w+): (?P<title>.+)",
+                "allowed ИМЯ <= ПРЕДЕЛ: ЗАГОЛОВОК"),
+}  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class BookLine:
+    """A line as Jinja made it, with what continues it; ``number`` is that of its own book."""
+
+    book: str
+    number: int
+    text: str
+
+
+class BookError(ValueError):
+    """A mistake in a book: where it stands there, what it is, how to mend it."""
+
+    def __init__(self, book: str, line: int, column: int, what: str, hint: str = "") -> None:
+        super().__init__(f"{book}: строка {line}, столбец {column}: {what}"
+                         + (f"; {hint}" if hint else ""))  # fmt: skip
+        self.line, self.column = line, column
+
+
+@dataclass(frozen=True)
+class Shelf:
+    """Folders of books, the first one with a name is taken; books may import each other."""
+
+    folders: tuple[Path, ...]
+
+    def source(self, name: str) -> tuple[str, Path]:
+        """Text of a book.
+
+        Raises:
+            jinja2.TemplateNotFound: no folder has it.
+        """
+        for folder in self.folders:
+            path = folder / name
+            if path.is_file():
+                return path.read_text(encoding="utf-8"), path
+        raise jinja2.TemplateNotFound(name)
+
+    def environment(self) -> jinja2.Environment:
+        """The sandbox in which books are rendered."""
+
+        def load(name: str) -> tuple[str, str, Callable[[], bool]]:
+            text, path = self.source(name)
+            return _marked(text, name), str(path), lambda: True
+
+        made = ImmutableSandboxedEnvironment(
+            undefined=jinja2.StrictUndefined, loader=jinja2.FunctionLoader(load),
+            line_statement_prefix="%", trim_blocks=True, lstrip_blocks=True, finalize=_printed,
+        )  # fmt: skip
+        return made
+
+
+@lru_cache(maxsize=8)
+def _environment(shelf: Shelf) -> jinja2.Environment:
+    return shelf.environment()
+
+
+def house_shelf() -> Shelf:
+    """The books of the house."""
+    return Shelf((templates_dir() / "tables",))
+
+
+def read_book(name: str, names: Mapping[str, Any], shelf: Shelf | None = None) -> Part:
+    """Blocks and charts of a book for one engine; ``names`` is what its conditions may ask.
+
+    Raises:
+        BookError: a mistake, with its line and column in the book.
+    """
+    shelf = shelf or house_shelf()
+    reader = _Reader(shelf, names)
+    for line in _lines(_rendered(name, shelf, names)):
+        reader.take(line)
+    return reader.part()
+
+
+def _marked(text: str, name: str) -> str:
+    """Lines with book and number behind them, but for those of Jinja alone and of comments."""
+    made = []
+    for number, line in enumerate(text.splitlines(), 1):
+        if line.lstrip().startswith("#"):
+            line = ""
+        made.append(line if _STATEMENT.match(line) else f"{line}{_MARK}{name}:{number}{_MARK}")
+    return "\n".join(made) + "\n"
+
+
+def _printed(value: Any) -> Any:
+    """Numbers as short as they are; what a macro wrote on several lines is one."""
+    if isinstance(value, float):
+        return repr(int(value)) if value.is_integer() else repr(value)
+    if isinstance(value, str) and _MARK in value:
+        return " ".join(_MARKS.sub("", value).split())
+    return value
+
+
+def _rendered(name: str, shelf: Shelf, names: Mapping[str, Any]) -> str:
+    try:
+        return _environment(shelf).get_template(name).render(names)
+    except jinja2.TemplateSyntaxError as error:
+        book = error.name or name
+        raise BookError(book, error.lineno, 1, f"условие Jinja2 не разобрано: {error.message}",
+                        "проверьте % if, % for и скобки") from error  # fmt: skip
+    except (jinja2.TemplateError, TypeError, ValueError, ArithmeticError) as error:
+        book, number = _raised_at(error, name)
+        raise BookError(
+            book, number, 1, f"условие Jinja2 не вычислено: {error}",
+            "имена, которые знает книга, перечислены в docs/books.md",
+        ) from error  # fmt: skip
+
+
+def _raised_at(error: Exception, name: str) -> tuple[str, int]:
+    """Book and line from which a template raised."""
+    at, trace = (name, 1), error.__traceback__
+    while trace is not None:
+        path = Path(trace.tb_frame.f_code.co_filename)
+        if path.suffix == ".book":
+            at = path.name, trace.tb_lineno
+        trace = trace.tb_next
+    return at
+
+
+def _lines(rendered: str) -> Iterator[BookLine]:
+    """Lines with their own numbers; one that begins with a blank continues the last."""
+    waiting: BookLine | None = None
+    for raw in rendered.splitlines():
+        text = _MARKS.sub("", raw).rstrip()
+        if not text:
+            continue
+        if text[0].isspace() and waiting is not None:
+            waiting = replace(waiting, text=f"{waiting.text} {text.strip()}")
+            continue
+        if waiting is not None:
+            yield waiting
+        marks = _MARKS.findall(raw)
+        book, number = marks[-1] if marks else ("", "1")
+        waiting = BookLine(book, int(number), text.strip())
+    if waiting is not None:
+        yield waiting
+
+
+@dataclass
+class _Open:
+    """A block as far as it is read."""
+
+    word: str
+    about: Mapping[str, str]
+    sheet: str
+    nodes: list[Any] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    members: list[tuple[str, list[Scalar]]] = field(default_factory=list)
+    order: tuple[str, ...] = ()
+
+
+class _Reader:
+    """Takes line after line and keeps the blocks."""
+
+    def __init__(self, shelf: Shelf, names: Mapping[str, Any]) -> None:
+        self._shelf, self._names = shelf, names
+        self._sheet = ""
+        self._blocks: list[Block] = []
+        self._charts: list[ChartSpec] = []
+        self._open: _Open | ChartLines | None = None
+        self._line = BookLine("", 1, "")
+
+    def part(self) -> Part:
+        """What was read."""
+        self._close()
+        return Part(tuple(self._blocks), tuple(self._charts))
+
+    def take(self, line: BookLine) -> None:
+        """One line: a heading, or a line of the block that is open."""
+        self._line = line
+        try:
+            self._take(line.text)
+        except BookError:
+            raise
+        except FormulaError as error:
+            raise self._fault(f"формула не разобрана: {error}",
+                              "язык формул — в docs/books.md", line.text) from error  # fmt: skip
+        except KeyError as error:
+            key = str(error.args[0]) if error.args else ""
+            raise self._fault(f"величина «{key}» неизвестна",
+                              "назовите известную после of", key) from error  # fmt: skip
+        except ValueError as error:
+            raise self._fault(str(error)) from error
+
+    def _take(self, text: str) -> None:
+        word, _, rest = text.partition(" ")
+        if word in _HEADS and not rest.startswith(("=", "of ", "every ")):
+            self._close()
+            self._head(word, rest)
+        elif word in ChartLines.HEADS and not rest.startswith("="):
+            self._close()
+            self._open = ChartLines.opened(word, rest, self._sheet)
+        elif isinstance(self._open, ChartLines):
+            self._open = self._open.take(word, rest)
+        elif self._open is None:
+            raise self._fault(f"строка «{text}» стоит вне таблицы", "начните с list, table или grid")
+        else:
+            self._body(self._open, word, rest, text)
+
+    def _head(self, word: str, rest: str) -> None:
+        pattern, form = _HEADS[word]
+        found = re.fullmatch(pattern, rest)
+        if found is None:
+            raise self._fault(f"заголовок «{word} {rest}» не разобран", f"пишите {form}")
+        about = {key: value or "" for key, value in found.groupdict().items()}
+        if word == "sheet":
+            self._sheet = about["title"].strip()
+        elif word == "box":
+            self._blocks.append(
+                corners(about["id"], about["title"], self._sheet, about["key"], about["size"],
+                        about["of"] or "box", about["source"] or "оси диаграммы")
+            )  # fmt: skip
+        else:
+            self._open = _Open(word, about, self._sheet)
+
+    def _body(self, block: _Open, word: str, rest: str, text: str) -> None:
+        if word == "note":
+            block.notes.append(rest)
+        elif block.word == "grid" and word == "member":
+            block.members.append((rest, []))
+        elif block.word == "grid" and word == "rows":
+            block.order = tuple(rest.split())
+        elif word == "extremes" and block.word in ("list", "table"):
+            block.nodes += self._extremes(block, rest)
+        elif block.word == "allowed":
+            node = self._value(text, Scalar)
+            block.nodes += judged(
+                f"value_{node.key}", f"allowed_{node.key}", node.expr or "",
+                f"{{value}} {block.about['limit']}", node.source, "сравнение с допускаемым",
+            )  # fmt: skip
+        elif word == "check" and block.word == "list":
+            block.nodes += self._check(block, rest)
+        elif block.word == "grid":
+            if not block.members:
+                raise self._fault("строка сетки стоит раньше member", "начните с member НАЗВАНИЕ")
+            node = self._value(text, Scalar)
+            block.members[-1][1].append(replace(node, of=node.of or node.key))
+        else:
+            block.nodes.append(self._value(text, Column if block.word == "table" else Scalar))
+
+    def _extremes(self, block: _Open, rest: str) -> tuple[Any, ...]:
+        found = re.fullmatch(r"(?:(\w+)\.)?(\w+) as (\w+)(?: \| (.*))?", rest)
+        if found is None:
+            raise self._fault(f"«extremes {rest}» не разобрано", "пишите extremes СТОЛБЕЦ as ИМЯ")
+        table, column, name, source = found.groups()
+        if block.word == "table":
+            return extreme_columns(column, name)
+        return extreme_scalars(table or "", column, name, source or "")
+
+    def _check(self, block: _Open, rest: str) -> tuple[Scalar, Scalar]:
+        """``check KEY [of VALUE_KEY] = value | test of value | title [| source]``."""
+        found = re.fullmatch(
+            r"(\w+)(?: of (\w+))? = (.*?) \| (.*?) \| (.*?)(?: \| (.*))?", rest
+        )
+        if found is None:
+            raise self._fault(f"«check {rest}» не разобрано",
+                              "пишите check ИМЯ = ВЕЛИЧИНА | УСЛОВИЕ value | ЧТО ПРОВЕРЕНО")  # fmt: skip
+        key, value_key, value, test, title, source = found.groups()
+        verdict = key if value_key else f"check_{key}"
+        own = value_key or f"value_{key}"
+        test = renamed(test, lambda name: own if name == "value" else name)
+        words = self._words(block)
+        return judged(own, verdict, value, test, title, source or "проверка", words or (YES, NO))
+
+    def _words(self, block: _Open) -> tuple[str, str] | None:
+        if not block.about["verdicts"]:
+            return None
+        return block.about["good"] or YES, block.about["bad"] or NO
+
+    def _value(self, text: str, kind: type[Any]) -> Any:
+        """A line of a column or scalar."""
+        made = _node(text, kind)
+        if made is None:
+            raise self._fault(f"строка «{text}» не разобрана", "пишите КЛЮЧ = ФОРМУЛА | ИСТОЧНИК")
+        node: Node = made
+        if node.expr is not None and not node.source:
+            raise self._fault(f"у «{node.key}» нет источника",
+                              "после черты | назовите источник или -", node.key)  # fmt: skip
+        return replace(node, source="") if node.source == "-" else node
+
+    def _close(self) -> None:
+        block, self._open = self._open, None
+        if isinstance(block, ChartLines):
+            self._charts.append(block.made())
+        elif block is not None:
+            self._blocks.append(self._made(block))
+
+    def _made(self, block: _Open) -> Block:
+        about, note = block.about, " ".join(block.notes)
+        head = (about["id"], about["title"])
+        if block.word == "grid":
+            return Grid(*head, block.sheet, tuple(label for label, _ in block.members),
+                        _rows_of(block), note=note)  # fmt: skip
+        if block.word == "table":
+            return self._table(block, note)
+        verdicts = (YES, NO) if block.word == "allowed" else self._words(block)
+        return ScalarTable(*head, block.sheet, tuple(block.nodes), note=note, verdicts=verdicts)
+
+    def _table(self, block: _Open, note: str) -> Table:
+        about, step = block.about, None
+        if "…" in about["rows"]:
+            span, _, by = about["rows"].partition(" by ")
+            first, last = map(float, span.split("…"))
+            step = float(by)
+            rows = stepped(first, last, step)
+        else:
+            rows = self._names[about["rows"]]
+        options = about["options"].split()
+        return Table(
+            about["id"], about["number"], about["title"], block.sheet, tuple(block.nodes), rows,
+            note=note, helper="helper" in options, step=step,
+            computed=partial(solved_columns, about["id"]) if "computed" in options else None,
+        )  # fmt: skip
+
+    def _fault(self, what: str, hint: str = "", fragment: str = "") -> BookError:
+        """A mistake in the line taken; its column is that of the fragment where it is written."""
+        book, number = self._line.book, self._line.number
+        source = self._shelf.source(book)[0].splitlines()
+        for further, written in enumerate(source[number - 1 :], number):
+            if fragment and fragment in written:
+                return BookError(book, further, written.index(fragment) + 1, what, hint)
+            if further > number and not written[:1].isspace():
+                break
+        return BookError(book, number, 1, what, hint)
+
+
+def solved_columns(table: str, model: InputFile) -> Columns:
+    """What the solver finds for a table of values, in units of the tables."""
+    return solved(model).columns[table]
+
+
+@lru_cache(maxsize=8192)
+def _node(text: str, kind: type[Any]) -> Any:
+    """Column or scalar of a line, None where it is none; its formula and quantity are known."""
+    found = _VALUE.fullmatch(text)
+    if found is None or (kind is Scalar and (found["helper"] or found["expr"] is None)):
+        return None
+    own = {"helper": bool(found["helper"])} if kind is Column else {"note": found["note"] or ""}
+    made = kind(found["key"], found["expr"], found["source"] or "", of=found["of"] or "",
+                every=found["every"] or TURN, **own)  # fmt: skip
+    if made.expr is not None:
+        parse(made.expr)
+    made.quantity  # noqa: B018  (raises where nobody knows the key)
+    return made
+
+
+def _rows_of(block: _Open) -> tuple[GridRow, ...]:
+    """Rows by quantity in the order of their first cell, or in the order asked for."""
+    cells = [{cell.of: cell for cell in made} for _, made in block.members]
+    keys = block.order or tuple(dict.fromkeys(key for column in cells for key in column))
+    return tuple(GridRow(key, tuple(column.get(key) for column in cells)) for key in keys)

@@ -1,0 +1,60 @@
+"""Books with the names that their subject alone has: members of grids and of repeated tables."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from reports.spec.books import read_book
+from reports.spec.context import names_of
+from reports.spec.parts import Part, Scope
+from reports.spec.shape import pin_figure, pin_name, pin_table, rays_table
+
+
+@dataclass(frozen=True, slots=True)
+class Surface:
+    """A journal's surface in the wear diagrams; forces as columns of its table."""
+
+    table: str
+    number: str
+    sheet: str
+    name: str
+    of: str  # which one, in the genitive's end
+    size: str
+    up: str
+    against: str
+    is_pin: bool
+    chart: str
+
+
+def _surfaces(scope: Scope) -> dict[str, Any]:
+    shape = scope.shape
+    several = len(shape.pins) > 1
+    pins = [
+        Surface(
+            rays_table(n), "14" if n == 1 else f"14.Ш{n}",
+            "Износ ш.ш" if n == 1 else f"Износ ш.ш ({n})", f"pin{pin_name(n)}",
+            f" {n}" if several else "", f"{pin_table(n)}.Rpin_MPa", f"-{pin_table(n)}.Krod_MPa",
+            f"-{pin_table(n)}.T_MPa", True, pin_figure("fig52", n),
+        )
+        for n in shape.pin_numbers
+    ]  # fmt: skip
+    mains = [
+        Surface(
+            f"table_14_main_{k}", f"14.{k}", f"Износ к.ш ({k})", f"main{k}", f" {k}",
+            f"P4_3_{k}.R_MPa", f"P4_3_{k}.Ry_MPa", f"P4_3_{k}.Rx_MPa", False, f"fig54_{k}",
+        )
+        for k in shape.journal_numbers
+    ]  # fmt: skip
+    return {"surfaces": [*pins, *mains]}
+
+
+# Names that one book has besides the common ones.
+_OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {"wear": _surfaces}
+
+
+def book_part(book: str, scope: Scope) -> Part:
+    """Blocks and charts of a book of the house."""
+    further = _OF_BOOK.get(book)
+    return read_book(f"{book}.book", names_of(scope, **(further(scope) if further else {})))

@@ -72,6 +72,7 @@ class Shelf:
     """Folders of books, the first one with a name is taken; books may import each other."""
 
     folders: tuple[Path, ...]
+    trusted: bool = False
 
     def source(self, name: str) -> tuple[str, Path]:
         """Text of a book.
@@ -86,17 +87,17 @@ class Shelf:
         raise jinja2.TemplateNotFound(name)
 
     def environment(self) -> jinja2.Environment:
-        """The sandbox in which books are rendered."""
+        """Where books are rendered: those that are not trusted in a sandbox."""
 
         def load(name: str) -> tuple[str, str, Callable[[], bool]]:
             text, path = self.source(name)
             return _marked(text, name), str(path), lambda: True
 
-        made = ImmutableSandboxedEnvironment(
+        kind = jinja2.Environment if self.trusted else ImmutableSandboxedEnvironment
+        return kind(
             undefined=jinja2.StrictUndefined, loader=jinja2.FunctionLoader(load),
             line_statement_prefix="%", trim_blocks=True, lstrip_blocks=True, finalize=_printed,
         )  # fmt: skip
-        return made
 
 
 @lru_cache(maxsize=8)
@@ -106,7 +107,7 @@ def _environment(shelf: Shelf) -> jinja2.Environment:
 
 def house_shelf() -> Shelf:
     """The books of the house."""
-    return Shelf((templates_dir() / "tables",))
+    return Shelf((templates_dir() / "tables",), trusted=True)
 
 
 def read_book(name: str, names: Mapping[str, Any], shelf: Shelf | None = None) -> Part:
@@ -169,21 +170,21 @@ def _raised_at(error: Exception, name: str) -> tuple[str, int]:
 
 def _lines(rendered: str) -> Iterator[BookLine]:
     """Lines with their own numbers; one that begins with a blank continues the last."""
-    waiting: BookLine | None = None
+    whole: list[str] = []
+    at = ("", "1")
     for raw in rendered.splitlines():
-        text = _MARKS.sub("", raw).rstrip()
-        if not text:
+        text, *marks = raw.split(_MARK)
+        if not text or text.isspace():
             continue
-        if text[0].isspace() and waiting is not None:
-            waiting = replace(waiting, text=f"{waiting.text} {text.strip()}")
-            continue
-        if waiting is not None:
-            yield waiting
-        marks = _MARKS.findall(raw)
-        book, number = marks[-1] if marks else ("", "1")
-        waiting = BookLine(book, int(number), text.strip())
-    if waiting is not None:
-        yield waiting
+        if text[0] != " " and whole:
+            yield BookLine(at[0], int(at[1]), " ".join(whole))
+            whole.clear()
+        if not whole:
+            book, _, number = marks[0].rpartition(":") if marks else at
+            at = book, number
+        whole.append(text.strip())
+    if whole:
+        yield BookLine(at[0], int(at[1]), " ".join(whole))
 
 
 @dataclass
@@ -283,8 +284,7 @@ class _Reader:
         elif block.word == "grid":
             if not block.members:
                 raise self._fault("строка сетки стоит раньше member", "начните с member НАЗВАНИЕ")
-            node = self._value(text, Scalar)
-            block.members[-1][1].append(replace(node, of=node.of or node.key))
+            block.members[-1][1].append(self._value(text, Scalar, named=True))
         else:
             block.nodes.append(self._value(text, Column if block.word == "table" else Scalar))
 
@@ -317,9 +317,9 @@ class _Reader:
             return None
         return block.about["good"] or YES, block.about["bad"] or NO
 
-    def _value(self, text: str, kind: type[Any]) -> Any:
+    def _value(self, text: str, kind: type[Any], *, named: bool = False) -> Any:
         """A line of a column or scalar."""
-        made = _node(text, kind)
+        made = _node(text, kind, named)
         if made is None:
             raise self._fault(f"строка «{text}» не разобрана", "пишите КЛЮЧ = ФОРМУЛА | ИСТОЧНИК")
         node: Node = made
@@ -380,13 +380,17 @@ def solved_columns(table: str, model: InputFile) -> Columns:
 
 
 @lru_cache(maxsize=8192)
-def _node(text: str, kind: type[Any]) -> Any:
-    """Column or scalar of a line, None where it is none; its formula and quantity are known."""
+def _node(text: str, kind: type[Any], named: bool) -> Any:
+    """Column or scalar of a line, None where it is none; its formula and quantity are known.
+
+    ``named`` gives the quantity even where it is the key.
+    """
     found = _VALUE.fullmatch(text)
     if found is None or (kind is Scalar and (found["helper"] or found["expr"] is None)):
         return None
     own = {"helper": bool(found["helper"])} if kind is Column else {"note": found["note"] or ""}
-    made = kind(found["key"], found["expr"], found["source"] or "", of=found["of"] or "",
+    of = found["of"] or (found["key"] if named else "")
+    made = kind(found["key"], found["expr"], found["source"] or "", of=of,
                 every=found["every"] or TURN, **own)  # fmt: skip
     if made.expr is not None:
         parse(made.expr)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from reports.spec.books import read_book
 from reports.spec.context import names_of
-from reports.spec.parts import Part, Scope
+from reports.spec.parts import Part, PartOf, Scope
 from reports.spec.shape import pin_figure, pin_name, pin_table, rays_table
 
 
@@ -58,3 +59,8 @@ def book_part(book: str, scope: Scope) -> Part:
     """Blocks and charts of a book of the house."""
     further = _OF_BOOK.get(book)
     return read_book(f"{book}.book", names_of(scope, **(further(scope) if further else {})))
+
+
+def book(name: str) -> PartOf:
+    """A book of the house as a part of the model."""
+    return partial(book_part, name)

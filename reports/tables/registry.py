@@ -14,6 +14,7 @@ from reports.spec.rename import sized, substituted
 from reports.tables.balance.balance import balance
 from reports.tables.balance.inertia import inertia
 from reports.tables.balance.torque_orders import torque_orders
+from reports.tables.contexts import book
 from reports.tables.gas.cycle import processes
 from reports.tables.gas.cycle_names import cycle_stand_ins
 from reports.tables.gas.cycle_results import results
@@ -27,8 +28,6 @@ from reports.tables.loads.cylinder import cylinders
 from reports.tables.loads.journals import journals
 from reports.tables.loads.regimes import regime_models
 from reports.tables.loads.throws import throws
-from reports.tables.loads.torques import torques
-from reports.tables.loads.wear import wear
 from reports.tables.motion.articulated import articulated
 from reports.tables.motion.mechanism import dimensions, kinematics, size_stand_ins
 from reports.tables.motion.neiman import neiman
@@ -52,9 +51,9 @@ from reports.tables.torsion.train import train
 BEFORE: tuple[PartOf, ...] = (scheme, processes, results, speed)
 # Chapters 1 and 2: all that speed and gas decide, and more; every regime has them.
 CHAIN: tuple[PartOf, ...] = (
-    dimensions, masses, kinematics, offset, articulated, indicator, cylinders, torques,
+    dimensions, masses, kinematics, offset, articulated, indicator, cylinders, book("torques"),
     crankpins, throws, journals,
-    wear, summary,
+    book("wear"), summary,
 )  # fmt: skip
 AFTER: tuple[PartOf, ...] = (
     balance, inertia, torque_orders, segal, neiman, reference, bearings, continuous,

@@ -125,12 +125,23 @@ def read_book(name: str, names: Mapping[str, Any], shelf: Shelf | None = None) -
 
 def _marked(text: str, name: str) -> str:
     """Lines with book and number behind them, but for those of Jinja alone and of comments."""
-    made = []
+    made, waiting = [], ""  # a statement or a value that goes on below
     for number, line in enumerate(text.splitlines(), 1):
         if line.lstrip().startswith("#"):
-            line = ""
-        made.append(line if _STATEMENT.match(line) else f"{line}{_MARK}{name}:{number}{_MARK}")
+            made.append("")
+            continue
+        whole = waiting + line
+        is_statement = _STATEMENT.match(whole) is not None
+        goes_on = _depth(whole) > 0 if is_statement else whole.count("{{") > whole.count("}}")
+        waiting = whole if goes_on else ""
+        bare = is_statement or goes_on
+        made.append(line if bare else f"{line}{_MARK}{name}:{number}{_MARK}")
     return "\n".join(made) + "\n"
+
+
+def _depth(text: str) -> int:
+    """Brackets that are open at the end of a statement."""
+    return sum(text.count(c) for c in "([{") - sum(text.count(c) for c in ")]}")
 
 
 def _printed(value: Any) -> Any:
@@ -197,7 +208,7 @@ class _Open:
     nodes: list[Any] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     members: list[tuple[str, list[Scalar]]] = field(default_factory=list)
-    order: tuple[str, ...] = ()
+    last: tuple[str, ...] = ()
 
 
 class _Reader:
@@ -244,7 +255,9 @@ class _Reader:
         elif isinstance(self._open, ChartLines):
             self._open = self._open.take(word, rest)
         elif self._open is None:
-            raise self._fault(f"строка «{text}» стоит вне таблицы", "начните с list, table или grid")
+            raise self._fault(
+                f"строка «{text}» стоит вне таблицы", "начните с list, table или grid"
+            )
         else:
             self._body(self._open, word, rest, text)
 
@@ -269,8 +282,8 @@ class _Reader:
             block.notes.append(rest)
         elif block.word == "grid" and word == "member":
             block.members.append((rest, []))
-        elif block.word == "grid" and word == "rows":
-            block.order = tuple(rest.split())
+        elif block.word == "grid" and word == "last":
+            block.last = tuple(rest.split())
         elif word == "extremes" and block.word in ("list", "table"):
             block.nodes += self._extremes(block, rest)
         elif block.word == "allowed":
@@ -299,9 +312,7 @@ class _Reader:
 
     def _check(self, block: _Open, rest: str) -> tuple[Scalar, Scalar]:
         """``check KEY [of VALUE_KEY] = value | test of value | title [| source]``."""
-        found = re.fullmatch(
-            r"(\w+)(?: of (\w+))? = (.*?) \| (.*?) \| (.*?)(?: \| (.*))?", rest
-        )
+        found = re.fullmatch(r"(\w+)(?: of (\w+))? = (.*?) \| (.*?) \| (.*?)(?: \| (.*))?", rest)
         if found is None:
             raise self._fault(f"«check {rest}» не разобрано",
                               "пишите check ИМЯ = ВЕЛИЧИНА | УСЛОВИЕ value | ЧТО ПРОВЕРЕНО")  # fmt: skip
@@ -399,7 +410,8 @@ def _node(text: str, kind: type[Any], named: bool) -> Any:
 
 
 def _rows_of(block: _Open) -> tuple[GridRow, ...]:
-    """Rows by quantity in the order of their first cell, or in the order asked for."""
+    """Rows by quantity in the order of their first cells, but for those asked to be last."""
     cells = [{cell.of: cell for cell in made} for _, made in block.members]
-    keys = block.order or tuple(dict.fromkeys(key for column in cells for key in column))
+    found = dict.fromkeys(key for column in cells for key in column)
+    keys = (*(key for key in found if key not in block.last), *block.last)
     return tuple(GridRow(key, tuple(column.get(key) for column in cells)) for key in keys)

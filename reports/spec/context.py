@@ -11,6 +11,7 @@ from pydantic import BaseModel
 from kshm.nomenclature.quantity import ray_key, roman
 from reports.shared.russian import short
 from reports.spec import shape
+from reports.spec.extremes import TIE
 from reports.spec.parts import Scope
 
 
@@ -45,6 +46,7 @@ def names_of(scope: Scope, **further: Any) -> Mapping[str, Any]:
         "ray_key": ray_key,
         "roman": roman,
         "short": short,
+        "tie": TIE,
         **further,
     }
 

@@ -71,6 +71,19 @@ class Shape:
         return range(1, len(self.pins) + 1)
 
     @property
+    def hung(self) -> frozenset[int]:
+        """Cylinders with articulated rods."""
+        return frozenset(filter(self.is_hung, self.numbers))
+
+    @property
+    def rod_places(self) -> tuple[tuple[tuple[int, str], ...], ...]:
+        """Cylinders of every throw with the place of the rod on it, ``a`` at the nose or ``b``."""
+        return tuple(
+            tuple((i, "b" if self.arrangement[i - 1].rod_place else "a") for i in group)
+            for group in self.groups
+        )
+
+    @property
     def single_rods(self) -> bool:
         """Whether every throw carries one rod."""
         return all(len(group) == 1 for group in self.groups)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from kshm.mechanics.pin_bearing import PLANES
 from reports.spec.books import read_book
 from reports.spec.context import names_of
 from reports.spec.parts import Part, PartOf, Scope
@@ -52,7 +53,10 @@ def _surfaces(scope: Scope) -> dict[str, Any]:
 
 
 # Names that one book has besides the common ones.
-_OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {"wear": _surfaces}
+_OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
+    "bearings": lambda _: {"planes": PLANES},
+    "wear": _surfaces,
+}
 
 
 def book_part(book: str, scope: Scope) -> Part:

@@ -20,14 +20,9 @@ from reports.tables.gas.cycle_names import cycle_stand_ins
 from reports.tables.gas.cycle_results import results
 from reports.tables.gas.cycle_speed import speed
 from reports.tables.gas.indicator import indicator
-from reports.tables.loads.bearings import bearings
 from reports.tables.loads.comparison import comparison
-from reports.tables.loads.continuous import continuous
-from reports.tables.loads.crankpins import crankpins
 from reports.tables.loads.cylinder import cylinders
-from reports.tables.loads.journals import journals
 from reports.tables.loads.regimes import regime_models
-from reports.tables.loads.throws import throws
 from reports.tables.motion.articulated import articulated
 from reports.tables.motion.mechanism import dimensions, kinematics, size_stand_ins
 from reports.tables.motion.neiman import neiman
@@ -52,11 +47,11 @@ BEFORE: tuple[PartOf, ...] = (scheme, processes, results, speed)
 # Chapters 1 and 2: all that speed and gas decide, and more; every regime has them.
 CHAIN: tuple[PartOf, ...] = (
     dimensions, masses, kinematics, offset, articulated, indicator, cylinders, book("torques"),
-    crankpins, throws, journals,
+    book("crankpins"), book("throws"), book("journals"),
     book("wear"), summary,
 )  # fmt: skip
 AFTER: tuple[PartOf, ...] = (
-    balance, inertia, torque_orders, segal, neiman, reference, bearings, continuous,
+    balance, inertia, torque_orders, segal, neiman, reference, book("bearings"), book("continuous"),
     two_term, train, free, resonance,
     film, orbit, safety,
 )  # fmt: skip

@@ -7,7 +7,7 @@ from reports.spec.blocks import Column, TableSpec
 from reports.spec.charts import ChartSpec, columns_of, over_phi
 from reports.spec.listing import column_list
 from reports.spec.parts import Part, Scope
-from reports.spec.shape import Shape, cylinder_table_id
+from reports.spec.shape import Shape
 from reports.tables.gas.indicator import displaced, own_pressure, timing
 from reports.tables.loads.hung import hung_table
 from reports.tables.motion.mechanism import acceleration

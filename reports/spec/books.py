@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import jinja2
 from jinja2.sandbox import ImmutableSandboxedEnvironment
@@ -17,7 +17,7 @@ from reports.formula.parse import FormulaError, parse
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.solved import solved
 from reports.shared.resources import templates_dir
-from reports.spec.blocks import TURN, Block, Column, Grid, GridRow, Node, Scalar, ScalarTable
+from reports.spec.blocks import TURN, Block, Column, Grid, GridRow, Scalar, ScalarTable
 from reports.spec.blocks import TableSpec as Table
 from reports.spec.chart_lines import ChartLines
 from reports.spec.charts import ChartSpec
@@ -27,6 +27,7 @@ from reports.spec.listing import corners
 from reports.spec.parts import Part, stepped
 from reports.spec.rename import renamed
 
+Kind = TypeVar("Kind", Scalar, Column)
 _MARK = "\x1f"
 _MARKS = re.compile(f"{_MARK}([^{_MARK}]*):(\\d+){_MARK}")
 _STATEMENT = re.compile(r"\s*(%|#|\{%.*%\}$|$)")
@@ -36,7 +37,8 @@ _VALUE = re.compile(
 )
 _HEADS = {
     "sheet": (r"(?P<title>.+)", "sheet НАЗВАНИЕ"),
-    "list": (r'(?P<id>\w+)(?P<verdicts> verdicts(?: "(?P<good>.*)" "(?P<bad>.*)")?)?: (?P<title>.+)',
+    "list": (r'(?P<id>\w+)(?P<verdicts> verdicts(?: "(?P<good>.*)" "(?P<bad>.*)")?)?'
+             r": (?P<title>.+)",
              "list ИМЯ: ЗАГОЛОВОК"),
     "table": (r"(?P<id>\w+) (?P<number>.+) over (?P<rows>turn|cycle|\S+…\S+ by \S+)"
               r"(?P<options>(?: helper| computed)*): (?P<title>.+)",
@@ -144,7 +146,7 @@ def _depth(text: str) -> int:
     return sum(text.count(c) for c in "([{") - sum(text.count(c) for c in ")]}")
 
 
-def _printed(value: Any) -> Any:
+def _printed(value: object) -> object:
     """Numbers as short as they are; what a macro wrote on several lines is one."""
     if isinstance(value, float):
         return repr(int(value)) if value.is_integer() else repr(value)
@@ -191,11 +193,16 @@ def _lines(rendered: str) -> Iterator[BookLine]:
             yield BookLine(at[0], int(at[1]), " ".join(whole))
             whole.clear()
         if not whole:
-            book, _, number = marks[0].rpartition(":") if marks else at
-            at = book, number
+            at = _place(marks[0]) if marks else at
         whole.append(text.strip())
     if whole:
         yield BookLine(at[0], int(at[1]), " ".join(whole))
+
+
+def _place(mark: str) -> tuple[str, str]:
+    """Book and number of a line."""
+    book, _, number = mark.rpartition(":")
+    return book, number
 
 
 @dataclass
@@ -205,7 +212,8 @@ class _Open:
     word: str
     about: Mapping[str, str]
     sheet: str
-    nodes: list[Any] = field(default_factory=list)
+    scalars: list[Scalar] = field(default_factory=list)
+    columns: list[Column] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     members: list[tuple[str, list[Scalar]]] = field(default_factory=list)
     last: tuple[str, ...] = ()
@@ -285,37 +293,40 @@ class _Reader:
         elif block.word == "grid" and word == "last":
             block.last = tuple(rest.split())
         elif word == "extremes" and block.word in ("list", "table"):
-            block.nodes += self._extremes(block, rest)
+            self._extremes(block, rest)
         elif block.word == "allowed":
-            node = self._value(text, Scalar)
-            block.nodes += judged(
+            node = self._scalar(text)
+            block.scalars += judged(
                 f"value_{node.key}", f"allowed_{node.key}", node.expr or "",
                 f"{{value}} {block.about['limit']}", node.source, "сравнение с допускаемым",
             )  # fmt: skip
         elif word == "check" and block.word == "list":
-            block.nodes += self._check(block, rest)
+            block.scalars += self._check(block, rest)
         elif block.word == "grid":
             if not block.members:
-                raise self._fault("строка сетки стоит раньше member", "начните с member НАЗВАНИЕ")
-            block.members[-1][1].append(self._value(text, Scalar, named=True))
+                raise self._fault("строка стоит раньше member", "начните с member НАЗВАНИЕ")
+            block.members[-1][1].append(self._scalar(text, named=True))
+        elif block.word == "table":
+            block.columns.append(self._sourced(_column(text), text))
         else:
-            block.nodes.append(self._value(text, Column if block.word == "table" else Scalar))
+            block.scalars.append(self._scalar(text))
 
-    def _extremes(self, block: _Open, rest: str) -> tuple[Any, ...]:
+    def _extremes(self, block: _Open, rest: str) -> None:
         found = re.fullmatch(r"(?:(\w+)\.)?(\w+) as (\w+)(?: \| (.*))?", rest)
         if found is None:
             raise self._fault(f"«extremes {rest}» не разобрано", "пишите extremes СТОЛБЕЦ as ИМЯ")
         table, column, name, source = found.groups()
         if block.word == "table":
-            return extreme_columns(column, name)
-        return extreme_scalars(table or "", column, name, source or "")
+            block.columns += extreme_columns(column, name)
+        else:
+            block.scalars += extreme_scalars(table or "", column, name, source or "")
 
     def _check(self, block: _Open, rest: str) -> tuple[Scalar, Scalar]:
         """``check KEY [of VALUE_KEY] = value | test of value | title [| source]``."""
         found = re.fullmatch(r"(\w+)(?: of (\w+))? = (.*?) \| (.*?) \| (.*?)(?: \| (.*))?", rest)
         if found is None:
             raise self._fault(f"«check {rest}» не разобрано",
-                              "пишите check ИМЯ = ВЕЛИЧИНА | УСЛОВИЕ value | ЧТО ПРОВЕРЕНО")  # fmt: skip
+                              "пишите check ИМЯ = ВЕЛИЧИНА | УСЛОВИЕ | ЧТО ПРОВЕРЕНО")  # fmt: skip
         key, value_key, value, test, title, source = found.groups()
         verdict = key if value_key else f"check_{key}"
         own = value_key or f"value_{key}"
@@ -328,12 +339,13 @@ class _Reader:
             return None
         return block.about["good"] or YES, block.about["bad"] or NO
 
-    def _value(self, text: str, kind: type[Any], *, named: bool = False) -> Any:
-        """A line of a column or scalar."""
-        made = _node(text, kind, named)
-        if made is None:
+    def _scalar(self, text: str, *, named: bool = False) -> Scalar:
+        return self._sourced(_scalar(text, named=named), text)
+
+    def _sourced(self, node: Kind | None, text: str) -> Kind:
+        """The column or scalar of a line, which says where its formula is from."""
+        if node is None:
             raise self._fault(f"строка «{text}» не разобрана", "пишите КЛЮЧ = ФОРМУЛА | ИСТОЧНИК")
-        node: Node = made
         if node.expr is not None and not node.source:
             raise self._fault(f"у «{node.key}» нет источника",
                               "после черты | назовите источник или -", node.key)  # fmt: skip
@@ -355,7 +367,7 @@ class _Reader:
         if block.word == "table":
             return self._table(block, note)
         verdicts = (YES, NO) if block.word == "allowed" else self._words(block)
-        return ScalarTable(*head, block.sheet, tuple(block.nodes), note=note, verdicts=verdicts)
+        return ScalarTable(*head, block.sheet, tuple(block.scalars), note=note, verdicts=verdicts)
 
     def _table(self, block: _Open, note: str) -> Table:
         about, step = block.about, None
@@ -368,7 +380,7 @@ class _Reader:
             rows = self._names[about["rows"]]
         options = about["options"].split()
         return Table(
-            about["id"], about["number"], about["title"], block.sheet, tuple(block.nodes), rows,
+            about["id"], about["number"], about["title"], block.sheet, tuple(block.columns), rows,
             note=note, helper="helper" in options, step=step,
             computed=partial(solved_columns, about["id"]) if "computed" in options else None,
         )  # fmt: skip
@@ -391,22 +403,37 @@ def solved_columns(table: str, model: InputFile) -> Columns:
 
 
 @lru_cache(maxsize=8192)
-def _node(text: str, kind: type[Any], named: bool) -> Any:
-    """Column or scalar of a line, None where it is none; its formula and quantity are known.
-
-    ``named`` gives the quantity even where it is the key.
-    """
+def _scalar(text: str, *, named: bool) -> Scalar | None:
+    """Scalar of a line, None where it is none; ``named`` names the quantity in any case."""
     found = _VALUE.fullmatch(text)
-    if found is None or (kind is Scalar and (found["helper"] or found["expr"] is None)):
+    if found is None or found["helper"] or found["expr"] is None:
         return None
-    own = {"helper": bool(found["helper"])} if kind is Column else {"note": found["note"] or ""}
     of = found["of"] or (found["key"] if named else "")
-    made = kind(found["key"], found["expr"], found["source"] or "", of=of,
-                every=found["every"] or TURN, **own)  # fmt: skip
-    if made.expr is not None:
-        parse(made.expr)
-    made.quantity  # noqa: B018  (raises where nobody knows the key)
-    return made
+    return _known(Scalar(found["key"], found["expr"], found["source"] or "", of=of,
+                         every=found["every"] or TURN, note=found["note"] or ""))  # fmt: skip
+
+
+@lru_cache(maxsize=8192)
+def _column(text: str) -> Column | None:
+    """Column of a line, None where it is none."""
+    found = _VALUE.fullmatch(text)
+    if found is None:
+        return None
+    return _known(Column(found["key"], found["expr"], found["source"] or "", of=found["of"] or "",
+                         every=found["every"] or TURN, helper=bool(found["helper"])))  # fmt: skip
+
+
+def _known(node: Kind) -> Kind:
+    """The node, whose formula is of the language and whose quantity is known.
+
+    Raises:
+        FormulaError: the formula is none.
+        KeyError: nobody knows the quantity.
+    """
+    if node.expr is not None:
+        parse(node.expr)
+    _ = node.quantity
+    return node
 
 
 def _rows_of(block: _Open) -> tuple[GridRow, ...]:

@@ -96,9 +96,8 @@ class ChartLines:
 def _curve(rest: str) -> Series:
     """``[X] Y [workbook|report]: name``."""
     head, _, name = rest.partition(": ")
-    refs, words = [], []
-    for word in head.split():
-        (refs if "." in word else words).append(word)
+    refs = [word for word in head.split() if "." in word]
+    words = [word for word in head.split() if "." not in word]
     only = next((word for word in words if word in ("workbook", "report")), "")
     if not 1 <= len(refs) <= 2 or set(words) - {only, "point"}:
         raise ValueError(f"«curve {rest}» не разобрано; пишите curve ТАБЛИЦА.X ТАБЛИЦА.Y: имя")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from pydantic import BaseModel
 
@@ -22,7 +21,7 @@ class InputView:
     section: BaseModel
     whether: bool
 
-    def __getattr__(self, name: str) -> Any:
+    def __getattr__(self, name: str) -> object:
         """Value of a key; a section is another view, where the file has it."""
         if name not in type(self.section).model_fields:
             raise AttributeError(name)
@@ -32,7 +31,7 @@ class InputView:
         return value not in (None, ()) if self.whether else value
 
 
-def names_of(scope: Scope, **further: Any) -> Mapping[str, Any]:
+def names_of(scope: Scope, **further: object) -> Mapping[str, object]:
     """Names for the conditions of a book; ``further`` are those of its subject alone."""
     return {
         "engine": scope.shape,

@@ -1,0 +1,1 @@
+"""Measures of the structure: how many rooms a thought passes through."""

@@ -8,7 +8,8 @@ numbers known (see :mod:`reports.document.page.writer`).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, cast
 
@@ -47,7 +48,7 @@ from reports.document.text import texts
 from reports.document.text.terms import Terms
 from reports.inputs.checks.grid import fine_columns
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.sections.report import Report
+from reports.inputs.sections.report import ReportSection
 from reports.spec.blocks import Model
 from reports.spec.evaluation import Values
 
@@ -84,42 +85,141 @@ CHAPTERS: dict[str, Write] = {
 _RUN_ON = 0.3  # of a page that is left for the next chapter outside of the full report
 
 
-def report_pdf(
-    model: Model,
-    values: Values,
-    *,
-    source: Path,
-    workbook: bytes | Callable[[], bytes],
-    style: Path | None = None,
-    further: Further = (),
-) -> bytes:
-    """The report as PDF with the input file and the workbook attached.
+@dataclass(frozen=True)
+class Report:
+    """The report of one engine: drafted once, and each page of it is written once.
 
-    Args:
+    Attributes:
         model: specifications of the engine.
         values: their values.
-        source: the input file; own templates and a style file are looked for beside it.
-        workbook: the workbook to attach, or what gives it when it is needed.
-        style: a style file instead of the one that the input names.
+        templates: a folder of own templates, see :mod:`reports.document.page.overrides`.
+        style: margins, type and what else a department asks for.
         further: chapters from rooms above this one, before the checks.
-
-    Raises:
-        SystemPartMissing: pango is not on this machine.
-        RenderError: the page could not be set as the templates say.
-        InputError: the folder of own templates is missing or one of them is wrong.
     """
-    from reports.shared.doctor import need_pango
 
-    need_pango()
-    folder = overrides.find(model.input.report.templates, source.parent)
-    look = find_style(model.input.report, source.parent, style)
-    page = report_page(model, values, media="print", templates=folder, style=look, further=further)
-    try:
-        return render_pdf(page, attachments=_files(source, workbook))
-    except RenderError as error:
-        if folder is None:
-            raise
-        raise overrides.style_error(folder, str(error)) from error
+    model: Model
+    values: Values
+    templates: Path | None = None
+    style: Style = USUAL
+    further: Further = ()
+
+    @classmethod
+    def of(
+        cls,
+        model: Model,
+        values: Values,
+        source: Path,
+        style: Path | None = None,
+        further: Further = (),
+    ) -> Report:
+        """The report of an input file: own templates and a style file are looked for beside it.
+
+        Args:
+            model: specifications of the engine.
+            values: their values.
+            source: the input file.
+            style: a style file instead of the one that the input names.
+            further: chapters from rooms above.
+
+        Raises:
+            InputError: the folder of own templates or the style file is missing or wrong.
+        """
+        report = model.input.report
+        folder = overrides.find(report.templates, source.parent)
+        return cls(model, values, folder, find_style(report, source.parent, style), further)
+
+    def pdf(self, source: Path, workbook: bytes | Callable[[], bytes]) -> bytes:
+        """The report as PDF with the input file and the workbook attached.
+
+        Args:
+            source: the input file.
+            workbook: the workbook to attach, or what gives it when it is needed.
+
+        Raises:
+            SystemPartMissing: pango is not on this machine.
+            RenderError: the page could not be set as the templates say.
+            InputError: one of the own templates is wrong.
+        """
+        from reports.shared.doctor import need_pango
+
+        need_pango()
+        try:
+            return render_pdf(self.page("print"), attachments=_files(source, workbook))
+        except RenderError as error:
+            if self.templates is None:
+                raise
+            raise overrides.style_error(self.templates, str(error)) from error
+
+    def page(self, media: Literal["print", "screen"], *, tagged: bool | None = None) -> str:
+        """The whole page as HTML with style sheet, formulas and figures inside.
+
+        Args:
+            media: "print" for WeasyPrint, "screen" for a browser.
+            tagged: whether each cell of a table is one; usually where cells are few.
+        """
+        if tagged is None:
+            tagged = self.style.tagged_tables
+        if tagged is None:  # cells for everyone's reader where they are few; lines are fast
+            tagged = self.model.input.report.detail != "full"
+        pages = self._pages
+        if (media, tagged) not in pages:
+            with overrides.told(self.templates):
+                pages[media, tagged] = self._written(media, tagged)
+        return pages[media, tagged]
+
+    @cached_property
+    def numbered(self) -> Model:
+        """The model with the number of each chart in the report, for other documents."""
+        draft, chapter = self._draft
+        numbers = {name: draft.label("figure", key).number for name, key in chapter.figures.items()}
+        charts = (replace(chart, number=numbers.get(chart.id, "")) for chart in self.model.charts)
+        return replace(self.model, charts=tuple(charts))
+
+    @cached_property
+    def _pages(self) -> dict[tuple[str, bool], str]:
+        return {}
+
+    @cached_property
+    def _terms(self) -> Terms:
+        return Terms(self.model, self.values, fine_columns(self.model.input))
+
+    @cached_property
+    def _draft(self) -> tuple[Draft, Chapter]:
+        """What stands where in the chapters that are written."""
+        env, draft = self._environment("print", tagged=True), Draft(by_chapter=self._by_chapter)
+        chapter = Chapter(self._terms, Writer(env, draft), env)
+        with overrides.told(self.templates):
+            _write(chapter, chosen(self.model.input), self.further)
+        return draft, chapter
+
+    @cached_property
+    def _absent(self) -> dict[Name, str]:
+        """Words for what stands in the chapters that are left out."""
+        env, absent = self._environment("print", tagged=True), Draft()
+        names = CHAPTERS.keys() - chosen(self.model.input)
+        _write(Chapter(self._terms, Writer(env, absent), env), names)
+        return _elsewhere(self._terms, absent)
+
+    @property
+    def _by_chapter(self) -> bool:
+        return self.style.numbering == "chapter"
+
+    def _environment(self, media: Literal["print", "screen"], *, tagged: bool) -> Environment:
+        style = self.style.model_copy(update={"tagged_tables": tagged})
+        return environment(self.templates, media=media, style=style)
+
+    def _written(self, media: Literal["print", "screen"], tagged: bool) -> str:
+        env, style = self._environment(media, tagged=tagged), self.style
+        numbering = self._draft[0].numbering(elsewhere=self._absent)
+        chapter = Chapter(self._terms, Writer(env, numbering), env)
+        body = Markup(texts.unbroken(_write(chapter, chosen(self.model.input), self.further)))
+        if media == "print":
+            sheets = style.framed if front.has_frame(chapter.input, style.frame) else style
+            placed = arranged(body, sheets, run_on=_run_on(chapter, style))
+            body = Markup(redrawn(placed, chapter.writer.figures, env.filters["pictured"]))
+        numbering.check()
+        head, start, page = _whole(env, chapter, body).partition("<body>")
+        return texts.spaces_inside(head + start + texts.unbroken(page))
 
 
 def _files(source: Path, workbook: bytes | Callable[[], bytes]) -> Iterator[AttachedFile]:
@@ -130,25 +230,12 @@ def _files(source: Path, workbook: bytes | Callable[[], bytes]) -> Iterator[Atta
     yield AttachedFile(f"{source.stem}.xlsx", book, "Книга Excel с формулами", "Supplement")
 
 
-def report_html(
-    model: Model, values: Values, *, source: Path, style: Path | None = None, further: Further = ()
-) -> str:
-    """The report as one self-contained page for the screen and for printing.
-
-    Raises:
-        InputError: the folder of own templates is missing or one of them is wrong.
-    """
-    folder = overrides.find(model.input.report.templates, source.parent)
-    look = find_style(model.input.report, source.parent, style)
-    return report_page(model, values, media="screen", templates=folder, style=look, further=further)
-
-
 def remarks_on(model: InputFile, beside: Path, style: Path | None = None) -> tuple[str, ...]:
     """What a person should look at in the finished report."""
     return tuple(front.crowded(model, find_style(model.report, beside, style).frame))
 
 
-def find_style(report: Report, beside: Path, given: Path | None = None) -> Style:
+def find_style(report: ReportSection, beside: Path, given: Path | None = None) -> Style:
     """The style file given, or the one named in the input, or the usual look.
 
     Raises:
@@ -157,73 +244,6 @@ def find_style(report: Report, beside: Path, given: Path | None = None) -> Style
     if given is None and report.style.strip():
         given = beside / report.style
     return USUAL if given is None else read_style(given)
-
-
-def report_page(
-    model: Model,
-    values: Values,
-    *,
-    media: Literal["print", "screen"],
-    templates: Path | None = None,
-    style: Style = USUAL,
-    further: Further = (),
-) -> str:
-    """The whole page as HTML with style sheet, formulas and figures inside.
-
-    Args:
-        model: specifications of the engine.
-        values: their values.
-        media: "print" for WeasyPrint, "screen" for a browser.
-        templates: a folder of own templates, see :mod:`reports.document.page.overrides`.
-        style: margins, type and what else a department asks for.
-        further: chapters from rooms above this one.
-    """
-    with overrides.told(templates):
-        env = environment(templates, media=media, style=_with_tags(style, model))
-        return _page(model, values, env, further)
-
-
-def _with_tags(style: Style, model: Model) -> Style:
-    """Cells for everyone's reader where they are few; lines are fast where they are many."""
-    if style.tagged_tables is not None:
-        return style
-    return style.model_copy(update={"tagged_tables": model.input.report.detail != "full"})
-
-
-def _page(model: Model, values: Values, env: Environment, further: Further) -> str:
-    terms = Terms(model, values, fine_columns(model.input))
-    names = chosen(model.input)
-    style = cast(Style, env.globals["style"])
-    draft, absent = Draft(by_chapter=style.numbering == "chapter"), Draft()
-    _write(Chapter(terms, Writer(env, draft), env), names, further)
-    _write(Chapter(terms, Writer(env, absent), env), CHAPTERS.keys() - names)
-    numbering = draft.numbering(elsewhere=_elsewhere(terms, absent))
-    chapter = Chapter(terms, Writer(env, numbering), env)
-    body = Markup(texts.unbroken(_write(chapter, names, further)))
-    if env.globals["media"] == "print":
-        sheets = style.framed if front.has_frame(chapter.input, style.frame) else style
-        placed = arranged(body, sheets, run_on=_run_on(chapter, style))
-        body = Markup(redrawn(placed, chapter.writer.figures, env.filters["pictured"]))
-    numbering.check()
-    head, start, page = _whole(env, chapter, body).partition("<body>")
-    return texts.spaces_inside(head + start + texts.unbroken(page))
-
-
-def with_figures(
-    model: Model, values: Values, *, source: Path, style: Path | None = None, further: Further = ()
-) -> Model:
-    """The model with the number of each chart in its report, for other documents."""
-    report = model.input.report
-    folder = overrides.find(report.templates, source.parent)
-    look = find_style(report, source.parent, style)
-    env = environment(folder, media="print", style=_with_tags(look, model))
-    draft = Draft(by_chapter=look.numbering == "chapter")
-    with overrides.told(folder):
-        chapter = Chapter(Terms(model, values), Writer(env, draft), env)
-        _write(chapter, chosen(model.input), further)
-    numbers = {name: draft.label("figure", key).number for name, key in chapter.figures.items()}
-    charts = (replace(chart, number=numbers.get(chart.id, "")) for chart in model.charts)
-    return replace(model, charts=tuple(charts))
 
 
 def _run_on(chapter: Chapter, style: Style) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from functools import cache, partial
+from functools import cache, cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +17,7 @@ from reports.shared.files import make_dir, write_bytes
 from reports.shared.progress import Progress
 
 if TYPE_CHECKING:
+    from reports.document.report import Report
     from reports.spec.blocks import Model
     from reports.spec.evaluation import Values
 
@@ -113,8 +114,9 @@ def build(
     with Progress("Расчёт") as progress:
         values = evaluate_model(model)
         checks = failed_checks(model, values)
-        making = _Making(path, folder, model, values, style, further, progress)
         wants_html = "html" in kinds
+        has_report = wants_html or bool({"pdf", "docx"} & set(kinds))
+        making = _Making(path, folder, model, values, style, further, progress, has_report)
         book = making.workbook(beside="pdf" in kinds) if {"xlsx", "pdf"} & set(kinds) else bytes
         if "pdf" in kinds:
             try:
@@ -161,6 +163,7 @@ class _Making:
     style: Path | None
     further: Further
     progress: Progress
+    has_report: bool
     files: list[Path] = field(default_factory=list)
 
     def written(self, ending: str, data: bytes, *, first: bool = False) -> None:
@@ -171,25 +174,21 @@ class _Making:
 
     def workbook(self, *, beside: bool) -> Callable[[], bytes]:
         """What gives the workbook; a report takes longer, so both are made at the same time."""
-        from reports.document.report import with_figures
-
         self.progress.step("Книга Excel")
         # Before the process is split: what this reads and compiles serves the report too.
-        model = with_figures(self.model, self.values, **self._how())
+        model = self.report.numbered if self.has_report else self.model
         make = partial(_workbook, model, self.values)
         return cache(aside(make) if beside else make)
 
     def pdf(self, book: Callable[[], bytes]) -> None:
-        from reports.document.report import report_pdf
-
         self.progress.step("Отчёт PDF")
-        self.written(".pdf", report_pdf(self.model, self.values, workbook=book, **self._how()))
+        self.written(".pdf", self.report.pdf(self.path, book))
 
     def docx(self) -> None:
         from reports.word.write import report_docx
 
         self.progress.step("Записка Word")
-        self.written(".docx", report_docx(self.model, self.values, **self._how()))
+        self.written(".docx", report_docx(self.report))
 
     def sheet(self) -> None:
         from reports.sheet.write import sheet_files
@@ -199,13 +198,15 @@ class _Making:
             self.written(ending, data)
 
     def html(self) -> None:
-        from reports.document.report import report_html
-
         self.progress.step("Отчёт HTML")
-        self.written(".html", report_html(self.model, self.values, **self._how()).encode())
+        self.written(".html", self.report.page("screen").encode())
 
-    def _how(self) -> dict[str, Any]:
-        return {"source": self.path, "style": self.style, "further": self.further}
+    @cached_property
+    def report(self) -> Report:
+        """The report that all documents and the numbers of the charts come from."""
+        from reports.document.report import Report
+
+        return Report.of(self.model, self.values, self.path, self.style, self.further)
 
 
 def _workbook(model: Model, values: Values) -> bytes:

@@ -26,7 +26,7 @@ from reports.inputs.sections.input_file import (
 )
 from reports.inputs.sections.masses import MassesSection
 from reports.inputs.sections.reference import ReferenceSection
-from reports.inputs.sections.report import Report
+from reports.inputs.sections.report import ReportSection
 from reports.inputs.sections.sheet import SheetSection
 from reports.inputs.sections.torsion import TorsionSection
 
@@ -73,7 +73,7 @@ _ALL = (
     Section(
         "report",
         "Сведения о работе",
-        Report,
+        ReportSection,
         optional=True,
         lists={
             "chapters": ListKey("Главы отчёта", "report_chapter_{n}"),

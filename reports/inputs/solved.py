@@ -7,7 +7,7 @@ from functools import lru_cache
 from kshm.mechanics.oil_orbit import FilmError
 from kshm.results.solution import Solution, solve
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.sections.report import Report
+from reports.inputs.sections.report import ReportSection
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.errors import InputError, Problem
 
@@ -25,7 +25,7 @@ def solved(model: InputFile, source: str = "") -> Solution:
         raise InputError(Problem(where, film_lost(error), MEND)) from None
 
 
-_PRINTED = {"report": Report(), "sheet": None}  # sections that change no number
+_PRINTED = {"report": ReportSection(), "sheet": None}  # sections that change no number
 
 
 @lru_cache(maxsize=16)  # the doors, the sheets and the report ask for the same and for finer steps

@@ -9,14 +9,10 @@ from __future__ import annotations
 import io
 import zipfile
 from datetime import datetime
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from reports.document.page import overrides
 from reports.document.page.style import Style
-from reports.document.report import Further, find_style, report_page
-from reports.spec.blocks import Model
-from reports.spec.evaluation import Values
+from reports.document.report import Report
 from reports.word import sheets, totals
 from reports.word.blocks import Blocks
 from reports.word.inline import Lines
@@ -28,32 +24,10 @@ if TYPE_CHECKING:
     from lxml.html import HtmlElement
 
 
-def report_docx(
-    model: Model,
-    values: Values,
-    *,
-    source: Path,
-    style: Path | None = None,
-    further: Further = (),
-) -> bytes:
-    """The report as a Word file; the same input gives the same bytes.
-
-    Args:
-        model: specifications of the engine.
-        values: their values.
-        source: the input file; own templates and a style file are looked for beside it.
-        style: a style file instead of the one that the input names.
-        further: chapters from rooms above.
-
-    Raises:
-        InputError: the folder of own templates is missing or one of them is wrong.
-    """
-    folder = overrides.find(model.input.report.templates, source.parent)
-    look = find_style(model.input.report, source.parent, style)
+def report_docx(report: Report) -> bytes:
+    """The report as a Word file; the same input gives the same bytes."""
     # Every cell a cell: the lines of numbers that are fast on paper are no table in Word.
-    look = look.model_copy(update={"tagged_tables": True})
-    page = report_page(model, values, media="print", templates=folder, style=look, further=further)
-    return from_page(page, look)
+    return from_page(report.page("print", tagged=True), report.style)
 
 
 def from_page(page: str, style: Style) -> bytes:

@@ -11,7 +11,7 @@ import pytest
 from kshm import solve
 from kshm.mechanics import fatigue, oil_film
 from kshm.mechanics.oil_balance import BearingArrays
-from reports.document.report import report_page
+from reports.document.report import Report
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.to_si.engine import engine_and_cycle
@@ -109,7 +109,7 @@ def page(**bearings: Any) -> str:
     data = tractor(30, **bearings)
     report = data.report.model_copy(update={"chapters": ("oil",)})
     model = build_model(data.model_copy(update={"report": report}))
-    text = report_page(model, evaluate_model(model), media="screen").replace("\u00a0", " ")
+    text = Report(model, evaluate_model(model)).page("screen").replace("\u00a0", " ")
     text = re.sub(r"<(svg|style|script).*?</\1>", "", text, flags=re.S)
     return re.sub(r"\s+", " ", re.sub(r"<[^>]+>", "", text))
 

@@ -14,7 +14,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.mathtext import MathTextParser
 
 from reports.document.page import render as pages
-from reports.document.report import report_page
+from reports.document.report import Report
 from reports.document.text.mathtext import read
 from reports.document.text.texwords import for_mathtext
 from reports.shared.resources import samples_dir
@@ -56,7 +56,7 @@ def figures() -> Iterator[Figure]:
 def _collecting() -> Figure:
     """What it gains to collect no garbage during the layout."""
     source = terms("gots-diesel")
-    html = report_page(source.model, source.values, media="print")
+    html = Report(source.model, source.values).page("print")
 
     def as_usual() -> None:
         with mock.patch.object(pages, "uncollected", nullcontext):
@@ -91,7 +91,7 @@ def _reading() -> Figure:
 def _setting() -> Figure:
     """What it gains to do once what WeasyPrint does again and again."""
     source = terms("gots-diesel")
-    html = report_page(source.model, source.values, media="print")
+    html = Report(source.model, source.values).page("print")
 
     def usual() -> None:
         with mock.patch.object(pages.quick, "setting", lambda html: nullcontext()):

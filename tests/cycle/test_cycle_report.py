@@ -21,7 +21,7 @@ def text_of(name: str) -> str:
     with mock.patch.object(
         report_module, "CHAPTERS", {"cycle": cycle.cycle, "sources": closing.sources}
     ):
-        page = report_module.report_html(model, evaluate_model(model), source=Path("t.toml"))
+        page = report_module.Report.of(model, evaluate_model(model), Path("t.toml")).page("screen")
     page = re.sub(r"<svg.*?</svg>", " ", page, flags=re.DOTALL)
     page = re.sub(r"<style.*?</style>", " ", page, flags=re.DOTALL)
     return re.sub(r"\s+", " ", re.sub(r"<[^>]+>", "", page))

@@ -9,7 +9,7 @@ from unittest import mock
 import numpy as np
 
 from reports.document.chapters import chapter as chapters
-from reports.document.report import report_page
+from reports.document.report import Report
 from reports.document.text.terms import Terms
 from reports.inputs.sections.input_file import InputFile
 from reports.spec.charts import ChartSpec
@@ -52,7 +52,7 @@ def bare_page(model: InputFile, drawn: Drawn | None = None) -> str:
         mock.patch.object(chapters, "chart_figure", chart),
         mock.patch.object(chapters, "panels_figure", panels),
     ):
-        page = report_page(made, evaluate_model(made), media="screen")
+        page = Report(made, evaluate_model(made)).page("screen")
     return page[page.index("<body") :]
 
 

@@ -6,8 +6,8 @@ import re
 from functools import lru_cache
 from pathlib import Path
 
-from reports.document import report
 from reports.document.page.render import render
+from reports.document.report import Report
 from reports.document.text.terms import Terms
 from reports.inputs.load import load_text
 from reports.shared.resources import samples_dir
@@ -100,7 +100,7 @@ def terms(name: str) -> Terms:
 def print_page(name: str) -> str:
     """The page for the printer."""
     source = terms(name)
-    return report.report_page(source.model, source.values, media="print")
+    return Report(source.model, source.values).page("print")
 
 
 @kept
@@ -116,14 +116,14 @@ def shipped_pdf(name: str) -> bytes:
     """The finished PDF of a sample as it is shipped, with its files."""
     model = build_model(sample(name))
     source = samples_dir() / f"{name}.toml"
-    return report.report_pdf(model, evaluate_model(model), source=source, workbook=book(name))
+    return Report.of(model, evaluate_model(model), source).pdf(source, book(name))
 
 
 @lru_cache(maxsize=16)
 def html_page(name: str) -> str:
     """The page for the screen."""
     source = terms(name)
-    return report.report_html(source.model, source.values, source=Path("t.toml"))
+    return Report.of(source.model, source.values, Path("t.toml")).page("screen")
 
 
 def pdf_with_files(name: str, folder: Path) -> bytes:
@@ -131,4 +131,4 @@ def pdf_with_files(name: str, folder: Path) -> bytes:
     path = folder / f"{name}.toml"
     path.write_text(text_of(name), encoding="utf-8")
     source = terms(name)
-    return report.report_pdf(source.model, source.values, source=path, workbook=b"PK-book")
+    return Report.of(source.model, source.values, path).pdf(path, b"PK-book")

@@ -15,7 +15,7 @@ from reports.document.figures.curves import Curve, Panel, curves_figure
 from reports.document.figures.polar import polar_path
 from reports.document.figures.wear import wear_diagram
 from reports.document.page.redrawing import smaller
-from reports.document.report import report_page
+from reports.document.report import Report
 from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from tests.conftest import sample
@@ -47,7 +47,7 @@ def height(svg: str) -> float:
 @pytest.mark.parametrize("name", ["gots-diesel", "d-240-bearings", "ecoboost-10"])
 def test_no_type_of_a_printed_figure_is_small(name: str) -> None:
     model = build_model(sample(name))
-    page = report_page(model, evaluate_model(model), media="print")
+    page = Report(model, evaluate_model(model)).page("print")
     found = {
         alt[:60]: min(sizes(base64.b64decode(data).decode(), float(width)), default=LEAST_PT)
         for width, alt, data in IMAGE.findall(page)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from reports.document.report import report_html
+from reports.document.report import Report
 from tests.browser import measure, photograph, print_out
 from tests.document.pdftools import pages_of
 from tests.document.report_samples import html_page, terms_of, text_of
@@ -45,6 +45,6 @@ def test_what_the_browser_prints_reads_as_the_report_does(tmp_path):
 def test_the_frame_takes_no_page_numbers_from_the_browser():
     """The sheets of a browser have no frame, hence no number in it: the usual one stays."""
     source = terms_of(text_of("one").replace("[report]\n", '[report]\nframe = "eskd"\n', 1))
-    page = report_html(source.model, source.values, source=Path("t.toml"))
+    page = Report.of(source.model, source.values, Path("t.toml")).page("screen")
     assert "counter(page)" in page
     assert "form2" not in page

@@ -11,7 +11,7 @@ from tests.document.report_samples import html_page, terms
 
 def test_the_workbook_s_charts_have_the_numbers_of_the_report_s_figures():
     made = terms("one")
-    charts = report.with_figures(made.model, made.values, source=Path("t.toml")).charts
+    charts = report.Report.of(made.model, made.values, Path("t.toml")).numbered.charts
     page = re.sub(r"<[^>]+>|&nbsp;", " ", html_page("one"))
     found = {n: c.strip() for n, c in re.findall(r"Рисунок\s+([\d.]+)\s+—\s+([^\n]{10,80})", page)}
     numbered = [chart for chart in charts if chart.number]

@@ -13,7 +13,7 @@ import pytest
 
 from reports.document.page import writer
 from reports.document.page.render import render
-from reports.document.report import report_page
+from reports.document.report import Report
 from reports.document.text.terms import Terms
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
@@ -94,7 +94,7 @@ def written(data: bytes, folder: Path) -> Path:
 
 
 def looked_at(terms: Terms) -> tuple[str, bytes]:
-    page = report_page(terms.model, terms.values, media="print")
+    page = Report(terms.model, terms.values).page("print")
     result = render(page)
     assert result.warnings == ()
     return page, result.pdf
@@ -107,7 +107,7 @@ def made(name: str, detail: str) -> tuple[str, bytes]:
     if detail == "shipped":  # of the page its tables are read, which hold no figure
         model = build_model(sample(name))
         with mock.patch.object(writer, "drawn", lambda plan: BOX):
-            page = report_page(model, evaluate_model(model), media="print")
+            page = Report(model, evaluate_model(model)).page("print")
         return page, shipped_pdf(name)
     return looked_at(terms_of(with_detail(text_of(name), detail)))
 

@@ -5,7 +5,7 @@ Formulas and figures are left out here: what they look like is tested elsewhere.
 
 import pytest
 
-from reports.document.report import report_page
+from reports.document.report import Report
 from reports.document.text.terms import Terms
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
@@ -26,7 +26,7 @@ def of_layout(change) -> Terms:
 
 
 def page(made: Terms) -> str:
-    return report_page(made.model, made.values, media="screen")
+    return Report(made.model, made.values).page("screen")
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import pytest
 
 from reports.document.chapters.front import title_block
 from reports.document.page.render import render
-from reports.document.report import report_html, report_page, report_pdf
+from reports.document.report import Report
 from reports.shared.errors import InputError
 from tests.document.pdftools import pages_of, poppler
 from tests.document.report_samples import ONE, pdf, terms, terms_of
@@ -37,7 +37,7 @@ FEW = 'chapters = ["kinematics", "dynamics", "torque", "appendices"]\n'
 def framed(tmp_path_factory):
     text = ONE.replace("step_deg = 30", "step_deg = 10").replace('detail = "full"\n', "")
     t = terms_of(text.replace("[report]\n", DATA + FEW))
-    result = render(report_page(t.model, t.values, media="print"))
+    result = render(Report(t.model, t.values).page("print"))
     assert result.warnings == ()
     folder = tmp_path_factory.mktemp("framed")
     return result, pages_of(result.pdf, folder), folder
@@ -112,7 +112,7 @@ def own(folder: Path, name: str, text: str) -> str:
 
 def html_of(text: str, folder: Path) -> str:
     t = terms_of(text)
-    return report_html(t.model, t.values, source=folder / "in.toml")
+    return Report.of(t.model, t.values, folder / "in.toml").page("screen")
 
 
 @pytest.mark.usefixtures("few_chapters")
@@ -180,7 +180,7 @@ def test_wrong_css_names_the_folder(tmp_path):
     t = terms_of(source)
     (tmp_path / "in.toml").write_text(source, encoding="utf-8")
     with pytest.raises(InputError, match=r"own: .*colour"):
-        report_pdf(t.model, t.values, source=tmp_path / "in.toml", workbook=b"")
+        Report.of(t.model, t.values, tmp_path / "in.toml").pdf(tmp_path / "in.toml", b"")
 
 
 def test_page_boxes_are_a4(framed):
@@ -191,7 +191,7 @@ def test_page_boxes_are_a4(framed):
 
 def test_numbers_of_the_abstract_are_those_of_the_engine():
     t = terms("one")
-    page = report_html(t.model, t.values, source=Path("in.toml"))
+    page = Report.of(t.model, t.values, Path("in.toml")).page("screen")
     brief = page[page.index("Реферат") : page.index(">Содержание<")]
     assert t.num("M_mean") in brief and t.num("Rpin_max_kN") in brief
 
@@ -233,12 +233,12 @@ def test_hostile_report_data_reads_nothing_and_asks_nobody(listener, tmp_path):
     source = tmp_path / "in.toml"
     source.write_text(ONE.replace("[report]\n", data), encoding="utf-8")
     t = terms_of(source.read_text(encoding="utf-8"))
-    pdf = report_pdf(t.model, t.values, source=source, workbook=b"PK")
+    pdf = Report.of(t.model, t.values, source).pdf(source, b"PK")
     assert hits == []
     assert b"SECRET-MARKER" not in unpacked(pdf)
     pages = pages_of(pdf, tmp_path)
     assert "{{ 7*7 }}" in pages[0] and "<img" in pages[0]
-    html = report_html(t.model, t.values, source=source)
+    html = Report.of(t.model, t.values, source).page("screen")
     assert "<img" not in html and "<link" not in html
 
 
@@ -268,7 +268,7 @@ def test_a_name_that_would_be_tiny_leaves_the_surname():
 def test_an_engine_without_a_name_is_not_called_engine_in_quotes(name, said):
     text = ONE.replace('name = "Одноцилиндровый"', f'name = "{name}"' if name else "")
     t = terms_of(text.replace('detail = "full"', 'detail = "short"'))
-    page = report_page(t.model, t.values, media="screen").replace("\xa0", " ")
+    page = Report(t.model, t.values).page("screen").replace("\xa0", " ")
     assert f"кривошипно-шатунный механизм двигателя{said}." in page
     assert f"расчёты двигателя{said} на установившемся режиме" in page
     assert (f"3. Исходные данные: двигатель{said};" in page) == bool(said)

@@ -6,7 +6,7 @@ import pytest
 
 from reports.document.page.render import render
 from reports.document.page.style import Style, read
-from reports.document.report import CHAPTERS, chosen, find_style, report_page
+from reports.document.report import CHAPTERS, Report, chosen, find_style
 from reports.inputs.load import load_text
 from reports.inputs.sections import report as sections
 from reports.shared.errors import InputError
@@ -34,7 +34,7 @@ abstract = false
 
 def page_of(text: str, style: Style | None = None) -> str:
     t = terms_of(text)
-    return report_page(t.model, t.values, media="print", style=style or Style())
+    return Report(t.model, t.values, style=style or Style()).page("print")
 
 
 def titles(page: str) -> list[str]:
@@ -122,6 +122,6 @@ def test_a_bad_style_file_is_told_in_one_line(tmp_path, text, words):
 
 def test_a_missing_style_file_is_told(tmp_path):
     for name, said in (("none.toml", r"none\.toml: файл не найден; "), (".", "это папка")):
-        report = sections.Report(style=name, year=2024)
+        report = sections.ReportSection(style=name, year=2024)
         with pytest.raises(InputError, match=said):
             find_style(report, tmp_path)

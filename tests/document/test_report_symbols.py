@@ -10,7 +10,7 @@ from collections import defaultdict
 import pytest
 
 from reports.document import chapters
-from reports.document.report import report_page
+from reports.document.report import Report
 from reports.document.text.terms import Terms
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
@@ -78,7 +78,7 @@ def page_of(name: str) -> str:
     raw["report"]["detail"] = "full"
     raw["calculation"]["step_deg"] = 30  # the same words in shorter tables
     model = build_model(load_mapping(raw, source=name).model)
-    return report_page(model, evaluate_model(model), media="screen")
+    return Report(model, evaluate_model(model)).page("screen")
 
 
 def bare(symbol: str) -> str:

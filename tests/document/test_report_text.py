@@ -8,7 +8,7 @@ import pytest
 
 from reports.document.chapters.dynamics import _pressure_at, _pressure_tex
 from reports.document.page.render import render
-from reports.document.report import report_html, report_page
+from reports.document.report import Report
 from reports.document.text.mathsvg import formula, formula_lines
 from reports.document.text.terms import book_place, plain_number, unit_tex
 from reports.document.text.texcases import parts
@@ -39,7 +39,7 @@ def hostile():
 
 @pytest.mark.usefixtures("few_chapters")
 def test_foreign_text_is_set_as_plain_text(hostile, tmp_path):
-    page = report_page(hostile.model, hostile.values, media="print")
+    page = Report(hostile.model, hostile.values).page("print")
     assert "<script" not in page and "<img" not in page
     result = render(page)
     assert result.warnings == ()
@@ -50,7 +50,7 @@ def test_foreign_text_is_set_as_plain_text(hostile, tmp_path):
 
 
 def test_html_is_one_self_contained_page(hostile):
-    page = report_html(hostile.model, hostile.values, source=Path("t.toml"))
+    page = Report.of(hostile.model, hostile.values, Path("t.toml")).page("screen")
     assert "<script" not in page and "<img" not in page and "<link" not in page
     addresses = re.findall(r'(?:src|href)="([^"]*)"', page) + re.findall(r"url\(([^)]*)\)", page)
     assert addresses and all(a.strip("'\"").startswith(("#", "data:")) for a in addresses)
@@ -63,7 +63,7 @@ def test_the_same_input_gives_the_same_page():
     first = html_page("one")
     formula.cache_clear()
     formula_lines.cache_clear()
-    assert report_html(t.model, t.values, source=Path("t.toml")) == first
+    assert Report.of(t.model, t.values, Path("t.toml")).page("screen") == first
 
 
 def test_substitution_shows_numbers_and_result():

@@ -18,7 +18,7 @@ TRY = """
 import io, json, sys
 import numpy as np
 import openpyxl
-from reports.document.report import report_page
+from reports.document.report import Report
 from reports.exports.numbers import export_tables
 from reports.inputs.load import load_toml
 from reports.inputs.solved import solved
@@ -37,7 +37,7 @@ print(json.dumps({
     "apart": float(np.abs(stated[0] - stated[1]).max()),
     "greatest": [values.scalars["Ek_max"], solution.scalars["Ek_max"], float(stated[0].max())],
     "exported": "kinetic" in export_tables(solution),
-    "page": report_page(model, values, media="screen"),
+    "page": Report(model, values).page("screen"),
 }))
 """
 

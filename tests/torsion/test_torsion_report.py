@@ -10,7 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 from reports.cli import main
-from reports.document.report import report_page
+from reports.document.report import Report
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.shared.resources import samples_dir
@@ -26,7 +26,7 @@ def whole(name: str, *pairs: tuple[str, float | str]) -> str:
     raw["calculation"]["step_deg"] = 15
     raw["report"]["chapters"] = ["torsion"]
     model = build_model(load_mapping(raw, source=name).model)
-    return report_page(model, evaluate_model(model), media="screen").replace("\u00a0", " ")
+    return Report(model, evaluate_model(model)).page("screen").replace("\u00a0", " ")
 
 
 def page(name: str, *pairs: tuple[str, float | str]) -> str:

@@ -14,7 +14,7 @@ from lxml import etree
 
 from reports.document.page import writer
 from reports.document.page.style import Style
-from reports.document.report import report_page
+from reports.document.report import Report
 from reports.inputs.load import load_text
 from reports.shared.resources import samples_dir
 from reports.spec.evaluation import evaluate_model
@@ -64,7 +64,7 @@ def _page(name: str, **style: object) -> str:
     with ExitStack() as stack:
         if not (ALL or name == NAME):
             stack.enter_context(mock.patch.object(writer, "drawn", lambda plan: BOX))
-        return report_page(*model_of(name), media="print", style=look)
+        return Report(*model_of(name), style=look).page("print")
 
 
 @kept

@@ -21,7 +21,7 @@ from reports.inputs.sections.cycle import CycleSection
 from reports.inputs.sections.gas import GasSection
 from reports.inputs.sections.masses import MassesSection
 from reports.inputs.sections.reference import ReferenceSection
-from reports.inputs.sections.report import Report
+from reports.inputs.sections.report import ReportSection
 from reports.inputs.sections.sheet import SheetSection
 from reports.inputs.sections.torsion import TorsionSection
 from reports.inputs.units import KW, MM, NONE, RPM
@@ -133,7 +133,7 @@ class RegimeSection(RegimeValues):
 class InputFile(Strictly):
     """The whole input file in user units."""
 
-    report: Report = Field(default_factory=Report)
+    report: ReportSection = Field(default_factory=ReportSection)
     engine: EngineSection
     calculation: Calculation = Field(default_factory=Calculation)
     geometry: GeometrySection | DesignGeometrySection

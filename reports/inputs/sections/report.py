@@ -57,7 +57,7 @@ def _this_year() -> int:
     return datetime.now(tz=UTC).year
 
 
-class Report(Strictly):
+class ReportSection(Strictly):
     """[report]: title page, assignment sheet, title block, manner of setting."""
 
     student: str = text("Студент", "")

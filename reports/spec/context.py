@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from pydantic import BaseModel
@@ -41,6 +41,7 @@ def names_of(scope: Scope, **further: object) -> Mapping[str, object]:
         "turn": scope.turn,
         "cycle": scope.cycle,
         **{name: getattr(shape, name) for name in _SHAPE},
+        "each": each,
         "cylinder_table": shape.cylinder_table_id,
         "ray_key": ray_key,
         "roman": roman,
@@ -48,6 +49,11 @@ def names_of(scope: Scope, **further: object) -> Mapping[str, object]:
         "tie": TIE,
         **further,
     }
+
+
+def each(text: str, numbers: Iterable[int], between: str = ", ") -> str:
+    """The text for every number, which stands in it as ``@``: arguments, or terms of a sum."""
+    return between.join(text.replace("@", str(number)) for number in numbers)
 
 
 _SHAPE = ("pin_table", "rays_table", "pin_figure", "pin_name", "rods_table")

@@ -51,6 +51,7 @@ CHAIN: tuple[PartOf, ...] = (
 )  # fmt: skip
 AFTER: tuple[PartOf, ...] = (
     book("balance"), book("balance_orders"), book("firing"), inertia, torque_orders,
+,
     segal, neiman, reference, book("bearings"), book("continuous"),
     two_term, train, free, resonance,
     film, orbit, safety,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -52,9 +53,20 @@ def _surfaces(scope: Scope) -> dict[str, Any]:
     return {"surfaces": [*pins, *mains]}
 
 
+_CANCELLED = 1e-6  # of a vector sum of unit vectors
+
+
+def _torque_orders(scope: Scope) -> dict[str, Any]:
+    """Whether the second orders of the cylinders' torques do not cancel each other."""
+    turns = [math.radians(2 * offset) for offset in scope.input.crankshaft.firing_offsets_deg]
+    together = math.hypot(sum(map(math.cos, turns)), sum(map(math.sin, turns)))
+    return {"second_order": together > _CANCELLED}
+
+
 # Names that one book has besides the common ones.
 _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
     "bearings": lambda _: {"planes": PLANES},
+    "torque_orders": _torque_orders,
     "wear": _surfaces,
 }
 

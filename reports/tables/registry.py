@@ -11,8 +11,6 @@ from reports.inputs.to_si.engine import smallness_of
 from reports.spec.blocks import Model
 from reports.spec.parts import Part, PartOf, Scope, joined
 from reports.spec.rename import sized, substituted
-from reports.tables.balance.inertia import inertia
-from reports.tables.balance.torque_orders import torque_orders
 from reports.tables.contexts import book
 from reports.tables.gas.cycle import processes
 from reports.tables.gas.cycle_names import cycle_stand_ins
@@ -50,8 +48,7 @@ CHAIN: tuple[PartOf, ...] = (
     book("wear"), summary,
 )  # fmt: skip
 AFTER: tuple[PartOf, ...] = (
-    book("balance"), book("balance_orders"), book("firing"), inertia, torque_orders,
-,
+    book("balance"), book("balance_orders"), book("firing"), book("inertia"), book("torque_orders"),
     segal, neiman, reference, book("bearings"), book("continuous"),
     two_term, train, free, resonance,
     film, orbit, safety,

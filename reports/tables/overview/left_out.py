@@ -6,15 +6,13 @@ from reports.inputs.sections.input_file import GeometrySection, InputFile
 from reports.spec.blocks import Block
 from reports.spec.parts import PartOf, Scope, joined
 from reports.spec.shape import Shape
-from reports.tables.balance.inertia import inertia
-from reports.tables.balance.torque_orders import torque_orders
 from reports.tables.contexts import book
 from reports.tables.motion.neiman import neiman
 from reports.tables.motion.segal import segal
 
 _BY_ORDERS: tuple[PartOf, ...] = (
-    segal, neiman, book("balance"), book("balance_orders"), book("firing"), inertia,
-    torque_orders,
+    segal, neiman, book("balance"), book("balance_orders"), book("firing"), book("inertia"),
+    book("torque_orders"),
 )  # fmt: skip
 
 

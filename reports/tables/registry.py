@@ -32,7 +32,6 @@ from reports.tables.oil.film import film
 from reports.tables.oil.orbit import orbit
 from reports.tables.oil.safety import safety
 from reports.tables.overview.left_out import left_out_note
-from reports.tables.overview.scheme import scheme
 from reports.tables.overview.summary import summary
 from reports.tables.overview.verdicts import accepted_checks
 from reports.tables.torsion.free import free
@@ -40,7 +39,7 @@ from reports.tables.torsion.resonance import resonance
 from reports.tables.torsion.train import train
 
 # Files of tables in the order of their sheets.
-BEFORE: tuple[PartOf, ...] = (scheme, processes, results, speed)
+BEFORE: tuple[PartOf, ...] = (book("scheme"), processes, results, speed)
 # Chapters 1 and 2: all that speed and gas decide, and more; every regime has them.
 CHAIN: tuple[PartOf, ...] = (
     dimensions, masses, kinematics, offset, articulated, indicator, cylinders, book("torques"),

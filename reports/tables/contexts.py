@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from kshm.engine.usual import SMALL_END_SHARE
 from kshm.mechanics.pin_bearing import PLANES
 from reports.spec.books import read_book
 from reports.spec.context import names_of
@@ -29,6 +30,7 @@ class Surface:
     against: str
     is_pin: bool
     chart: str
+    journal: tuple[str, int]  # how the input names its sizes
 
 
 def _surfaces(scope: Scope) -> dict[str, Any]:
@@ -40,6 +42,7 @@ def _surfaces(scope: Scope) -> dict[str, Any]:
             "Износ ш.ш" if n == 1 else f"Износ ш.ш ({n})", f"pin{pin_name(n)}",
             f" {n}" if several else "", f"{pin_table(n)}.Rpin_MPa", f"-{pin_table(n)}.Krod_MPa",
             f"-{pin_table(n)}.T_MPa", True, pin_figure("fig52", n),
+            ("pin", shape.throw_of(shape.pins[n - 1][0])),
         )
         for n in shape.pin_numbers
     ]  # fmt: skip
@@ -47,6 +50,7 @@ def _surfaces(scope: Scope) -> dict[str, Any]:
         Surface(
             f"table_14_main_{k}", f"14.{k}", f"Износ к.ш ({k})", f"main{k}", f" {k}",
             f"P4_3_{k}.R_MPa", f"P4_3_{k}.Ry_MPa", f"P4_3_{k}.Rx_MPa", False, f"fig54_{k}",
+            ("main", k),
         )
         for k in shape.journal_numbers
     ]  # fmt: skip
@@ -63,9 +67,14 @@ def _torque_orders(scope: Scope) -> dict[str, Any]:
     return {"second_order": together > _CANCELLED}
 
 
+def _summary(scope: Scope) -> dict[str, Any]:
+    return {"small_end_share": SMALL_END_SHARE, **_surfaces(scope)}
+
+
 # Names that one book has besides the common ones.
 _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
     "bearings": lambda _: {"planes": PLANES},
+    "summary": _summary,
     "torque_orders": _torque_orders,
     "wear": _surfaces,
 }

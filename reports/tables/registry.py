@@ -32,7 +32,6 @@ from reports.tables.oil.film import film
 from reports.tables.oil.orbit import orbit
 from reports.tables.oil.safety import safety
 from reports.tables.overview.left_out import left_out_note
-from reports.tables.overview.summary import summary
 from reports.tables.overview.verdicts import accepted_checks
 from reports.tables.torsion.free import free
 from reports.tables.torsion.resonance import resonance
@@ -44,7 +43,7 @@ BEFORE: tuple[PartOf, ...] = (book("scheme"), processes, results, speed)
 CHAIN: tuple[PartOf, ...] = (
     dimensions, masses, kinematics, offset, articulated, indicator, cylinders, book("torques"),
     book("crankpins"), book("throws"), book("journals"),
-    book("wear"), summary,
+    book("wear"), book("summary"),
 )  # fmt: skip
 AFTER: tuple[PartOf, ...] = (
     book("balance"), book("balance_orders"), book("firing"), book("inertia"), book("torque_orders"),

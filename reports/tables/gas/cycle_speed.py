@@ -205,18 +205,6 @@ def _ranges(section: CycleSection) -> ScalarTable:
     )
 
 
-def cycle_checks() -> list[tuple[str, str, str, str]]:
-    """Checks of the cycle: key, title, value, test."""
-    return [
-        ("cycle_rho", "Давление p_z не выше предела сгорания при V = const: ρ",
-         "cyc_rho", "{value} >= 1"),
-        ("cycle_pz", "Давление p_z выше давления конца сжатия: λp", "cyc_lambda_p",
-         "{value} > 1"),
-        ("cycle_Tr", "Температура T_r сходится с проверкой: расхождение, %",
-         "(cyc_T_r_check/cycle_residual_temperature_k - 1)*100", "abs({value}) <= 5"),
-    ]  # fmt: skip
-
-
 def _charts() -> tuple[ChartSpec, ...]:
     names = (
         ("Ne", "Эффективная мощность", "мощность", "Nе, кВт"),

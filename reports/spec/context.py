@@ -51,9 +51,9 @@ def names_of(scope: Scope, **further: object) -> Mapping[str, object]:
     }
 
 
-def each(text: str, numbers: Iterable[int], between: str = ", ") -> str:
-    """The text for every number, which stands in it as ``@``: arguments, or terms of a sum."""
-    return between.join(text.replace("@", str(number)) for number in numbers)
+def each(text: str, members: Iterable[object], between: str = ", ") -> str:
+    """The text for every number or name, which is ``@`` in it: arguments, or terms of a sum."""
+    return between.join(text.replace("@", str(member)) for member in members)
 
 
 _SHAPE = ("pin_table", "rays_table", "pin_figure", "pin_name", "rods_table")

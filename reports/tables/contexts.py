@@ -8,12 +8,19 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from kshm.cycle.fuel import FUELS
+from kshm.cycle.heat import SPECIES, TEMPERATURE_PASSES
+from kshm.cycle.processes import N1_PASSES, N1_START, N2_PASSES, N2_START
+from kshm.cycle.speed_characteristic import IDLE_SHARE, LEIDERMAN
 from kshm.engine.usual import SMALL_END_SHARE
 from kshm.mechanics.pin_bearing import PLANES
+from reports.inputs.sections.cycle import PUMPING, ROUNDINGS
 from reports.spec.books import read_book
 from reports.spec.context import names_of
 from reports.spec.parts import Part, PartOf, Scope
 from reports.spec.shape import pin_figure, pin_name, pin_table, rays_table
+from reports.tables.gas.cycle_names import section_of, sizes_are_found
+from reports.tables.gas.cycle_ranges import ranges_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +74,24 @@ def _torque_orders(scope: Scope) -> dict[str, Any]:
     return {"second_order": together > _CANCELLED}
 
 
+def _cycle(scope: Scope) -> dict[str, Any]:
+    """Data of the cycle: its fuel, heat capacities, passes, words, law of speed, usual ranges."""
+    section = section_of(scope.input)
+    if section is None:
+        return {}
+    return {
+        "fuel": FUELS.get(section.fuel),
+        "heats": SPECIES,
+        "passes": {"n1": N1_PASSES, "n2": N2_PASSES, "tz": TEMPERATURE_PASSES},
+        "starts": {"n1": N1_START, "n2": N2_START},
+        "sizes_found": sizes_are_found(scope.input),
+        "words": {"subtract": PUMPING["yes"], "up": ROUNDINGS["up"]},
+        "law": LEIDERMAN[section.speed_law or section.kind],
+        "idle_share": IDLE_SHARE[section.kind],
+        "ranges": tuple(ranges_of(section)),
+    }
+
+
 def _summary(scope: Scope) -> dict[str, Any]:
     return {"small_end_share": SMALL_END_SHARE, **_surfaces(scope)}
 
@@ -74,6 +99,9 @@ def _summary(scope: Scope) -> dict[str, Any]:
 # Names that one book has besides the common ones.
 _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
     "bearings": lambda _: {"planes": PLANES},
+    "cycle": _cycle,
+    "cycle_results": _cycle,
+    "cycle_speed": _cycle,
     "summary": _summary,
     "torque_orders": _torque_orders,
     "wear": _surfaces,

@@ -12,10 +12,7 @@ from reports.spec.blocks import Model
 from reports.spec.parts import Part, PartOf, Scope, joined
 from reports.spec.rename import sized, substituted
 from reports.tables.contexts import book
-from reports.tables.gas.cycle import processes
 from reports.tables.gas.cycle_names import cycle_stand_ins
-from reports.tables.gas.cycle_results import results
-from reports.tables.gas.cycle_speed import speed
 from reports.tables.gas.indicator import indicator
 from reports.tables.loads.comparison import comparison
 from reports.tables.loads.cylinder import cylinders
@@ -38,7 +35,9 @@ from reports.tables.torsion.resonance import resonance
 from reports.tables.torsion.train import train
 
 # Files of tables in the order of their sheets.
-BEFORE: tuple[PartOf, ...] = (book("scheme"), processes, results, speed)
+BEFORE: tuple[PartOf, ...] = (
+    book("scheme"), book("cycle"), book("cycle_results"), book("cycle_speed"),
+)  # fmt: skip
 # Chapters 1 and 2: all that speed and gas decide, and more; every regime has them.
 CHAIN: tuple[PartOf, ...] = (
     dimensions, masses, kinematics, offset, articulated, indicator, cylinders, book("torques"),

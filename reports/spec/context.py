@@ -28,7 +28,7 @@ class InputView:
     known: frozenset[str] = frozenset()
 
     def __getattr__(self, name: str) -> object:
-        """Value of a key; a section is another view, where the file has it, a list of them views."""
+        """Value of a key; a section is another view, where the file has it; a list is views."""
         if name not in type(self.section).model_fields:
             if self.whether and name in self.known:
                 return False

@@ -26,7 +26,6 @@ from reports.tables.loads.regimes import regime_models
 from reports.tables.motion.articulated import articulated
 from reports.tables.motion.neiman import neiman
 from reports.tables.motion.reference import reference
-from reports.tables.motion.rod_masses import masses
 from reports.tables.motion.segal import segal
 from reports.tables.oil.film import film
 from reports.tables.oil.orbit import orbit
@@ -44,7 +43,7 @@ from reports.tables.torsion.train import train
 BEFORE: tuple[PartOf, ...] = (scheme, processes, results, speed)
 # Chapters 1 and 2: all that speed and gas decide, and more; every regime has them.
 CHAIN: tuple[PartOf, ...] = (
-    book("mechanism"), masses, book("kinematics"), articulated, indicator, cylinders,
+    book("mechanism"), book("rod_masses"), book("kinematics"), articulated, indicator, cylinders,
     book("torques"), book("crankpins"), book("throws"), book("journals"),
     book("wear"), summary,
 )  # fmt: skip

@@ -23,7 +23,6 @@ from reports.tables.gas.indicator import indicator
 from reports.tables.loads.comparison import comparison
 from reports.tables.loads.cylinder import cylinders
 from reports.tables.loads.regimes import regime_models
-from reports.tables.motion.articulated import articulated
 from reports.tables.motion.neiman import neiman
 from reports.tables.motion.reference import reference
 from reports.tables.motion.segal import segal
@@ -43,7 +42,8 @@ from reports.tables.torsion.train import train
 BEFORE: tuple[PartOf, ...] = (scheme, processes, results, speed)
 # Chapters 1 and 2: all that speed and gas decide, and more; every regime has them.
 CHAIN: tuple[PartOf, ...] = (
-    book("mechanism"), book("rod_masses"), book("kinematics"), articulated, indicator, cylinders,
+    book("mechanism"), book("rod_masses"), book("kinematics"),
+    book("articulated"), indicator, cylinders,
     book("torques"), book("crankpins"), book("throws"), book("journals"),
     book("wear"), summary,
 )  # fmt: skip

@@ -23,9 +23,7 @@ from reports.tables.gas.indicator import indicator
 from reports.tables.loads.comparison import comparison
 from reports.tables.loads.cylinder import cylinders
 from reports.tables.loads.regimes import regime_models
-from reports.tables.motion.neiman import neiman
 from reports.tables.motion.reference import reference
-from reports.tables.motion.segal import segal
 from reports.tables.oil.film import film
 from reports.tables.oil.orbit import orbit
 from reports.tables.oil.safety import safety
@@ -48,7 +46,7 @@ CHAIN: tuple[PartOf, ...] = (
     book("wear"), summary,
 )  # fmt: skip
 AFTER: tuple[PartOf, ...] = (
-    balance, inertia, torque_orders, segal, neiman, reference, book("bearings"), book("continuous"),
+    balance, inertia, torque_orders, book("piston_motion"), reference, book("bearings"), book("continuous"),
     book("two_term"), train, free, resonance,
     film, orbit, safety,
 )  # fmt: skip

@@ -23,7 +23,6 @@ from reports.tables.gas.indicator import indicator
 from reports.tables.loads.comparison import comparison
 from reports.tables.loads.cylinder import cylinders
 from reports.tables.loads.regimes import regime_models
-from reports.tables.motion.reference import reference
 from reports.tables.oil.film import film
 from reports.tables.oil.orbit import orbit
 from reports.tables.oil.safety import safety
@@ -46,7 +45,8 @@ CHAIN: tuple[PartOf, ...] = (
     book("wear"), summary,
 )  # fmt: skip
 AFTER: tuple[PartOf, ...] = (
-    balance, inertia, torque_orders, book("piston_motion"), reference, book("bearings"), book("continuous"),
+    balance, inertia, torque_orders, book("piston_motion"), book("reference"),
+    book("bearings"), book("continuous"),
     book("two_term"), train, free, resonance,
     film, orbit, safety,
 )  # fmt: skip

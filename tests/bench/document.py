@@ -50,7 +50,6 @@ def figures() -> Iterator[Figure]:
         yield Figure("вёрстка на ячейку таблицы", layout / cells * 1e3, "мс")
         yield _collecting()
         yield _reading()
-        yield _setting()
 
 
 def _collecting() -> Figure:
@@ -86,17 +85,3 @@ def _reading() -> Figure:
     times = interleaved({"ours": ours, "theirs": theirs}, rounds=3)
     gained = ratio(times, "ours", "theirs")
     return Figure("формулы без разбора mathtext / с ним: процессор", gained, "раз")
-
-
-def _setting() -> Figure:
-    """What it gains to do once what WeasyPrint does again and again."""
-    source = terms("gots-diesel")
-    html = Report(source.model, source.values).page("print")
-
-    def usual() -> None:
-        with mock.patch.object(pages.quick, "setting", lambda html: nullcontext()):
-            pages.render(html)
-
-    times = interleaved({"quick": lambda: pages.render(html), "usual": usual}, rounds=2)
-    gained = ratio(times, "quick", "usual")
-    return Figure("вёрстка с quick.py / без него: процессор", gained, "раз")

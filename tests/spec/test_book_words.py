@@ -7,7 +7,8 @@ import pytest
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.spec.blocks import ScalarTable
-from reports.spec.books import BookError, Shelf, read_book
+from reports.spec.book_text import BookError, Shelf
+from reports.spec.books import read_book
 from reports.spec.context import names_of
 from reports.spec.parts import Scope
 from tests.conftest import sample

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from markupsafe import Markup
 
-from reports.document.page import fitting, quick
+from reports.document.page import fitting
 from reports.document.page.finish import finish
 from reports.document.page.style import USUAL, Style
 from reports.document.text import fonts, texts
@@ -108,7 +108,7 @@ def _rendered(
     with _libraries_by_name():
         import weasyprint
 
-    with quick.setting(html), _fonts() as faces:
+    with _fonts() as faces:
         page = weasyprint.HTML(string=html, base_url=None, url_fetcher=_fetcher())
         # The same configuration for parsing and layout, or @font-face is dropped silently.
         document = page.render(font_config=faces, pdf_variant=variant, pdf_tags=True)

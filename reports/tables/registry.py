@@ -46,8 +46,8 @@ CHAIN: tuple[PartOf, ...] = (
 )  # fmt: skip
 AFTER: tuple[PartOf, ...] = (
     balance, inertia, torque_orders, book("piston_motion"), book("reference"),
-    book("bearings"), book("continuous"),
-    book("two_term"), train, free, resonance,
+    book("bearings"), book("continuous"), book("two_term"),
+    train, free, resonance,
     film, orbit, safety,
 )  # fmt: skip
 

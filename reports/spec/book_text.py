@@ -66,7 +66,8 @@ class Shelf:
         kind = jinja2.Environment if self.trusted else ImmutableSandboxedEnvironment
         return kind(
             undefined=jinja2.StrictUndefined, loader=jinja2.FunctionLoader(load),
-            line_statement_prefix="%", trim_blocks=True, lstrip_blocks=True, finalize=_printed,
+            line_statement_prefix="%", trim_blocks=True, lstrip_blocks=True,
+            keep_trailing_newline=True, finalize=_printed,
             bytecode_cache=_compiled(self.folders[0]) if self.trusted else None,
         )  # fmt: skip
 

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 from kshm.mechanics.pin_bearing import PLANES
+from kshm.mechanics.rod_masses import BORES, PISTON, ROD, STROKE_BORE, THROW
+from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, to_estimate
+from reports.inputs.units import MM
 from reports.spec.books import read_book
 from reports.spec.context import names_of
 from reports.spec.parts import Part, PartOf, Scope
 from reports.spec.shape import pin_figure, pin_name, pin_table, rays_table
+from reports.tables.motion.expressions import USUAL_SHARE, is_usual_share
+
+Bounds = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,9 +58,51 @@ def _surfaces(scope: Scope) -> dict[str, Any]:
     return {"surfaces": [*pins, *mains]}
 
 
+@dataclass(frozen=True, slots=True)
+class Table4:
+    """Bounds of table 4, masses of the parts over the piston's area [kg/m²]."""
+
+    piston: Bounds
+    rod: Bounds
+    throw: Bounds
+
+
+def _table_4(scope: Scope) -> dict[str, Any]:
+    """Bounds for the kind of engine, and those between which the estimate is made."""
+    given, cycle = scope.input.masses, scope.input.cycle
+    kind = given.estimate_fuel or (cycle.kind if cycle is not None else None)
+    fuels = ("petrol", "diesel") if kind is None else (kind,)
+    names: dict[str, Any] = {
+        "usual": Table4(
+            _widest(PISTON[material, fuel] for material in ("aluminium", "iron") for fuel in fuels),
+            _widest(ROD[fuel] for fuel in fuels),
+            _widest(THROW[shaft, fuel] for shaft in ("steel", "iron") for fuel in fuels),
+        ),
+        "usual_share": USUAL_SHARE,
+        "is_usual_share": is_usual_share,
+        "rod_share": ROD_SHARE,
+    }
+    estimate = to_estimate(given)
+    if estimate is None:
+        return names
+    fuel, material, shaft = estimate.fuel, estimate.piston_material, estimate.shaft
+    return names | {
+        "estimate": Table4(PISTON[material, fuel], ROD[fuel], THROW[shaft, fuel]),
+        "bores_mm": tuple(map(MM.from_si, BORES[fuel])),
+        "stroke_bore": STROKE_BORE,
+        "pin_share": PIN_SHARE,
+    }
+
+
+def _widest(bounds: Iterable[Bounds]) -> Bounds:
+    lows, highs = zip(*bounds, strict=True)
+    return min(lows), max(highs)
+
+
 # Names that one book has besides the common ones.
 _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
     "bearings": lambda _: {"planes": PLANES},
+    "rod_masses": _table_4,
     "wear": _surfaces,
 }
 

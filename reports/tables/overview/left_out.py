@@ -9,10 +9,11 @@ from reports.spec.shape import Shape
 from reports.tables.balance.balance import balance
 from reports.tables.balance.inertia import inertia
 from reports.tables.balance.torque_orders import torque_orders
-from reports.tables.motion.neiman import neiman
-from reports.tables.motion.segal import segal
+from reports.tables.contexts import book
 
-_BY_ORDERS: tuple[PartOf, ...] = (segal, neiman, balance, inertia, torque_orders)
+_BY_ORDERS: tuple[PartOf, ...] = (
+    book("piston_motion"), balance, inertia, torque_orders,
+)  # fmt: skip
 
 
 def left_out(model: InputFile) -> tuple[Block, ...]:

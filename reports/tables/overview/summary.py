@@ -13,7 +13,7 @@ from reports.spec.shape import Shape, pin_name, pin_table
 from reports.tables.gas.cycle_names import section_of
 from reports.tables.gas.cycle_speed import cycle_checks
 from reports.tables.loads.wear import hole_scalars
-from reports.tables.motion.rod_masses import USUAL_SHARE, is_usual_share
+from reports.tables.motion.expressions import USUAL_SHARE, is_usual_share
 
 SHEET = "Итоги"
 

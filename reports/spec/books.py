@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
-from pathlib import Path
 from typing import Any, TypeVar
 
-import jinja2
-from jinja2.sandbox import ImmutableSandboxedEnvironment
-
 from kshm.arrays import Columns
+from kshm.nomenclature.quantity import UNITS
 from reports.formula.parse import FormulaError, parse
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.solved import solved
-from reports.shared.resources import templates_dir
 from reports.spec.blocks import TURN, Block, Column, Grid, GridRow, Scalar, ScalarTable
 from reports.spec.blocks import TableSpec as Table
+from reports.spec.book_text import (
+    BookError,
+    BookLine,
+    Shelf,
+    at_fragment,
+    house_shelf,
+    lines_of,
+)
 from reports.spec.chart_lines import ChartLines
 from reports.spec.charts import ChartSpec
 from reports.spec.extremes import extreme_columns, extreme_scalars
@@ -28,9 +32,6 @@ from reports.spec.parts import Part, stepped
 from reports.spec.rename import renamed
 
 Kind = TypeVar("Kind", Scalar, Column)
-_MARK = "\x1f"
-_MARKS = re.compile(f"{_MARK}([^{_MARK}]*):(\\d+){_MARK}")
-_STATEMENT = re.compile(r"\s*(%|#|\{%.*%\}$|$)")
 _VALUE = re.compile(
     r"(?P<helper>helper )?(?P<key>[A-Za-z_]\w*)(?: of (?P<of>\w+))?(?: every (?P<every>\S+))?"
     r"(?: = (?P<expr>.*?))?(?: \| (?P<source>.*?)(?: \| (?P<note>.*))?)?"
@@ -51,158 +52,28 @@ _HEADS = {
 }  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
-class BookLine:
-    """A line as Jinja made it, with what continues it; ``number`` is that of its own book."""
+def read_book(
+    name: str,
+    names: Mapping[str, Any],
+    shelf: Shelf | None = None,
+    places: dict[str, BookLine] | None = None,
+) -> Part:
+    """Blocks and charts of a book for one engine.
 
-    book: str
-    number: int
-    text: str
-
-
-class BookError(ValueError):
-    """A mistake in a book: where it stands there, what it is, how to mend it."""
-
-    def __init__(self, book: str, line: int, column: int, what: str, hint: str = "") -> None:
-        super().__init__(f"{book}: строка {line}, столбец {column}: {what}"
-                         + (f"; {hint}" if hint else ""))  # fmt: skip
-        self.line, self.column = line, column
-
-
-@dataclass(frozen=True)
-class Shelf:
-    """Folders of books, the first one with a name is taken; books may import each other."""
-
-    folders: tuple[Path, ...]
-    trusted: bool = False
-
-    def source(self, name: str) -> tuple[str, Path]:
-        """Text of a book.
-
-        Raises:
-            jinja2.TemplateNotFound: no folder has it.
-        """
-        for folder in self.folders:
-            path = folder / name
-            if path.is_file():
-                return path.read_text(encoding="utf-8"), path
-        raise jinja2.TemplateNotFound(name)
-
-    def environment(self) -> jinja2.Environment:
-        """Where books are rendered: those that are not trusted in a sandbox."""
-
-        def load(name: str) -> tuple[str, str, Callable[[], bool]]:
-            text, path = self.source(name)
-            return _marked(text, name), str(path), lambda: True
-
-        kind = jinja2.Environment if self.trusted else ImmutableSandboxedEnvironment
-        return kind(
-            undefined=jinja2.StrictUndefined, loader=jinja2.FunctionLoader(load),
-            line_statement_prefix="%", trim_blocks=True, lstrip_blocks=True, finalize=_printed,
-        )  # fmt: skip
-
-
-@lru_cache(maxsize=8)
-def _environment(shelf: Shelf) -> jinja2.Environment:
-    return shelf.environment()
-
-
-def house_shelf() -> Shelf:
-    """The books of the house."""
-    return Shelf((templates_dir() / "tables",), trusted=True)
-
-
-def read_book(name: str, names: Mapping[str, Any], shelf: Shelf | None = None) -> Part:
-    """Blocks and charts of a book for one engine; ``names`` is what its conditions may ask.
+    Args:
+        name: file of the book.
+        names: what its conditions may ask.
+        shelf: where books lie, those of the house if none is given.
+        places: takes the line of each scalar and ``table.column``.
 
     Raises:
         BookError: a mistake, with its line and column in the book.
     """
     shelf = shelf or house_shelf()
-    reader = _Reader(shelf, names)
-    for line in _lines(_rendered(name, shelf, names)):
+    reader = _Reader(shelf, names, places)
+    for line in lines_of(name, shelf, names):
         reader.take(line)
     return reader.part()
-
-
-def _marked(text: str, name: str) -> str:
-    """Lines with book and number behind them, but for those of Jinja alone and of comments."""
-    made, waiting = [], ""  # a statement or a value that goes on below
-    for number, line in enumerate(text.splitlines(), 1):
-        if line.lstrip().startswith("#"):
-            made.append("")
-            continue
-        whole = waiting + line
-        is_statement = _STATEMENT.match(whole) is not None
-        goes_on = _depth(whole) > 0 if is_statement else whole.count("{{") > whole.count("}}")
-        waiting = whole if goes_on else ""
-        bare = is_statement or goes_on
-        made.append(line if bare else f"{line}{_MARK}{name}:{number}{_MARK}")
-    return "\n".join(made) + "\n"
-
-
-def _depth(text: str) -> int:
-    """Brackets that are open at the end of a statement."""
-    return sum(text.count(c) for c in "([{") - sum(text.count(c) for c in ")]}")
-
-
-def _printed(value: object) -> object:
-    """Numbers as short as they are; what a macro wrote on several lines is one."""
-    if isinstance(value, float):
-        return repr(int(value)) if value.is_integer() else repr(value)
-    if isinstance(value, str) and _MARK in value:
-        return " ".join(_MARKS.sub("", value).split())
-    return value
-
-
-def _rendered(name: str, shelf: Shelf, names: Mapping[str, Any]) -> str:
-    try:
-        return _environment(shelf).get_template(name).render(names)
-    except jinja2.TemplateSyntaxError as error:
-        book = error.name or name
-        raise BookError(book, error.lineno, 1, f"условие Jinja2 не разобрано: {error.message}",
-                        "проверьте % if, % for и скобки") from error  # fmt: skip
-    except (jinja2.TemplateError, TypeError, ValueError, ArithmeticError) as error:
-        book, number = _raised_at(error, name)
-        raise BookError(
-            book, number, 1, f"условие Jinja2 не вычислено: {error}",
-            "имена, которые знает книга, перечислены в docs/books.md",
-        ) from error  # fmt: skip
-
-
-def _raised_at(error: Exception, name: str) -> tuple[str, int]:
-    """Book and line from which a template raised."""
-    at, trace = (name, 1), error.__traceback__
-    while trace is not None:
-        path = Path(trace.tb_frame.f_code.co_filename)
-        if path.suffix == ".book":
-            at = path.name, trace.tb_lineno
-        trace = trace.tb_next
-    return at
-
-
-def _lines(rendered: str) -> Iterator[BookLine]:
-    """Lines with their own numbers; one that begins with a blank continues the last."""
-    whole: list[str] = []
-    at = ("", "1")
-    for raw in rendered.splitlines():
-        text, *marks = raw.split(_MARK)
-        if not text or text.isspace():
-            continue
-        if text[0] != " " and whole:
-            yield BookLine(at[0], int(at[1]), " ".join(whole))
-            whole.clear()
-        if not whole:
-            at = _place(marks[0]) if marks else at
-        whole.append(text.strip())
-    if whole:
-        yield BookLine(at[0], int(at[1]), " ".join(whole))
-
-
-def _place(mark: str) -> tuple[str, str]:
-    """Book and number of a line."""
-    book, _, number = mark.rpartition(":")
-    return book, number
 
 
 @dataclass
@@ -222,8 +93,10 @@ class _Open:
 class _Reader:
     """Takes line after line and keeps the blocks."""
 
-    def __init__(self, shelf: Shelf, names: Mapping[str, Any]) -> None:
-        self._shelf, self._names = shelf, names
+    def __init__(
+        self, shelf: Shelf, names: Mapping[str, Any], places: dict[str, BookLine] | None
+    ) -> None:
+        self._shelf, self._names, self._places = shelf, names, places
         self._sheet = ""
         self._blocks: list[Block] = []
         self._charts: list[ChartSpec] = []
@@ -243,8 +116,9 @@ class _Reader:
         except BookError:
             raise
         except FormulaError as error:
-            raise self._fault(f"формула не разобрана: {error}",
-                              "язык формул — в docs/books.md", line.text) from error  # fmt: skip
+            part = error.fragment
+            raise self._fault(f"в формуле не разобрано «{part}»",
+                              "язык формул — в docs/books.md", part) from error  # fmt: skip
         except KeyError as error:
             key = str(error.args[0]) if error.args else ""
             raise self._fault(f"величина «{key}» неизвестна",
@@ -263,9 +137,7 @@ class _Reader:
         elif isinstance(self._open, ChartLines):
             self._open = self._open.take(word, rest)
         elif self._open is None:
-            raise self._fault(
-                f"строка «{text}» стоит вне таблицы", "начните с list, table или grid"
-            )
+            raise self._fault(f"строка «{text}» стоит вне блока", "начните с list, table или grid")
         else:
             self._body(self._open, word, rest, text)
 
@@ -295,11 +167,7 @@ class _Reader:
         elif word == "extremes" and block.word in ("list", "table"):
             self._extremes(block, rest)
         elif block.word == "allowed":
-            node = self._scalar(text)
-            block.scalars += judged(
-                f"value_{node.key}", f"allowed_{node.key}", node.expr or "",
-                f"{{value}} {block.about['limit']}", node.source, "сравнение с допускаемым",
-            )  # fmt: skip
+            block.scalars += self._allowed(block, text)
         elif word == "check" and block.word == "list":
             block.scalars += self._check(block, rest)
         elif block.word == "grid":
@@ -334,6 +202,16 @@ class _Reader:
         words = self._words(block)
         return judged(own, verdict, value, test, title, source or "проверка", words or (YES, NO))
 
+    def _allowed(self, block: _Open, text: str) -> tuple[Scalar, Scalar]:
+        """``KEY = value | title``, held to the limit of the heading."""
+        found = re.fullmatch(r"(\w+) = (.*?) \| (.*)", text)
+        if found is None:
+            raise self._fault(f"строка «{text}» не разобрана", "пишите ИМЯ = ВЕЛИЧИНА | ЧТО ЭТО")
+        key, value, title = found.groups()
+        own, limit = f"value_{key}", block.about["limit"]
+        return judged(own, f"allowed_{key}", value, f"{own} {limit}", title,
+                      "сравнение с допускаемым")  # fmt: skip
+
     def _words(self, block: _Open) -> tuple[str, str] | None:
         if not block.about["verdicts"]:
             return None
@@ -349,6 +227,9 @@ class _Reader:
         if node.expr is not None and not node.source:
             raise self._fault(f"у «{node.key}» нет источника",
                               "после черты | назовите источник или -", node.key)  # fmt: skip
+        if self._places is not None and isinstance(self._open, _Open):
+            table = f"{self._open.about['id']}." if isinstance(node, Column) else ""
+            self._places[f"{table}{node.key}"] = self._line
         return replace(node, source="") if node.source == "-" else node
 
     def _close(self) -> None:
@@ -386,15 +267,8 @@ class _Reader:
         )  # fmt: skip
 
     def _fault(self, what: str, hint: str = "", fragment: str = "") -> BookError:
-        """A mistake in the line taken; its column is that of the fragment where it is written."""
-        book, number = self._line.book, self._line.number
-        source = self._shelf.source(book)[0].splitlines()
-        for further, written in enumerate(source[number - 1 :], number):
-            if fragment and fragment in written:
-                return BookError(book, further, written.index(fragment) + 1, what, hint)
-            if further > number and not written[:1].isspace():
-                break
-        return BookError(book, number, 1, what, hint)
+        """A mistake in the line taken."""
+        return at_fragment(self._line, self._shelf, what, hint, fragment)
 
 
 def solved_columns(table: str, model: InputFile) -> Columns:
@@ -432,7 +306,11 @@ def _known(node: Kind) -> Kind:
     """
     if node.expr is not None:
         parse(node.expr)
-    _ = node.quantity
+    unit, said = node.quantity.unit, node.key.rpartition("_")[2]
+    if node.of and said in UNITS and unit in UNITS and said != unit:
+        raise ValueError(
+            f"у «{node.of}» единица {unit or 'безразмерная'}, а у ключа «{node.key}» {said}"
+        )
     return node
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
+from typing import get_args
 
 from pydantic import BaseModel
 
@@ -16,19 +18,34 @@ from reports.spec.parts import Scope
 
 @dataclass(frozen=True, slots=True)
 class InputView:
-    """A section of the input: ``section.key`` is a value or, of ``given``, whether there is one."""
+    """A section of the input: ``section.key`` is a value or, of ``given``, whether there is one.
+
+    ``known`` are the keys of all kinds that the section may be of: those of others are not given.
+    """
 
     section: BaseModel
     whether: bool
+    known: frozenset[str] = frozenset()
 
     def __getattr__(self, name: str) -> object:
-        """Value of a key; a section is another view, where the file has it."""
+        """Value of a key; a section is another view, where the file has it; a list is views."""
         if name not in type(self.section).model_fields:
+            if self.whether and name in self.known:
+                return False
             raise AttributeError(name)
         value = getattr(self.section, name)
         if isinstance(value, BaseModel):
-            return InputView(value, self.whether)
+            return InputView(value, self.whether, _keys_of(type(self.section), name))
+        if isinstance(value, tuple) and value and isinstance(value[0], BaseModel):
+            return tuple(InputView(item, self.whether) for item in value)
         return value not in (None, ()) if self.whether else value
+
+
+@lru_cache(maxsize=64)
+def _keys_of(parent: type[BaseModel], name: str) -> frozenset[str]:
+    """Keys of all kinds of a section."""
+    kinds = get_args(parent.model_fields[name].annotation)
+    return frozenset(key for kind in kinds for key in getattr(kind, "model_fields", ()))
 
 
 def names_of(scope: Scope, **further: object) -> Mapping[str, object]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -12,15 +12,20 @@ from kshm.cycle.fuel import FUELS
 from kshm.cycle.heat import SPECIES, TEMPERATURE_PASSES
 from kshm.cycle.processes import N1_PASSES, N1_START, N2_PASSES, N2_START
 from kshm.cycle.speed_characteristic import IDLE_SHARE, LEIDERMAN
-from kshm.engine.usual import SMALL_END_SHARE
 from kshm.mechanics.pin_bearing import PLANES
+from kshm.mechanics.rod_masses import BORES, PISTON, ROD, STROKE_BORE, THROW
 from reports.inputs.sections.cycle import PUMPING, ROUNDINGS
+from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, to_estimate
+from reports.inputs.units import MM
 from reports.spec.books import read_book
 from reports.spec.context import names_of
 from reports.spec.parts import Part, PartOf, Scope
 from reports.spec.shape import pin_figure, pin_name, pin_table, rays_table
 from reports.tables.gas.cycle_names import section_of, sizes_are_found
 from reports.tables.gas.cycle_ranges import ranges_of
+from reports.tables.motion.expressions import USUAL_SHARE, is_usual_share
+
+Bounds = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +98,48 @@ def _cycle(scope: Scope) -> dict[str, Any]:
 
 
 def _summary(scope: Scope) -> dict[str, Any]:
-    return {"small_end_share": SMALL_END_SHARE, **_surfaces(scope)}
+    return {"usual_share": USUAL_SHARE, "is_usual_share": is_usual_share, **_surfaces(scope)}
+
+
+@dataclass(frozen=True, slots=True)
+class Table4:
+    """Bounds of table 4, masses of the parts over the piston's area [kg/m²]."""
+
+    piston: Bounds
+    rod: Bounds
+    throw: Bounds
+
+
+def _table_4(scope: Scope) -> dict[str, Any]:
+    """Bounds for the kind of engine, and those between which the estimate is made."""
+    given, cycle = scope.input.masses, scope.input.cycle
+    kind = given.estimate_fuel or (cycle.kind if cycle is not None else None)
+    fuels = ("petrol", "diesel") if kind is None else (kind,)
+    names: dict[str, Any] = {
+        "usual": Table4(
+            _widest(PISTON[material, fuel] for material in ("aluminium", "iron") for fuel in fuels),
+            _widest(ROD[fuel] for fuel in fuels),
+            _widest(THROW[shaft, fuel] for shaft in ("steel", "iron") for fuel in fuels),
+        ),
+        "usual_share": USUAL_SHARE,
+        "is_usual_share": is_usual_share,
+        "rod_share": ROD_SHARE,
+    }
+    estimate = to_estimate(given)
+    if estimate is None:
+        return names
+    fuel, material, shaft = estimate.fuel, estimate.piston_material, estimate.shaft
+    return names | {
+        "estimate": Table4(PISTON[material, fuel], ROD[fuel], THROW[shaft, fuel]),
+        "bores_mm": tuple(map(MM.from_si, BORES[fuel])),
+        "stroke_bore": STROKE_BORE,
+        "pin_share": PIN_SHARE,
+    }
+
+
+def _widest(bounds: Iterable[Bounds]) -> Bounds:
+    lows, highs = zip(*bounds, strict=True)
+    return min(lows), max(highs)
 
 
 # Names that one book has besides the common ones.
@@ -102,6 +148,7 @@ _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
     "cycle": _cycle,
     "cycle_results": _cycle,
     "cycle_speed": _cycle,
+    "rod_masses": _table_4,
     "summary": _summary,
     "torque_orders": _torque_orders,
     "wear": _surfaces,

@@ -17,19 +17,12 @@ from reports.tables.gas.indicator import indicator
 from reports.tables.loads.comparison import comparison
 from reports.tables.loads.cylinder import cylinders
 from reports.tables.loads.regimes import regime_models
-from reports.tables.motion.articulated import articulated
-from reports.tables.motion.mechanism import dimensions, kinematics, size_stand_ins
-from reports.tables.motion.neiman import neiman
-from reports.tables.motion.offset import offset
-from reports.tables.motion.reference import reference
-from reports.tables.motion.rod_masses import mass_stand_ins, masses
-from reports.tables.motion.segal import segal
-from reports.tables.motion.two_term import two_term
 from reports.tables.oil.film import film
 from reports.tables.oil.orbit import orbit
 from reports.tables.oil.safety import safety
 from reports.tables.overview.left_out import left_out_note
 from reports.tables.overview.verdicts import accepted_checks
+from reports.tables.stand_ins import mass_stand_ins, size_stand_ins
 from reports.tables.torsion.free import free
 from reports.tables.torsion.resonance import resonance
 from reports.tables.torsion.train import train
@@ -40,14 +33,16 @@ BEFORE: tuple[PartOf, ...] = (
 )  # fmt: skip
 # Chapters 1 and 2: all that speed and gas decide, and more; every regime has them.
 CHAIN: tuple[PartOf, ...] = (
-    dimensions, masses, kinematics, offset, articulated, indicator, cylinders, book("torques"),
-    book("crankpins"), book("throws"), book("journals"),
+    book("mechanism"), book("rod_masses"), book("kinematics"),
+    book("articulated"), indicator, cylinders,
+    book("torques"), book("crankpins"), book("throws"), book("journals"),
     book("wear"), book("summary"),
 )  # fmt: skip
 AFTER: tuple[PartOf, ...] = (
-    book("balance"), book("balance_orders"), book("firing"), book("inertia"), book("torque_orders"),
-    segal, neiman, reference, book("bearings"), book("continuous"),
-    two_term, train, free, resonance,
+    book("balance"), book("balance_orders"), book("firing"), book("inertia"),
+    book("torque_orders"), book("piston_motion"), book("reference"),
+    book("bearings"), book("continuous"), book("two_term"),
+    train, free, resonance,
     film, orbit, safety,
 )  # fmt: skip
 

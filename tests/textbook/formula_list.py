@@ -18,6 +18,7 @@ LONGEST = 20
 _RANGE = re.compile(r"\((\d+)[аa]?\)\s*[-–]\s*\((\d+)[аa]?\)")
 _SOURCE = re.compile(r"(?:\A|\| )(Гоц[^\n]*)")
 _ONE = re.compile(r"\((\d+)[аa]?\)")
+_COMMENT = re.compile(r"^#[^\n]*", re.MULTILINE)
 _NAMED = re.compile(r"(?:Gots|Гоц)[^\n]*")
 
 # What each formula is; the reading where the print is wrong or doubtful.
@@ -124,7 +125,7 @@ def _sources(tree: ast.Module) -> Iterator[str]:
 
 @cache
 def places() -> dict[int, tuple[list[str], list[str]]]:
-    """Number → functions of the solver, modules of the tables that name it."""
+    """Number → functions of the solver, modules and books of the tables that name it."""
     found: dict[int, tuple[list[str], list[str]]] = {n: ([], []) for n in range(1, LAST + 1)}
     for path in sorted((ROOT / "kshm").rglob("*.py")):
         tree = ast.parse(path.read_text(encoding="utf-8"))
@@ -134,6 +135,9 @@ def places() -> dict[int, tuple[list[str], list[str]]]:
     for path in sorted((ROOT / "reports" / "tables").rglob("*.py")):
         tree = ast.parse(path.read_text(encoding="utf-8"))
         for number in {n for text in _sources(tree) for n in numbers(text)}:
+            found[number][1].append(path.stem)
+    for path in sorted((ROOT / "templates" / "tables").glob("*.book")):
+        for number in numbers(_COMMENT.sub("", path.read_text(encoding="utf-8"))):
             found[number][1].append(path.stem)
     return found
 
@@ -147,8 +151,8 @@ def render() -> str:
         "> tables. Generated from docstrings and sources of columns.",
         "",
         "А. Н. Гоц. Кинематика и динамика кривошипно-шатунного механизма поршневых двигателей,",
-        "2006. Где каждая формула стоит: в решателе (`kshm/`) и в описаниях таблиц",
-        "(`reports/tables/`). Список составлен по строкам документации и источникам столбцов,",
+        "2006. Где каждая формула стоит: в решателе (`kshm/`) и в книгах таблиц",
+        "(`templates/tables/`). Список составлен по строкам документации и источникам столбцов,",
         "тест следит за его полнотой. Чтение спорных мест — в [прочтениях](readings.md).",
         "",
         "| № | Что это | Решатель | Таблицы |",

@@ -20,7 +20,7 @@ from reports.spec.blocks import Model
 from reports.spec.evaluation import Evaluation, evaluate_model
 from reports.spec.parts import Scope, joined
 from reports.spec.rename import substituted
-from reports.tables.motion.mechanism import dimensions
+from reports.tables.contexts import book
 from reports.tables.registry import build_model, stand_ins
 from reports.tables.torsion.free import free
 from reports.tables.torsion.resonance import _main_orders
@@ -111,7 +111,7 @@ def test_frequencies_that_all_but_meet(link: float) -> None:
 
 def free_sheets(data: InputFile) -> Model:
     """The sheets of the free vibration alone: a small book."""
-    part = joined(Scope(data), (dimensions, train, free))
+    part = joined(Scope(data), (book("mechanism"), train, free))
     blocks = substituted(part.blocks, stand_ins(data))
     return Model(data, tuple(iter_fields(data)), blocks, ())
 

@@ -21,7 +21,6 @@ from reports.shared.russian import fixed
 from reports.spec.blocks import ScalarTable
 from reports.spec.judged import NO
 from reports.tables.gas.diagram import NODES, is_smooth
-from reports.tables.motion.rod_masses import SHEET
 
 _POINTS = (
     "phi_c_deg", "p_start", "p_c_end", "gas_max_pressure_mpa", "cyc_p_z",
@@ -61,7 +60,8 @@ def _mass_notes(chapter: Chapter) -> Markup:
     """How the masses and the rod were found, Gots 2.2, with their table."""
     given, scalars = chapter.input.masses, chapter.terms.values.scalars
     lists = [block for block in chapter.model.blocks if isinstance(block, ScalarTable)]
-    listed = [scalar for block in lists if block.sheet == SHEET for scalar in block.scalars]
+    sheet = next(block.sheet for block in lists if block.id == "specific_masses")
+    listed = [scalar for block in lists if block.sheet == sheet for scalar in block.scalars]
     keys = [scalar.key for scalar in listed if scalar.of != "verdict"]
     verdicts = [
         scalar

@@ -12,7 +12,6 @@ from reports.document.page.blocks import Column, TableBlock, symbol_head, table_
 from reports.document.page.writer import Figure, TablePlan
 from reports.document.text.terms import Terms
 from reports.shared.russian import fixed, short
-from reports.tables.motion.reference import TABLES
 
 _ERRORS = tuple(
     key
@@ -33,10 +32,10 @@ def reference(chapter: Chapter) -> Markup:
         )
         if 0.1 <= lam <= 0.6 and 10 <= angle <= 80:
             sketch = Figure(partial(mechanism_sketch, lam, angle), "Движение шатуна: схема и силы")
-        for number, (title, _, _, _) in TABLES.items():
-            build = partial(_table, terms, f"ref_{number}", len(asked.lambdas))
-            plan = TablePlan(build, f"Значение выражения {title}", size="dense")
-            tables.append((f"ref_{number}", plan))
+        for name, table in chapter.model.tables.items():
+            if table.columns[-1].key.startswith("ref_lambda"):
+                build = partial(_table, terms, name, len(asked.lambdas))
+                tables.append((name, TablePlan(build, table.title, size="dense")))
     return chapter.page(
         "reference",
         errors=chapter.scalars("Наибольшие погрешности", _ERRORS, size="dense"),

@@ -11,7 +11,7 @@ from reports.spec.parts import Part, Scope
 from reports.spec.shape import TIMING, Shape
 from reports.tables.gas.diagram import diagram_blocks
 from reports.tables.gas.pressure import WORK, Corners, corner_points, pressure
-from reports.tables.motion.articulated import SUFFIX, hung_height, hung_ratio
+from reports.tables.motion.expressions import SUFFIX, hung_height, hung_ratio
 
 
 def indicator(scope: Scope) -> Part:

@@ -10,7 +10,7 @@ from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape
 from reports.tables.gas.indicator import displaced, own_pressure, timing
 from reports.tables.loads.hung import hung_table
-from reports.tables.motion.mechanism import acceleration
+from reports.tables.motion.expressions import acceleration
 
 
 def _forces(model: InputFile, rows: tuple[float, ...]) -> TableSpec:

@@ -8,7 +8,7 @@ from reports.spec.listing import column_list
 from reports.spec.shape import TIMING, Shape
 from reports.tables.gas.indicator import hung_corners
 from reports.tables.gas.pressure import WORK, pressure
-from reports.tables.motion.articulated import BANK, RHO, SOURCE, hung_helpers, hung_ratio
+from reports.tables.motion.expressions import BANK, RHO, SOURCE, hung_helpers, hung_ratio
 
 
 def hung_table(model: InputFile, rows: tuple[float, ...], number: int) -> TableSpec:

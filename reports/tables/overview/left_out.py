@@ -7,12 +7,10 @@ from reports.spec.blocks import Block
 from reports.spec.parts import PartOf, Scope, joined
 from reports.spec.shape import Shape
 from reports.tables.contexts import book
-from reports.tables.motion.neiman import neiman
-from reports.tables.motion.segal import segal
 
 _BY_ORDERS: tuple[PartOf, ...] = (
-    segal, neiman, book("balance"), book("balance_orders"), book("firing"), book("inertia"),
-    book("torque_orders"),
+    book("piston_motion"), book("balance"), book("balance_orders"), book("firing"),
+    book("inertia"), book("torque_orders"),
 )  # fmt: skip
 
 

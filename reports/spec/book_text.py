@@ -1,0 +1,194 @@
+"""The text of a book: rendered by Jinja2, each line with its own place in the book as written."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+import jinja2
+from jinja2.sandbox import ImmutableSandboxedEnvironment
+
+from reports.shared.resources import templates_dir
+
+_MARK = "\x1f"
+_MARKS = re.compile(f"{_MARK}([^{_MARK}]*):(\\d+){_MARK}")
+_STATEMENT = re.compile(r"\s*(%|#|\{%.*%\}$|$)")
+
+
+@dataclass(frozen=True, slots=True)
+class BookLine:
+    """A line as Jinja made it, with what continues it; ``number`` is that of its own book."""
+
+    book: str
+    number: int
+    text: str
+
+
+class BookError(ValueError):
+    """A mistake in a book: where it stands there, what it is, how to mend it."""
+
+    def __init__(self, book: str, line: int, column: int, what: str, hint: str = "") -> None:
+        super().__init__(f"{book}: строка {line}, столбец {column}: {what}"
+                         + (f"; {hint}" if hint else ""))  # fmt: skip
+        self.line, self.column = line, column
+
+
+@dataclass(frozen=True)
+class Shelf:
+    """Folders of books, the first one with a name is taken; books may import each other."""
+
+    folders: tuple[Path, ...]
+    trusted: bool = False
+
+    def source(self, name: str) -> tuple[str, Path]:
+        """Text of a book.
+
+        Raises:
+            jinja2.TemplateNotFound: no folder has it.
+        """
+        for folder in self.folders:
+            path = folder / name
+            if path.is_file():
+                return path.read_text(encoding="utf-8"), path
+        raise jinja2.TemplateNotFound(name)
+
+    def environment(self) -> jinja2.Environment:
+        """Where books are rendered: those that are not trusted in a sandbox."""
+
+        def load(name: str) -> tuple[str, str, Callable[[], bool]]:
+            text, path = self.source(name)
+            return _marked(text, name), str(path), lambda: True
+
+        kind = jinja2.Environment if self.trusted else ImmutableSandboxedEnvironment
+        return kind(
+            undefined=jinja2.StrictUndefined, loader=jinja2.FunctionLoader(load),
+            line_statement_prefix="%", trim_blocks=True, lstrip_blocks=True,
+            keep_trailing_newline=True, finalize=_printed,
+            bytecode_cache=_compiled(self.folders[0]) if self.trusted else None,
+        )  # fmt: skip
+
+
+def _compiled(folder: Path) -> jinja2.BytecodeCache | None:
+    """Where compiled books are kept, as Python keeps its modules; nowhere in a read-only place."""
+    kept = folder / "__pycache__"
+    try:
+        kept.mkdir(exist_ok=True)
+    except OSError:
+        return None
+    return jinja2.FileSystemBytecodeCache(str(kept)) if os.access(kept, os.W_OK) else None
+
+
+@lru_cache(maxsize=8)
+def _environment(shelf: Shelf) -> jinja2.Environment:
+    return shelf.environment()
+
+
+def house_shelf() -> Shelf:
+    """The books of the house."""
+    return Shelf((templates_dir() / "tables",), trusted=True)
+
+
+def lines_of(name: str, shelf: Shelf, names: Mapping[str, object]) -> Iterator[BookLine]:
+    """Lines of a book for one engine.
+
+    Raises:
+        BookError: Jinja2 does not understand it.
+    """
+    return _lines(_rendered(name, shelf, names))
+
+
+def _marked(text: str, name: str) -> str:
+    """Lines with book and number behind them, but for those of Jinja alone and of comments."""
+    made, waiting = [], ""  # a statement or a value that goes on below
+    for number, line in enumerate(text.splitlines(), 1):
+        if line.lstrip().startswith("#"):
+            made.append("")
+            continue
+        whole = waiting + line
+        is_statement = _STATEMENT.match(whole) is not None
+        goes_on = _depth(whole) > 0 if is_statement else whole.count("{{") > whole.count("}}")
+        waiting = whole if goes_on else ""
+        bare = is_statement or goes_on
+        made.append(line if bare else f"{line}{_MARK}{name}:{number}{_MARK}")
+    return "\n".join(made) + "\n"
+
+
+def _depth(text: str) -> int:
+    """Brackets that are open at the end of a statement."""
+    return sum(text.count(c) for c in "([{") - sum(text.count(c) for c in ")]}")
+
+
+def _printed(value: object) -> object:
+    """Numbers as short as they are; what a macro wrote on several lines is one."""
+    if isinstance(value, float):
+        return repr(int(value)) if value.is_integer() else repr(value)
+    if isinstance(value, str) and _MARK in value:
+        return " ".join(_MARKS.sub("", value).split())
+    return value
+
+
+def _rendered(name: str, shelf: Shelf, names: Mapping[str, object]) -> str:
+    try:
+        return _environment(shelf).get_template(name).render(names)
+    except jinja2.TemplateSyntaxError as error:
+        book = error.name or name
+        raise BookError(book, error.lineno, 1, f"условие Jinja2 не разобрано: {error.message}",
+                        "проверьте % if, % for и скобки") from error  # fmt: skip
+    except (jinja2.TemplateError, TypeError, ValueError, ArithmeticError) as error:
+        book, number = _raised_at(error, name)
+        raise BookError(
+            book, number, 1, f"условие Jinja2 не вычислено: {error}",
+            "имена, которые знает книга, перечислены в docs/books.md",
+        ) from error  # fmt: skip
+
+
+def _raised_at(error: Exception, name: str) -> tuple[str, int]:
+    """Book and line from which a template raised."""
+    at, trace = (name, 1), error.__traceback__
+    while trace is not None:
+        path = Path(trace.tb_frame.f_code.co_filename)
+        if path.suffix == ".book":
+            at = path.name, trace.tb_lineno
+        trace = trace.tb_next
+    return at
+
+
+def _lines(rendered: str) -> Iterator[BookLine]:
+    """Lines with their own numbers; one that begins with a blank continues the last."""
+    whole: list[str] = []
+    at = ("", "1")
+    for raw in rendered.splitlines():
+        text, *marks = raw.split(_MARK)
+        if not text or text.isspace():
+            continue
+        if text[0] != " " and whole:
+            yield BookLine(at[0], int(at[1]), " ".join(whole))
+            whole.clear()
+        if not whole:
+            at = _place(marks[0]) if marks else at
+        whole.append(text.strip())
+    if whole:
+        yield BookLine(at[0], int(at[1]), " ".join(whole))
+
+
+def _place(mark: str) -> tuple[str, str]:
+    """Book and number of a line."""
+    book, _, number = mark.rpartition(":")
+    return book, number
+
+
+def at_fragment(
+    line: BookLine, shelf: Shelf, what: str, hint: str = "", fragment: str = ""
+) -> BookError:
+    """A mistake in a line; its column is that of the fragment where it is written."""
+    source = shelf.source(line.book)[0].splitlines()
+    for number, written in enumerate(source[line.number - 1 :], line.number):
+        if fragment and fragment in written:
+            return BookError(line.book, number, written.index(fragment) + 1, what, hint)
+        if number > line.number and not written[:1].isspace():
+            break
+    return BookError(line.book, line.number, 1, what, hint)

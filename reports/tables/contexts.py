@@ -9,6 +9,9 @@ from typing import Any
 
 from kshm.mechanics.pin_bearing import PLANES
 from kshm.mechanics.rod_masses import BORES, PISTON, ROD, STROKE_BORE, THROW
+from reports.inputs.sections.gas import RoundedGasSection
+from reports.inputs.sections.input_file import METHODS
+from reports.inputs.to_si.gas import places
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, to_estimate
 from reports.inputs.units import MM
 from reports.spec.books import read_book
@@ -99,9 +102,27 @@ def _widest(bounds: Iterable[Bounds]) -> Bounds:
     return min(lows), max(highs)
 
 
+def _cylinders(scope: Scope) -> dict[str, Any]:
+    """Cylinders after the first, then all in the phases that reproduce the printed П4.3."""
+    numbers = scope.shape.numbers
+    forced = [(i, True) for i in numbers] if scope.forced else []
+    return {"shifted": [*((i, False) for i in numbers[1:]), *forced], "exact": METHODS["exact"]}
+
+
+def _rounded(scope: Scope) -> dict[str, Any]:
+    """Places of a rounded diagram that a file need not give."""
+    gas = scope.input.gas
+    if not isinstance(gas, RoundedGasSection):
+        return {}
+    share, peak, join = places(gas)
+    return {"usual_share": share, "usual_peak": peak, "usual_join": join}
+
+
 # Names that one book has besides the common ones.
 _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
     "bearings": lambda _: {"planes": PLANES},
+    "cylinders": _cylinders,
+    "gas": _rounded,
     "rod_masses": _table_4,
     "wear": _surfaces,
 }

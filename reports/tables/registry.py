@@ -19,9 +19,7 @@ from reports.tables.gas.cycle import processes
 from reports.tables.gas.cycle_names import cycle_stand_ins
 from reports.tables.gas.cycle_results import results
 from reports.tables.gas.cycle_speed import speed
-from reports.tables.gas.indicator import indicator
 from reports.tables.loads.comparison import comparison
-from reports.tables.loads.cylinder import cylinders
 from reports.tables.loads.regimes import regime_models
 from reports.tables.oil.film import film
 from reports.tables.oil.orbit import orbit
@@ -40,7 +38,7 @@ BEFORE: tuple[PartOf, ...] = (scheme, processes, results, speed)
 # Chapters 1 and 2: all that speed and gas decide, and more; every regime has them.
 CHAIN: tuple[PartOf, ...] = (
     book("mechanism"), book("rod_masses"), book("kinematics"),
-    book("articulated"), indicator, cylinders,
+    book("articulated"), book("gas"), book("cylinders"),
     book("torques"), book("crankpins"), book("throws"), book("journals"),
     book("wear"), summary,
 )  # fmt: skip

@@ -15,6 +15,8 @@ from reports.tables import contexts
 
 
 import ast, functools
+
+
 @functools.cache
 def bare(e):
     return None if e is None else ast.unparse(ast.parse(e.strip(), mode="eval"))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import get_args
@@ -60,6 +60,7 @@ def names_of(scope: Scope, **further: object) -> Mapping[str, object]:
         "turn": scope.turn,
         "cycle": scope.cycle,
         **{name: getattr(shape, name) for name in _SHAPE},
+        "each": each,
         "cylinder_table": shape.cylinder_table_id,
         "ray_key": ray_key,
         "roman": roman,
@@ -76,5 +77,9 @@ def diagram_kind(gas: BaseModel) -> str:
     return "smooth" if gas.interpolation == "monotone" else "straight"
 
 
-_SHAPE = ("pin_table", "rays_table", "pin_figure", "pin_name", "rods_table",
-          "central_volume_ratio")
+_SHAPE = ("pin_table", "rays_table", "pin_figure", "pin_name", "rods_table", "central_volume_ratio")
+
+
+def each(text: str, members: Iterable[object], between: str = ", ") -> str:
+    """The text for every number or name, which is ``@`` in it: arguments, or terms of a sum."""
+    return between.join(text.replace("@", str(member)) for member in members)

@@ -128,6 +128,10 @@ class Shape:
         """Whether the cylinder stands in the right bank."""
         return self.banks and 2 * cylinder > self.cylinders
 
+    def is_second(self, cylinder: int) -> bool:
+        """Whether the cylinder's rod is the one farther from the nose on its pin."""
+        return bool(self.arrangement[cylinder - 1].rod_place)
+
     def throw_of(self, cylinder: int) -> int:
         """Number of the cylinder's throw."""
         return self.arrangement[cylinder - 1].throw + 1
@@ -177,6 +181,12 @@ class Shape:
             scale = "(geometry_compression_ratio - 1)*r_crank/S_stroke"
             return f"1 + {scale}*{self.displacement(phi)}"
         return central_volume_ratio(phi)
+
+    def pin_angle(self, cylinder: int) -> str:
+        """Angle of the cylinder's crankpin from crank 1 [deg]."""
+        angle = f"throw_angle_{self.throw_of(cylinder)}_deg"
+        turned = self.arrangement[cylinder - 1].pin_angle
+        return f"{angle} + crankshaft_split_pin_deg" if turned else angle
 
     def axis(self, cylinder: int) -> str:
         """Angle of the cylinder's axis from that of cylinder 1 [deg]."""

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from kshm.cycle.fuel import FUELS
+from kshm.cycle.heat import SPECIES, TEMPERATURE_PASSES
+from kshm.cycle.processes import N1_PASSES, N1_START, N2_PASSES, N2_START
+from kshm.cycle.speed_characteristic import IDLE_SHARE, LEIDERMAN
 from kshm.mechanics.pin_bearing import PLANES
 from kshm.mechanics.rod_masses import BORES, PISTON, ROD, STROKE_BORE, THROW
+from reports.inputs.sections.cycle import PUMPING, ROUNDINGS
 from reports.inputs.sections.gas import RoundedGasSection
 from reports.inputs.sections.input_file import METHODS
 from reports.inputs.to_si.gas import places
@@ -18,7 +24,9 @@ from reports.spec.books import read_book
 from reports.spec.context import names_of
 from reports.spec.parts import Part, PartOf, Scope
 from reports.spec.shape import pin_figure, pin_name, pin_table, rays_table
-from reports.tables.motion.expressions import USUAL_SHARE, is_usual_share
+from reports.tables.gas.cycle_names import section_of, sizes_are_found
+from reports.tables.gas.cycle_ranges import ranges_of
+from reports.tables.rod_share import USUAL_SHARE, is_usual_share
 
 Bounds = tuple[float, float]
 
@@ -37,6 +45,7 @@ class Surface:
     against: str
     is_pin: bool
     chart: str
+    journal: tuple[str, int]  # how the input names its sizes
 
 
 def _surfaces(scope: Scope) -> dict[str, Any]:
@@ -48,6 +57,7 @@ def _surfaces(scope: Scope) -> dict[str, Any]:
             "Износ ш.ш" if n == 1 else f"Износ ш.ш ({n})", f"pin{pin_name(n)}",
             f" {n}" if several else "", f"{pin_table(n)}.Rpin_MPa", f"-{pin_table(n)}.Krod_MPa",
             f"-{pin_table(n)}.T_MPa", True, pin_figure("fig52", n),
+            ("pin", shape.throw_of(shape.pins[n - 1][0])),
         )
         for n in shape.pin_numbers
     ]  # fmt: skip
@@ -55,10 +65,43 @@ def _surfaces(scope: Scope) -> dict[str, Any]:
         Surface(
             f"table_14_main_{k}", f"14.{k}", f"Износ к.ш ({k})", f"main{k}", f" {k}",
             f"P4_3_{k}.R_MPa", f"P4_3_{k}.Ry_MPa", f"P4_3_{k}.Rx_MPa", False, f"fig54_{k}",
+            ("main", k),
         )
         for k in shape.journal_numbers
     ]  # fmt: skip
     return {"surfaces": [*pins, *mains]}
+
+
+_CANCELLED = 1e-6  # of a vector sum of unit vectors
+
+
+def _torque_orders(scope: Scope) -> dict[str, Any]:
+    """Whether the second orders of the cylinders' torques do not cancel each other."""
+    turns = [math.radians(2 * offset) for offset in scope.input.crankshaft.firing_offsets_deg]
+    together = math.hypot(sum(map(math.cos, turns)), sum(map(math.sin, turns)))
+    return {"second_order": together > _CANCELLED}
+
+
+def _cycle(scope: Scope) -> dict[str, Any]:
+    """Data of the cycle: its fuel, heat capacities, passes, words, law of speed, usual ranges."""
+    section = section_of(scope.input)
+    if section is None:
+        return {}
+    return {
+        "fuel": FUELS.get(section.fuel),
+        "heats": SPECIES,
+        "passes": {"n1": N1_PASSES, "n2": N2_PASSES, "tz": TEMPERATURE_PASSES},
+        "starts": {"n1": N1_START, "n2": N2_START},
+        "sizes_found": sizes_are_found(scope.input),
+        "words": {"subtract": PUMPING["yes"], "up": ROUNDINGS["up"]},
+        "law": LEIDERMAN[section.speed_law or section.kind],
+        "idle_share": IDLE_SHARE[section.kind],
+        "ranges": tuple(ranges_of(section)),
+    }
+
+
+def _summary(scope: Scope) -> dict[str, Any]:
+    return {"usual_share": USUAL_SHARE, "is_usual_share": is_usual_share, **_surfaces(scope)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +166,12 @@ _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
     "bearings": lambda _: {"planes": PLANES},
     "cylinders": _cylinders,
     "gas": _rounded,
+    "cycle": _cycle,
+    "cycle_results": _cycle,
+    "cycle_speed": _cycle,
     "rod_masses": _table_4,
+    "summary": _summary,
+    "torque_orders": _torque_orders,
     "wear": _surfaces,
 }
 

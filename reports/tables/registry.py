@@ -11,22 +11,14 @@ from reports.inputs.to_si.engine import smallness_of
 from reports.spec.blocks import Model
 from reports.spec.parts import Part, PartOf, Scope, joined
 from reports.spec.rename import sized, substituted
-from reports.tables.balance.balance import balance
-from reports.tables.balance.inertia import inertia
-from reports.tables.balance.torque_orders import torque_orders
 from reports.tables.contexts import book
-from reports.tables.gas.cycle import processes
 from reports.tables.gas.cycle_names import cycle_stand_ins
-from reports.tables.gas.cycle_results import results
-from reports.tables.gas.cycle_speed import speed
 from reports.tables.loads.comparison import comparison
 from reports.tables.loads.regimes import regime_models
 from reports.tables.oil.film import film
 from reports.tables.oil.orbit import orbit
 from reports.tables.oil.safety import safety
 from reports.tables.overview.left_out import left_out_note
-from reports.tables.overview.scheme import scheme
-from reports.tables.overview.summary import summary
 from reports.tables.overview.verdicts import accepted_checks
 from reports.tables.stand_ins import mass_stand_ins, size_stand_ins
 from reports.tables.torsion.free import free
@@ -34,16 +26,19 @@ from reports.tables.torsion.resonance import resonance
 from reports.tables.torsion.train import train
 
 # Files of tables in the order of their sheets.
-BEFORE: tuple[PartOf, ...] = (scheme, processes, results, speed)
+BEFORE: tuple[PartOf, ...] = (
+    book("scheme"), book("cycle"), book("cycle_results"), book("cycle_speed"),
+)  # fmt: skip
 # Chapters 1 and 2: all that speed and gas decide, and more; every regime has them.
 CHAIN: tuple[PartOf, ...] = (
     book("mechanism"), book("rod_masses"), book("kinematics"),
     book("articulated"), book("gas"), book("cylinders"),
     book("torques"), book("crankpins"), book("throws"), book("journals"),
-    book("wear"), summary,
+    book("wear"), book("summary"),
 )  # fmt: skip
 AFTER: tuple[PartOf, ...] = (
-    balance, inertia, torque_orders, book("piston_motion"), book("reference"),
+    book("balance"), book("balance_orders"), book("firing"), book("inertia"),
+    book("torque_orders"), book("piston_motion"), book("reference"),
     book("bearings"), book("continuous"), book("two_term"),
     train, free, resonance,
     film, orbit, safety,

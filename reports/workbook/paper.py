@@ -16,8 +16,6 @@ from kshm.nomenclature.quantity import Quantity
 from reports.shared.russian import written
 from reports.spec.blocks import Block, Grid, Model, ScalarTable, TableSpec, scalars_of
 from reports.spec.evaluation import Values
-from reports.tables.gas.cycle_names import SHEET as CYCLE_SHEET
-from reports.tables.gas.cycle_speed import RANGE_SHEET
 from reports.workbook.layout import (
     FIRST_ROW,
     HEADER_ROW,
@@ -55,6 +53,7 @@ _THIN_LETTERS, _EDGES = frozenset(" ()ijlt1/·.,'"), 1.5
 _BESIDE, _WIDEST = (34, 10, 11, 8, 20), 64  # of a list beside a table
 _CYCLE_WIDTHS = {2: 20, 4: 17, SOURCE_COLUMN: 28, 6: 17, 7: 17, 8: 17}
 _RANGE_WIDTHS = {1: 76, 2: 4, 4: 16, SOURCE_COLUMN: 42}
+_WIDTHS_WITH = {"cycle_fuel": _CYCLE_WIDTHS, "cycle_ranges": _RANGE_WIDTHS}  # by a sheet's block
 UPRIGHT = 1290  # px: wider sheets lie
 PAPER = {"portrait": (690, 1010), "landscape": (1030, 670)}  # px: A4 less its margins
 _LEAST = 0.45  # scale below which a sheet rather takes more pages, down and across
@@ -74,8 +73,8 @@ def set_widths(sheet: Worksheet, model: Model, layout: Layout, values: Values) -
         sheet.freeze_panes = Cell(sheet.title, HEADER_ROW, 1).coordinate
         grids = bool(blocks) and all(isinstance(block, Grid) for block in blocks)
         wide = {i: _LIST[i] for i in (1, 2)} if grids else dict(_LIST)
-        if sheet.title in (CYCLE_SHEET, RANGE_SHEET):
-            wide |= _CYCLE_WIDTHS if sheet.title == CYCLE_SHEET else _RANGE_WIDTHS
+        for block in blocks:
+            wide |= _WIDTHS_WITH.get(block.id, {})
         _widths(sheet, {i: wide.get(i, 12) for i in range(1, last + 1)})
         _widen(sheet, blocks, layout, values)
         _raise_labels(sheet, blocks, layout)

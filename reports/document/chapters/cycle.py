@@ -15,8 +15,9 @@ from reports.document.text import numbers
 from reports.document.text.symbols import inline_html, titled_html
 from reports.document.text.terms import Terms
 from reports.shared.russian import MINUS, capital, fixed
+from reports.spec.blocks import ScalarTable
 from reports.tables.gas.cycle_names import friction_by_speed, is_boosted, section_of
-from reports.tables.gas.cycle_speed import INSIDE, UNCHECKED
+from reports.tables.gas.cycle_ranges import UNCHECKED
 
 _MOST_DECIMALS = 8  # of values in passes
 
@@ -152,7 +153,11 @@ def _range_keys(terms: Terms) -> list[str]:
 
 def _outside(terms: Terms) -> list[Markup]:
     """What lies outside its usual limits, without its unit."""
-    keys = [key for key in _range_keys(terms) if terms.values.scalars[f"range_{key}"] != INSIDE]
+    inside = next(
+        block.verdicts[0] for block in terms.model.blocks
+        if isinstance(block, ScalarTable) and block.verdicts and block.id == "cycle_ranges"
+    )  # fmt: skip
+    keys = [key for key in _range_keys(terms) if terms.values.scalars[f"range_{key}"] != inside]
     notes = (terms.model.scalars[f"range_value_{key}"].note for key in keys)
     titles = (note.partition(": обычно ")[0].partition(", ")[0] for note in notes)
     return [titled_html(title[:1].lower() + title[1:]) for title in titles]

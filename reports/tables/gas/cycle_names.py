@@ -5,10 +5,6 @@ from __future__ import annotations
 from reports.inputs.sections.cycle import CycleSection
 from reports.inputs.sections.input_file import DesignGeometrySection, InputFile
 
-SHEET = "Цикл"
-SOURCE = "Гриневецкий и Мазинг"
-R = "8.315"  # kJ/(kmol·K), the method's constant; its 0 °C is 273 K
-
 # What the formulas of the indicator diagram call their parameters when the cycle gives them.
 GAS_NAMES = {
     "gas_intake_pressure_mpa": "cyc_p_a",
@@ -33,11 +29,6 @@ def cycle_stand_ins(model: InputFile) -> dict[str, str]:
 def sizes_are_found(model: InputFile) -> bool:
     """Whether bore and stroke follow from the wanted power."""
     return isinstance(model.geometry, DesignGeometrySection)
-
-
-def given(section: CycleSection, key: str, default: str) -> str:
-    """Name of an optional input, or its default where the file leaves it out."""
-    return default if getattr(section, key) is None else f"cycle_{key}"
 
 
 def is_boosted(section: CycleSection) -> bool:

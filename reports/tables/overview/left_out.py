@@ -6,13 +6,11 @@ from reports.inputs.sections.input_file import GeometrySection, InputFile
 from reports.spec.blocks import Block
 from reports.spec.parts import PartOf, Scope, joined
 from reports.spec.shape import Shape
-from reports.tables.balance.balance import balance
-from reports.tables.balance.inertia import inertia
-from reports.tables.balance.torque_orders import torque_orders
 from reports.tables.contexts import book
 
 _BY_ORDERS: tuple[PartOf, ...] = (
-    book("piston_motion"), balance, inertia, torque_orders,
+    book("piston_motion"), book("balance"), book("balance_orders"), book("firing"),
+    book("inertia"), book("torque_orders"),
 )  # fmt: skip
 
 

@@ -1,1 +1,0 @@
-"""Tables of balance, reduced inertia, torque orders and firing orders."""

@@ -1,0 +1,64 @@
+"""Usual ranges of the cycle's results and inputs, told in the words of the tables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from kshm.cycle.usual_ranges import usual_ranges
+from kshm.nomenclature.dizdn_listing import EXTRA, INPUTS, OUTPUTS
+from reports.inputs.sections.cycle import CycleSection
+from reports.shared.russian import short
+from reports.tables.gas.cycle_names import is_boosted
+
+UNCHECKED = "обычные значения, с книгой не сверены"
+
+# Where the results and inputs with a usual range stand among the scalars and inputs.
+_RANGE_NAMES = {
+    "inputs.excess_air": "cycle_excess_air",
+    "inputs.charge_heating": "cycle_charge_heating_k",
+    "inputs.t_residual": "cycle_residual_temperature_k",
+    "inputs.recharge": "cycle_recharge",
+    "inputs.scavenging": "cycle_scavenging",
+    "inputs.xi_z": "cycle_xi_z",
+    "inputs.xi_b": "cycle_xi_b",
+    "inputs.fullness": "cycle_fullness",
+    "charge.gamma": "cyc_gamma",
+    "charge.t_a": "cyc_T_a",
+    "charge.eta_v": "cyc_eta_v",
+    "compression.n_1": "cyc_n1",
+    "compression.p_c": "cyc_p_c",
+    "compression.t_c": "cyc_T_c",
+    "combustion.lambda_p": "cyc_lambda_p",
+    "combustion.t_z": "cyc_T_z",
+    "combustion.p_z": "cyc_p_z",
+    "expansion.n_2": "cyc_n2",
+    "expansion.p_b": "cyc_p_b",
+    "expansion.t_b": "cyc_T_b",
+    "effective.eta_m": "cyc_eta_m",
+    "indicated.p_i": "cyc_p_i",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class UsualRange:
+    """Limits [unit of the tables] of a scalar or an input, what they are of and from where."""
+
+    name: str
+    low: float
+    high: float
+    note: str
+    source: str
+
+
+def ranges_of(section: CycleSection) -> Iterator[UsualRange]:
+    """Usual ranges of a cycle of this kind."""
+    titles = {q.key: q for q in (*OUTPUTS, *EXTRA)}
+    titles |= {f"inputs.{q.key}": q for q in INPUTS}
+    for key, usual in usual_ranges(section.kind, boosted=is_boosted(section)).items():
+        about = titles[key]
+        unit = f", {about.unit}" if about.unit else ""
+        limits = f"{short(usual.low)}…{short(usual.high)}"
+        note = f"{about.title} {about.symbol.replace('_', '')}{unit}: обычно {limits}"
+        source = usual.reference or UNCHECKED
+        yield UsualRange(_RANGE_NAMES[key], usual.low, usual.high, note, source)

@@ -71,7 +71,7 @@ def names_of(scope: Scope, **further: object) -> Mapping[str, object]:
 
 
 def diagram_kind(gas: BaseModel) -> str:
-    """How the indicator diagram is drawn: by polytropes, rounded, by points joined smooth or not."""
+    """How the diagram is drawn: by polytropes, rounded, by points on smooth or straight lines."""
     if not isinstance(gas, TableGasSection):
         return "rounded" if isinstance(gas, RoundedGasSection) else "polytropic"
     return "smooth" if gas.interpolation == "monotone" else "straight"

@@ -5,13 +5,15 @@ from pathlib import Path
 
 from reports import tables
 from reports.formula.parse import AGGREGATES, FUNCTIONS, SCALES, SHIFTS
+from reports.shared.resources import templates_dir
 
-_CALL = re.compile(r"\b([a-z]\w*?)(_\{\w+\})?\(")  # sin(…), fourier_{part}(…)
+_CALL = re.compile(r"\b([a-z]\w*?)(_\{+ ?\w+ ?\}+)?\(")  # sin(…), fourier_{part}(…)
 
 
 def test_every_function_is_called_by_a_formula():
     """What nobody calls no comparison would see when it is wrong."""
-    texts = "".join(path.read_text() for path in Path(tables.__path__[0]).rglob("*.py"))
+    written = [*Path(tables.__path__[0]).rglob("*.py"), *(templates_dir() / "tables").glob("*.book")]
+    texts = "".join(path.read_text(encoding="utf-8") for path in written)
     calls = {(name, bool(ending)) for name, ending in _CALL.findall(texts)}
     called = {name for name, _ in calls}
     families = tuple(f"{name}_" for name, has_ending in calls if has_ending)

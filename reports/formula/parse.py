@@ -43,7 +43,11 @@ _COMPARISONS = (ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.Eq, ast.NotEq)
 
 
 class FormulaError(ValueError):
-    """An expression is not of the language."""
+    """An expression is not of the language; ``fragment`` is the part that is not."""
+
+    def __init__(self, what: str, fragment: str = "") -> None:
+        super().__init__(what)
+        self.fragment = fragment
 
 
 def is_known_function(name: str) -> bool:
@@ -61,7 +65,7 @@ def parse(text: str) -> ast.expr:
     try:
         tree = ast.parse(text.strip(), mode="eval").body
     except SyntaxError as error:
-        raise FormulaError(f"not an expression: {text!r} ({error.msg})") from error
+        raise FormulaError(f"not an expression: {text!r} ({error.msg})", text) from error
     _check(tree, text)
     return tree
 
@@ -96,8 +100,11 @@ def _check(node: ast.expr, text: str) -> None:
         _check(child, text)
 
 
-def _refuse(node: ast.AST, text: str) -> None:
-    raise FormulaError(f"not allowed in an expression: {ast.unparse(node)!r} in {text!r}")
+def _refuse(node: ast.expr, text: str) -> None:
+    raise FormulaError(
+        f"not allowed in an expression: {ast.unparse(node)!r} in {text!r}",
+        ast.get_source_segment(text.strip(), node) or "",
+    )
 
 
 @lru_cache(maxsize=4096)

@@ -179,3 +179,16 @@ def _place(mark: str) -> tuple[str, str]:
     """Book and number of a line."""
     book, _, number = mark.rpartition(":")
     return book, number
+
+
+def at_fragment(
+    line: BookLine, shelf: Shelf, what: str, hint: str = "", fragment: str = ""
+) -> BookError:
+    """A mistake in a line; its column is that of the fragment where it is written."""
+    source = shelf.source(line.book)[0].splitlines()
+    for number, written in enumerate(source[line.number - 1 :], line.number):
+        if fragment and fragment in written:
+            return BookError(line.book, number, written.index(fragment) + 1, what, hint)
+        if number > line.number and not written[:1].isspace():
+            break
+    return BookError(line.book, line.number, 1, what, hint)

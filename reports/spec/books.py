@@ -9,12 +9,20 @@ from functools import lru_cache, partial
 from typing import Any, TypeVar
 
 from kshm.arrays import Columns
+from kshm.nomenclature.quantity import UNITS
 from reports.formula.parse import FormulaError, parse
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.solved import solved
 from reports.spec.blocks import TURN, Block, Column, Grid, GridRow, Scalar, ScalarTable
 from reports.spec.blocks import TableSpec as Table
-from reports.spec.book_text import BookError, BookLine, Shelf, house_shelf, lines_of
+from reports.spec.book_text import (
+    BookError,
+    BookLine,
+    Shelf,
+    at_fragment,
+    house_shelf,
+    lines_of,
+)
 from reports.spec.chart_lines import ChartLines
 from reports.spec.charts import ChartSpec
 from reports.spec.extremes import extreme_columns, extreme_scalars
@@ -44,14 +52,25 @@ _HEADS = {
 }  # fmt: skip
 
 
-def read_book(name: str, names: Mapping[str, Any], shelf: Shelf | None = None) -> Part:
-    """Blocks and charts of a book for one engine; ``names`` is what its conditions may ask.
+def read_book(
+    name: str,
+    names: Mapping[str, Any],
+    shelf: Shelf | None = None,
+    places: dict[str, BookLine] | None = None,
+) -> Part:
+    """Blocks and charts of a book for one engine.
+
+    Args:
+        name: file of the book.
+        names: what its conditions may ask.
+        shelf: where books lie, those of the house if none is given.
+        places: takes the line of each scalar and ``table.column``.
 
     Raises:
         BookError: a mistake, with its line and column in the book.
     """
     shelf = shelf or house_shelf()
-    reader = _Reader(shelf, names)
+    reader = _Reader(shelf, names, places)
     for line in lines_of(name, shelf, names):
         reader.take(line)
     return reader.part()
@@ -74,8 +93,10 @@ class _Open:
 class _Reader:
     """Takes line after line and keeps the blocks."""
 
-    def __init__(self, shelf: Shelf, names: Mapping[str, Any]) -> None:
-        self._shelf, self._names = shelf, names
+    def __init__(
+        self, shelf: Shelf, names: Mapping[str, Any], places: dict[str, BookLine] | None
+    ) -> None:
+        self._shelf, self._names, self._places = shelf, names, places
         self._sheet = ""
         self._blocks: list[Block] = []
         self._charts: list[ChartSpec] = []
@@ -95,8 +116,9 @@ class _Reader:
         except BookError:
             raise
         except FormulaError as error:
-            raise self._fault(f"формула не разобрана: {error}",
-                              "язык формул — в docs/books.md", line.text) from error  # fmt: skip
+            part = error.fragment
+            raise self._fault(f"в формуле не разобрано «{part}»",
+                              "язык формул — в docs/books.md", part) from error  # fmt: skip
         except KeyError as error:
             key = str(error.args[0]) if error.args else ""
             raise self._fault(f"величина «{key}» неизвестна",
@@ -115,9 +137,7 @@ class _Reader:
         elif isinstance(self._open, ChartLines):
             self._open = self._open.take(word, rest)
         elif self._open is None:
-            raise self._fault(
-                f"строка «{text}» стоит вне таблицы", "начните с list, table или grid"
-            )
+            raise self._fault(f"строка «{text}» стоит вне блока", "начните с list, table или grid")
         else:
             self._body(self._open, word, rest, text)
 
@@ -147,11 +167,7 @@ class _Reader:
         elif word == "extremes" and block.word in ("list", "table"):
             self._extremes(block, rest)
         elif block.word == "allowed":
-            node = self._scalar(text)
-            block.scalars += judged(
-                f"value_{node.key}", f"allowed_{node.key}", node.expr or "",
-                f"{{value}} {block.about['limit']}", node.source, "сравнение с допускаемым",
-            )  # fmt: skip
+            block.scalars += self._allowed(block, text)
         elif word == "check" and block.word == "list":
             block.scalars += self._check(block, rest)
         elif block.word == "grid":
@@ -186,6 +202,16 @@ class _Reader:
         words = self._words(block)
         return judged(own, verdict, value, test, title, source or "проверка", words or (YES, NO))
 
+    def _allowed(self, block: _Open, text: str) -> tuple[Scalar, Scalar]:
+        """``KEY = value | title``, held to the limit of the heading."""
+        found = re.fullmatch(r"(\w+) = (.*?) \| (.*)", text)
+        if found is None:
+            raise self._fault(f"строка «{text}» не разобрана", "пишите ИМЯ = ВЕЛИЧИНА | ЧТО ЭТО")
+        key, value, title = found.groups()
+        own, limit = f"value_{key}", block.about["limit"]
+        return judged(own, f"allowed_{key}", value, f"{own} {limit}", title,
+                      "сравнение с допускаемым")  # fmt: skip
+
     def _words(self, block: _Open) -> tuple[str, str] | None:
         if not block.about["verdicts"]:
             return None
@@ -201,6 +227,9 @@ class _Reader:
         if node.expr is not None and not node.source:
             raise self._fault(f"у «{node.key}» нет источника",
                               "после черты | назовите источник или -", node.key)  # fmt: skip
+        if self._places is not None and isinstance(self._open, _Open):
+            table = f"{self._open.about['id']}." if isinstance(node, Column) else ""
+            self._places[f"{table}{node.key}"] = self._line
         return replace(node, source="") if node.source == "-" else node
 
     def _close(self) -> None:
@@ -238,15 +267,8 @@ class _Reader:
         )  # fmt: skip
 
     def _fault(self, what: str, hint: str = "", fragment: str = "") -> BookError:
-        """A mistake in the line taken; its column is that of the fragment where it is written."""
-        book, number = self._line.book, self._line.number
-        source = self._shelf.source(book)[0].splitlines()
-        for further, written in enumerate(source[number - 1 :], number):
-            if fragment and fragment in written:
-                return BookError(book, further, written.index(fragment) + 1, what, hint)
-            if further > number and not written[:1].isspace():
-                break
-        return BookError(book, number, 1, what, hint)
+        """A mistake in the line taken."""
+        return at_fragment(self._line, self._shelf, what, hint, fragment)
 
 
 def solved_columns(table: str, model: InputFile) -> Columns:
@@ -284,7 +306,11 @@ def _known(node: Kind) -> Kind:
     """
     if node.expr is not None:
         parse(node.expr)
-    _ = node.quantity
+    unit, said = node.quantity.unit, node.key.rpartition("_")[2]
+    if node.of and said in UNITS and unit in UNITS and said != unit:
+        raise ValueError(
+            f"у «{node.of}» единица {unit or 'безразмерная'}, а у ключа «{node.key}» {said}"
+        )
     return node
 
 

@@ -14,8 +14,12 @@ from reports.spec.parts import Scope, joined
 from reports.tables import contexts
 
 
+import ast, functools
+
+
+@functools.cache
 def bare(e):
-    return None if e is None else e.replace("( ", "(").replace(" )", ")")
+    return None if e is None else ast.unparse(ast.parse(e.strip(), mode="eval"))
 
 
 def named(n):

@@ -283,7 +283,7 @@ def _scalar(text: str, *, named: bool) -> Scalar | None:
     if found is None or found["helper"] or found["expr"] is None:
         return None
     of = found["of"] or (found["key"] if named else "")
-    return _known(Scalar(found["key"], found["expr"], found["source"] or "", of=of,
+    return _known(Scalar(found["key"], found["expr"].strip(), found["source"] or "", of=of,
                          every=found["every"] or TURN, note=found["note"] or ""))  # fmt: skip
 
 
@@ -293,7 +293,8 @@ def _column(text: str) -> Column | None:
     found = _VALUE.fullmatch(text)
     if found is None:
         return None
-    return _known(Column(found["key"], found["expr"], found["source"] or "", of=found["of"] or "",
+    expr = found["expr"] and found["expr"].strip()
+    return _known(Column(found["key"], expr, found["source"] or "", of=found["of"] or "",
                          every=found["every"] or TURN, helper=bool(found["helper"])))  # fmt: skip
 
 

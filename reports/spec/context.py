@@ -10,6 +10,7 @@ from typing import get_args
 from pydantic import BaseModel
 
 from kshm.nomenclature.quantity import ray_key, roman
+from reports.inputs.sections.gas import RoundedGasSection, TableGasSection
 from reports.shared.russian import short
 from reports.spec import shape
 from reports.spec.extremes import TIE
@@ -55,6 +56,7 @@ def names_of(scope: Scope, **further: object) -> Mapping[str, object]:
         "given": InputView(scope.input, whether=True),
         "value": InputView(scope.input, whether=False),
         "forced": scope.forced,
+        "diagram": diagram_kind(scope.input.gas),
         "turn": scope.turn,
         "cycle": scope.cycle,
         **{name: getattr(shape, name) for name in _SHAPE},
@@ -68,9 +70,16 @@ def names_of(scope: Scope, **further: object) -> Mapping[str, object]:
     }
 
 
+def diagram_kind(gas: BaseModel) -> str:
+    """How the diagram is drawn: by polytropes, rounded, by points on smooth or straight lines."""
+    if not isinstance(gas, TableGasSection):
+        return "rounded" if isinstance(gas, RoundedGasSection) else "polytropic"
+    return "smooth" if gas.interpolation == "monotone" else "straight"
+
+
+_SHAPE = ("pin_table", "rays_table", "pin_figure", "pin_name", "rods_table", "central_volume_ratio")
+
+
 def each(text: str, members: Iterable[object], between: str = ", ") -> str:
     """The text for every number or name, which is ``@`` in it: arguments, or terms of a sum."""
     return between.join(text.replace("@", str(member)) for member in members)
-
-
-_SHAPE = ("pin_table", "rays_table", "pin_figure", "pin_name", "rods_table")

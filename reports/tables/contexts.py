@@ -15,6 +15,9 @@ from kshm.cycle.speed_characteristic import IDLE_SHARE, LEIDERMAN
 from kshm.mechanics.pin_bearing import PLANES
 from kshm.mechanics.rod_masses import BORES, PISTON, ROD, STROKE_BORE, THROW
 from reports.inputs.sections.cycle import PUMPING, ROUNDINGS
+from reports.inputs.sections.gas import RoundedGasSection
+from reports.inputs.sections.input_file import METHODS
+from reports.inputs.to_si.gas import places
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, to_estimate
 from reports.inputs.units import MM
 from reports.spec.books import read_book
@@ -23,7 +26,7 @@ from reports.spec.parts import Part, PartOf, Scope
 from reports.spec.shape import pin_figure, pin_name, pin_table, rays_table
 from reports.tables.gas.cycle_names import section_of, sizes_are_found
 from reports.tables.gas.cycle_ranges import ranges_of
-from reports.tables.motion.expressions import USUAL_SHARE, is_usual_share
+from reports.tables.rod_share import USUAL_SHARE, is_usual_share
 
 Bounds = tuple[float, float]
 
@@ -142,9 +145,27 @@ def _widest(bounds: Iterable[Bounds]) -> Bounds:
     return min(lows), max(highs)
 
 
+def _cylinders(scope: Scope) -> dict[str, Any]:
+    """Cylinders after the first, then all in the phases that reproduce the printed П4.3."""
+    numbers = scope.shape.numbers
+    forced = [(i, True) for i in numbers] if scope.forced else []
+    return {"shifted": [*((i, False) for i in numbers[1:]), *forced], "exact": METHODS["exact"]}
+
+
+def _rounded(scope: Scope) -> dict[str, Any]:
+    """Places of a rounded diagram that a file need not give."""
+    gas = scope.input.gas
+    if not isinstance(gas, RoundedGasSection):
+        return {}
+    share, peak, join = places(gas)
+    return {"usual_share": share, "usual_peak": peak, "usual_join": join}
+
+
 # Names that one book has besides the common ones.
 _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
     "bearings": lambda _: {"planes": PLANES},
+    "cylinders": _cylinders,
+    "gas": _rounded,
     "cycle": _cycle,
     "cycle_results": _cycle,
     "cycle_speed": _cycle,

@@ -13,9 +13,7 @@ from reports.spec.parts import Part, PartOf, Scope, joined
 from reports.spec.rename import sized, substituted
 from reports.tables.contexts import book
 from reports.tables.gas.cycle_names import cycle_stand_ins
-from reports.tables.gas.indicator import indicator
 from reports.tables.loads.comparison import comparison
-from reports.tables.loads.cylinder import cylinders
 from reports.tables.loads.regimes import regime_models
 from reports.tables.oil.film import film
 from reports.tables.oil.orbit import orbit
@@ -34,7 +32,7 @@ BEFORE: tuple[PartOf, ...] = (
 # Chapters 1 and 2: all that speed and gas decide, and more; every regime has them.
 CHAIN: tuple[PartOf, ...] = (
     book("mechanism"), book("rod_masses"), book("kinematics"),
-    book("articulated"), indicator, cylinders,
+    book("articulated"), book("gas"), book("cylinders"),
     book("torques"), book("crankpins"), book("throws"), book("journals"),
     book("wear"), book("summary"),
 )  # fmt: skip

@@ -11,7 +11,7 @@ from reports.inputs.load import load_toml
 from reports.shared.resources import samples_dir
 from reports.spec.blocks import Grid, ScalarTable, TableSpec
 from reports.spec.book_check import book_faults
-from reports.spec.book_text import BookError, BookLine, Shelf
+from reports.spec.book_text import BookError, BookLine, Shelf, house_shelf
 from reports.spec.books import read_book
 from reports.spec.context import names_of
 from reports.spec.parts import Part, Scope
@@ -29,7 +29,9 @@ def read(
     text: str, folder: Path, scope: Scope | None = None, **places: dict[str, BookLine]
 ) -> Part:
     (folder / "own.book").write_text(text, encoding="utf-8")
-    return read_book("own.book", names_of(scope or scope_of()), Shelf((folder,)), **places)
+    return read_book(
+        "own.book", names_of(scope or scope_of()), Shelf((folder, *house_shelf().folders)), **places
+    )
 
 
 @pytest.mark.parametrize("number", range(len(EXAMPLES)))

@@ -18,9 +18,9 @@ from reports.document.text.texcases import cases
 from reports.document.text.texts import rich
 from reports.inputs.sections.gas import RoundedGasSection, TableGasSection
 from reports.shared.russian import fixed
-from reports.spec.blocks import ScalarTable
+from reports.spec.blocks import Grid, ScalarTable
+from reports.spec.context import diagram_kind
 from reports.spec.judged import NO
-from reports.tables.gas.diagram import NODES, is_smooth
 
 _POINTS = (
     "phi_c_deg", "p_start", "p_c_end", "gas_max_pressure_mpa", "cyc_p_z",
@@ -39,7 +39,7 @@ def dynamics(chapter: Chapter) -> Markup:
         points=chapter.scalars("Характерные точки индикаторной диаграммы", _POINTS, keep=True),
         polytropic=polytropic,
         rounded=partial(_rounded_text, chapter),
-        smooth=is_smooth(chapter.input),
+        smooth=diagram_kind(chapter.input.gas) == "smooth",
         pressure=_pressure_tex(terms) if polytropic else "",
         pressure_at=partial(_pressure_at, terms),
         masses=[key for key in ("m_1", "m_2", "m_j") if _is_computed(chapter, key)],
@@ -98,11 +98,12 @@ def _rounded_text(chapter: Chapter) -> Markup:
 
 
 def _nodes(terms: Terms) -> TableBlock:
+    nodes = next(b for b in terms.model.blocks if isinstance(b, Grid) and b.id == "nodes")
     wanted = (("node_deg{}", 1), ("node_MPa{}", 3), ("node_slope{}", 4))
     rows = [
         [name.replace("′", "'").replace("″", "''"),
          *(fixed(terms.value(key.format(n)), digits) for key, digits in wanted)]
-        for n, name in enumerate(NODES, 1)
+        for n, name in enumerate(nodes.labels, 1)
     ]  # fmt: skip
     heads = ("φ, °", "p, МПа", "Наклон, МПа/°")
     return table_block([Column("Точка", text=True), *map(Column, heads)], rows)

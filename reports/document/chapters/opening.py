@@ -22,8 +22,8 @@ from reports.inputs.fields import Field
 from reports.inputs.sections.gas import TableGasSection
 from reports.inputs.sections.input_file import InputFile
 from reports.shared.russian import joined
+from reports.spec.context import diagram_kind
 from reports.spec.shape import Shape
-from reports.tables.gas.diagram import is_smooth
 from reports.tables.overview.unused import unused
 
 _LISTS = ("firing_offset_", "throw_angle_", "force_offset_", "web_", "gas_point_")
@@ -124,7 +124,7 @@ def input_data(chapter: Chapter) -> Markup:
             "Размеры, мм: а — колено вала; б — кривошипно-шатунный механизм",
         ),
         by_points=isinstance(model.gas, TableGasSection),
-        smooth=is_smooth(model),
+        smooth=diagram_kind(model.gas) == "smooth",
     )
 
 

@@ -163,7 +163,10 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
     known = {key for key, _ in reader.warnings}  # a line for each key
     odd = [*check_plausibility(model, sizes_of(model, found)), *check_signs(model)]
     reader.take(finding for finding in odd if key_text(finding.path) not in known)
-    return reader.loaded(model)
+    loaded = reader.loaded(model)
+    if reader.problems:  # what else is odd may be the cause
+        raise InputError([*reader.problems, *loaded.warnings])
+    return loaded
 
 
 def load_apart(raw: Mapping[str, Any]) -> Loaded:

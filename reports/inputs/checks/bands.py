@@ -201,7 +201,7 @@ LARGE_SIZES = Band("geometry", "", "S/D", *usual.STROKE_TO_BORE)  # crosshead en
 LARGE_BORE_MM = 250.0
 SPEED = Band("regime.speed_rpm", "", "средняя скорость поршня Sn/30", *usual.MEAN_SPEED, unit="м/с")
 LOWER_SPEED = Band("regimes.speed_rpm", "", "частота вращения к номинальной", 0.12, 1.19)
-PIN_LENGTH = Band("crankshaft.pin_length_mm", "", "l_шш/d_шш", 0.25, 1.2)
+PIN_LENGTH = Band("crankshaft.pin_length_mm", "", "l_шш/d_шш под шатуном", 0.25, 1.2)
 MAIN_LENGTH = Band("crankshaft.main_lengths_mm", "", "l_к.ш/d_к.ш", 0.2, 1.6)
 MAIN_TO_PIN = Band("crankshaft.main_diameter_mm", "", "d_кш/d_шш", 0.97, 1.75)
 REDUCED_WEB = Band("crankshaft.webs.centre_mm", "F", "m_щ·ρ/r/F_п", 26, 255, unit="кг/м²")

@@ -12,12 +12,14 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from kshm.engine.arrangement import rods_beside
 from reports.inputs.checks import bands
 from reports.inputs.checks.bands import BANDS, Band
-from reports.inputs.checks.room import check_neighbours, check_room
+from reports.inputs.checks.room import check_neighbours, check_one_rod, check_room
 from reports.inputs.checks.train import train_values
 from reports.inputs.checks.volume import volume_ratio
 from reports.inputs.findings import Finding, Path
+from reports.inputs.firing import arrangement_of
 from reports.inputs.sections.gas import CycleGasSection, GasSection, TableGasSection
 from reports.inputs.sections.input_file import InputFile, Regime
 from reports.inputs.to_si.geometry import Sizes
@@ -187,12 +189,15 @@ def _efficiency(model: InputFile) -> Iterator[Finding]:
 # --- journals and webs ---
 def _shaft(model: InputFile, sizes: Sizes) -> Iterator[Finding]:
     pins, mains = _entries(model, bands.PIN_DIAMETERS), _entries(model, bands.MAIN_DIAMETERS)
-    for keys, band, diameters in (
-        (bands.PIN_LENGTHS, bands.PIN_LENGTH, pins),
-        (("main_lengths_mm",), bands.MAIN_LENGTH, mains),
+    rods, one_rod = rods_beside(arrangement_of(model), 0), list(check_one_rod(model))
+    yield from one_rod
+    for keys, band, diameters, shared in (
+        (() if one_rod else bands.PIN_LENGTHS, bands.PIN_LENGTH, pins, rods),
+        (("main_lengths_mm",), bands.MAIN_LENGTH, mains, 1),
     ):
         for index, (path, length) in enumerate(_entries(model, keys)):
-            yield from _judged(path, band, length / diameters[min(index, len(diameters) - 1)][1])
+            diameter = diameters[min(index, len(diameters) - 1)][1]
+            yield from _judged(path, band, length / shared / diameter)
     path, main = max(mains, key=lambda entry: entry[1])
     yield from _judged(path, bands.MAIN_TO_PIN, main / max(pin for _, pin in pins))
     for index, web in enumerate(model.crankshaft.webs):

@@ -142,12 +142,13 @@ def _main_journals(model: InputFile, count: int) -> tuple[str, str]:
     return f"(of_mm({' + '.join(sizes)})/{count})", f"pi/32*({' + '.join(each)})/{count}*{_STEEL}"
 
 
-def _throw(number: int, d_k: str) -> list[str]:
+def _throw(number: int, d_k: str, parts: int) -> list[str]:
     """Lines of a throw: web's height and mass, inertia of its pin, of a web, of itself."""
     d_sh, length = f"of_mm(pin_diameter_{number}_mm)", f"of_mm(pin_length_{number}_mm)"
     end = "" if number == 1 else f"_throw{number}"
     bore = "2*sqrt(F_piston/pi)"
     high, heavy = f"web_height{end}", f"web_weight{end}"
+    pins = f"I_pin{end}" if parts == 1 else f"{parts}*I_pin{end}"
     pin = f"pi*{d_sh}**4/32*{length}*{_STEEL} + pi*{d_sh}**2/4*{length}*{_STEEL}*r_crank**2"
     web = f"{heavy}/12*({high}**2 + (balance_web_width_share*{bore})**2) + {heavy}*r_crank**2/4"
     return [
@@ -156,7 +157,7 @@ def _throw(number: int, d_k: str) -> list[str]:
         f"*({bore})**2*{_STEEL} | Ильченко, под (34)",
         f"I_pin{end} of I_pin = {pin} | Ильченко (33), d⁴",
         f"I_web{end} of I_web = {web} | Ильченко (34), толщина h",
-        f"I_crank{end} of I_crank = I_main + I_pin{end} + 2*I_web{end} | Ильченко (35)",
+        f"I_crank{end} of I_crank = I_main + {pins} + 2*I_web{end} | Ильченко (35)",
     ]
 
 
@@ -176,7 +177,7 @@ def _parts(model: InputFile, shape: Shape) -> ScalarTable:
     lengths = len(model.crankshaft.main_lengths_mm)
     d_k, main = _main_journals(model, lengths)
     own = range(2, shape.throws + 1) if shape.own_pins else ()
-    throws = [line for i in (1, *own) for line in _throw(i, d_k)]
+    throws = [line for i in (1, *own) for line in _throw(i, d_k, shape.parts)]
     webs = " + ".join(f"throw{i}_weights_kg" for i in range(1, lengths))
     return ScalarTable(
         "inertia_parts",
@@ -249,10 +250,11 @@ def _results(shape: Shape) -> ScalarTable:
     )
 
 
-def _rod_model() -> ScalarTable:
+def _rod_model(rods: int) -> ScalarTable:
     """Rod from the bore: (20)-(31) with the middle of table 1's ranges."""
     area = "({h}*rm_width - (rm_width - rm_wall)*({h} - 2*rm_wall))"
     r, big = "rod_model_small", "rod_model_big"
+    wide = "of_mm(pin_length_1_mm)" + (f"/{rods}" if rods > 1 else "")
     scalars = [
         *scalar_list(f"""
             rm_small_bore = 0.25*2*sqrt(F_piston/pi) | табл. 1: (0,22…0,28)D
@@ -268,13 +270,13 @@ def _rod_model() -> ScalarTable:
             rm_span = L_rod - rm_cap - rm_small_outer/2 | Ильченко, под (21)
             rm_m_small = {_STEEL}*pi*rm_small_length*((rm_small_outer/2)**2 - (rm_small_bore/2)**2)
                 | Ильченко (30), lш и dн
-            rm_m_big = {_STEEL}*pi*of_mm(pin_length_1_mm)*(rm_cap**2
+            rm_m_big = {_STEEL}*pi*{wide}*(rm_cap**2
                 - (of_mm(pin_diameter_1_mm)/2)**2) | Ильченко (30)
             rm_m_shank = {_STEEL}*pi/3*rm_span*({big}**2 + {r}**2 + {big}*{r}) | Ильченко (30)
             rod_model_mass = rm_m_small + rm_m_big + rm_m_shank | Ильченко (30)
             rm_I_small = {_STEEL}*pi/2*rm_small_length*((rm_small_outer/2)**4
                 - (rm_small_bore/2)**4) | Ильченко (20)
-            rm_I_big = {_STEEL}*pi/2*of_mm(pin_length_1_mm)*(rm_cap**4
+            rm_I_big = {_STEEL}*pi/2*{wide}*(rm_cap**4
                 - (of_mm(pin_diameter_1_mm)/2)**4) | Ильченко (20)
             rm_I_shank = {_STEEL}*pi/20*({big}**5 - {r}**5)*rm_span/({big} - {r})
                 + {_STEEL}*pi*rm_span**3/30*({big}**2 + 6*{r}**2 + 3*{big}*{r}) | Ильченко (28)
@@ -306,7 +308,7 @@ def inertia(scope: Scope) -> Part:
     if shape.articulated:
         return Part()
     table, parts = _table(shape, scope.cycle), _parts(scope.input, shape)
-    return Part((table, _results(shape), parts, _rod_model()), _charts(shape))
+    return Part((table, _results(shape), parts, _rod_model(shape.rods_beside)), _charts(shape))
 
 
 def _charts(shape: Shape) -> tuple[ChartSpec, ...]:

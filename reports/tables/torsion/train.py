@@ -220,7 +220,7 @@ def _scheme(train: Train, shape: Shape, section: TorsionSection) -> Grid:
 def _compliances(shape: Shape, section: TorsionSection) -> Grid:
     """Twist of every throw under a unit torque by the three formulas."""
     numbers = range(1, shape.throws + 1)
-    sizes = [_sizes(k, section) for k in numbers]
+    sizes = [_sizes(k, section, shape.parts) for k in numbers]
     rows = [
         grid_row(f"tor_{key}", (size[key] for size in sizes), source, f"tor{key}{{n}}")
         for key, source in _SIZES.items()
@@ -244,6 +244,7 @@ def _compliances(shape: Shape, section: TorsionSection) -> Grid:
         note=(
             "Формулы приведённой длины Кер-Вильсона, Картера и Зиманенко записаны по памяти и не "
             "сверены с первоисточником; они расходятся на 10–30 %, поэтому показаны все три."
+            + (_PARTS if shape.parts > 1 else "")
         ),
     )
 
@@ -256,7 +257,7 @@ _SIZES = {
 }  # fmt: skip
 
 
-def _sizes(k: int, section: TorsionSection) -> dict[str, str]:
+def _sizes(k: int, section: TorsionSection, pins: int) -> dict[str, str]:
     """Sizes of a throw [m] and what they resist to a twist [m⁴] as expressions."""
     left, right = f"throw_{k}_left_web_mm", f"throw_{k}_right_web_mm"
     thickness = "of_mm(torsion_web_thickness_mm)"
@@ -268,11 +269,12 @@ def _sizes(k: int, section: TorsionSection) -> dict[str, str]:
     width = "of_mm(torsion_web_width_mm)"
     if section.web_width_mm is None:
         width = f"balance_web_width_share*{_BORE}"
+    length = f"of_mm(pin_length_{k}_mm)"
     return {
         "Dj": f"of_mm((main_diameter_{k}_mm + main_diameter_{k + 1}_mm)/2)",
         "Lj": f"of_mm((main_length_{k}_mm + main_length_{k + 1}_mm)/2)",
         "Dp": f"of_mm(pin_diameter_{k}_mm)",
-        "Lp": f"of_mm(pin_length_{k}_mm)",
+        "Lp": length if pins == 1 else f"{pins}*{length}",
         "hw": thickness,
         "bw": width,
         "Ij": f"torDj{k}**4 - of_mm(torsion_main_bore_mm)**4",
@@ -281,6 +283,10 @@ def _sizes(k: int, section: TorsionSection) -> dict[str, str]:
     }
 
 
+_PARTS = (
+    " Половины шеек сдвинуты: их длины сложены, податливость перехода между ними в формулах "
+    "не учтена."
+)
 _WHOLE = "({})/(of_MPa(torsion_shear_modulus_mpa)*pi/32)"
 _LENGTHS = {
     "wilson": _WHOLE.format(

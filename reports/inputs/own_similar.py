@@ -14,6 +14,7 @@ from typing import Any
 
 from kshm.engine.arrangement import rods_beside
 from reports.inputs.checks.bands import BANDS
+from reports.inputs.checks.kind import stated_kind
 from reports.inputs.fields import to_mapping
 from reports.inputs.firing import arrangement_of
 from reports.inputs.own_carried import TRAIN_LEFT, Grown, carried
@@ -130,12 +131,8 @@ def alternative(
 
 def kind_of(model: InputFile) -> str:
     """Diesel or petrol as the file says it, else by the compression ratio."""
-    if model.cycle is not None:
-        return model.cycle.kind
-    known = getattr(model.gas, "kind", None) or model.masses.estimate_fuel
-    if known is not None:
-        return str(known)
-    return "diesel" if model.geometry.compression_ratio >= _DIESEL_RATIO else "petrol"
+    burnt = "diesel" if model.geometry.compression_ratio >= _DIESEL_RATIO else "petrol"
+    return stated_kind(model) or burnt
 
 
 def _shaft(

@@ -18,6 +18,7 @@ from kshm.mechanics.torsion import Complex, Modes
 from kshm.mechanics.torsion_response import Damper, Response
 from kshm.mechanics.torsional_train import Train
 from kshm.results.case import Case
+from kshm.results.gas import peak_pressure
 
 MOST_MODES = 3
 LAST_ORDER = 12.0
@@ -150,8 +151,7 @@ class Study:
         gas = np.ones_like(omega)
         if self.asked.peaks:
             speeds, pressures = zip(*self.asked.peaks, strict=True)
-            greatest = self.case.raw.p[self.case.index, 0].max()
-            gas = np.interp(omega, speeds, pressures) / greatest
+            gas = np.interp(omega, speeds, pressures) / peak_pressure(self.case)
         return gas, (omega / self.case.engine.omega) ** 2
 
     @cached_property

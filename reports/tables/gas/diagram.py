@@ -33,6 +33,15 @@ def is_smooth(model: InputFile) -> bool:
     return isinstance(model.gas, TableGasSection) and model.gas.interpolation == "monotone"
 
 
+def peak_pressure(model: InputFile) -> str:
+    """Largest pressure [MPa] of the diagram itself, between the rows of its table too."""
+    if isinstance(model.gas, RoundedGasSection):
+        return "col_max(nodes.node_MPa)"
+    if isinstance(model.gas, TableGasSection):
+        return "element(gas_points_mpa, first_largest(gas_points_mpa))"
+    return "max(gas_max_pressure_mpa, p_start)"
+
+
 def process_columns(parts: dict[str, str]) -> tuple[Column, ...]:
     """Helper columns from which a pressure is put together."""
     return tuple(Column(key, text, "Гоц, 2.4", helper=True) for key, text in parts.items())

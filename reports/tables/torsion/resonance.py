@@ -128,7 +128,7 @@ def _helpers(train: Train, section: TorsionSection) -> str:
 
 def _scale(m: int, points: int) -> list[str]:
     """The peak of the pressure at the critical speed over that of the diagram."""
-    why, most = "давления по частоте вращения", "col_max(gas.p_MPa)"
+    why, most = "давления по частоте вращения", "tor_diagram_MPa"
     if points < 2:
         return [f"tor_scale{m} = {'1' if not points else f'torpeakp1/{most}'} | {why}"]
     n, p = "torsion_peaks.tor_peak_rpm", "torsion_peaks.tor_peak_MPa"

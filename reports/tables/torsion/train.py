@@ -15,6 +15,7 @@ from reports.spec.blocks import Block, Grid, GridRow, Scalar, ScalarTable
 from reports.spec.listing import grid_row, scalar_list
 from reports.spec.parts import Part, Scope
 from reports.spec.shape import Shape
+from reports.tables.gas.diagram import peak_pressure
 
 SHEET, RESULTS = "Крутильная схема", "Крутильные итоги"
 GIVEN, GUESS, MEMORY = "задано", "оценка, без источника", "по памяти, без источника"
@@ -326,6 +327,11 @@ def _list(train: Train, section: TorsionSection, scope: Scope) -> ScalarTable:
             _speed("tor_n_min", "speed_min_rpm", section, LEAST_SPEED),
             _speed("tor_n_max", "speed_max_rpm", section, MOST_SPEED),
             f"tor_limit = sqrt(max({bounds})) | теорема Гершгорина",
+            *(
+                [f"tor_diagram_MPa = {peak_pressure(scope.input)} | индикаторная диаграмма"]
+                if section.peaks
+                else []
+            ),
         ),
     )  # fmt: skip
 

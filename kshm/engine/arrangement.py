@@ -150,9 +150,7 @@ def pin_counts(arrangement: Arrangement) -> tuple[int, ...]:
 def rods_beside(arrangement: Arrangement, cylinder: int) -> int:
     """Rods side by side on a cylinder's (from 0) crankpin; articulated rods take none of it."""
     own = arrangement[cylinder]
-    return sum(
-        c.master is None for c in arrangement if (c.throw, c.pin) == (own.throw, own.pin)
-    )
+    return sum(c.master is None for c in arrangement if (c.throw, c.pin) == (own.throw, own.pin))
 
 
 def throws(arrangement: Arrangement) -> tuple[tuple[int, ...], ...]:

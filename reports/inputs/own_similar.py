@@ -186,9 +186,7 @@ def _rods(model: InputFile, layout: str) -> float:
     return rods_of(layout) / rods_beside(arrangement_of(model), 0)
 
 
-def _grown(
-    model: InputFile, layout: str, sizes: ShaftSizes, linear: float, faster: float
-) -> Grown:
+def _grown(model: InputFile, layout: str, sizes: ShaftSizes, linear: float, faster: float) -> Grown:
     """The new shaft over the old one, along a pin that of one rod."""
     old = model.crankshaft
     before = sum(old.main_lengths_mm) / len(old.main_lengths_mm)

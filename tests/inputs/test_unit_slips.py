@@ -1,4 +1,4 @@
-"""A value in another unit is never silent: whole files as they stand, what they accept with them."""
+"""A value in another unit is never silent: in whole files, with what they accept."""
 
 from __future__ import annotations
 

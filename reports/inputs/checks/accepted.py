@@ -25,7 +25,7 @@ def accepted_keys(entries: Iterable[Accepted]) -> Keys:
 
 
 def apart(entries: Iterable[Entry], accepted: Keys) -> list[list[Entry]]:
-    """Entries by their path as groups of a line each: the accepted ones alone, the rest together."""
+    """Entries by their path in groups of a line each: accepted ones alone, the rest together."""
     groups, rest = list[list[Entry]](), list[Entry]()
     for entry in entries:
         if key_text(entry[0]) in accepted:

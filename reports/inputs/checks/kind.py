@@ -5,7 +5,7 @@ from __future__ import annotations
 from reports.inputs.sections.input_file import InputFile
 
 # Combustion at a constant pressure; what is usual of spark ignition stays below.
-DIESEL_RHO = 1.2
+_DIESEL_RHO = 1.2
 _WORDS = {
     "diesel": ("дизел", "diesel"),
     "petrol": ("бензин", "искров", "карбюратор", "petrol", "gasoline"),
@@ -24,7 +24,7 @@ def stated_kind(model: InputFile) -> str:
     return named[0] if len(named) == 1 else ""
 
 
-def burns_as_diesel(model: InputFile) -> bool:
-    """Whether only the diagram's ρ says that this is a diesel."""
-    rho = getattr(model.gas, "preexpansion_ratio", None)
-    return not stated_kind(model) and rho is not None and float(rho) >= DIESEL_RHO
+def diesel_rho(model: InputFile) -> float:
+    """The diagram's ρ where it alone says that this is a diesel, else 0."""
+    rho = float(getattr(model.gas, "preexpansion_ratio", None) or 0)
+    return rho if rho >= _DIESEL_RHO and not stated_kind(model) else 0.0

@@ -16,7 +16,7 @@ from kshm.engine.arrangement import rods_beside
 from reports.inputs.checks import bands
 from reports.inputs.checks.accepted import Keys, apart
 from reports.inputs.checks.bands import BANDS, Band
-from reports.inputs.checks.kind import burns_as_diesel, stated_kind
+from reports.inputs.checks.kind import diesel_rho, stated_kind
 from reports.inputs.checks.room import check_neighbours, check_one_rod, check_room
 from reports.inputs.checks.train import train_values
 from reports.inputs.checks.volume import volume_ratio
@@ -134,10 +134,9 @@ def _finding(path: Path, band: Band, value: float, others: int = 0) -> Finding:
 
 def _burning(model: InputFile) -> Iterator[Finding]:
     """The compression ratio of a diesel that only its ρ makes one."""
-    ratio = _ratio(model)
-    if burns_as_diesel(model) and not is_within(ratio, (bands.DIESEL.low, bands.DIESEL.high)):
-        rho = _short(float(getattr(model.gas, "preexpansion_ratio")))
-        what = f"ε = {_short(ratio)} необычно для дизеля, о котором говорит ρ = {rho}"
+    ratio, rho = _ratio(model), diesel_rho(model)
+    if rho and not is_within(ratio, (bands.DIESEL.low, bands.DIESEL.high)):
+        what = f"ε = {_short(ratio)} необычно для дизеля, о котором говорит ρ = {_short(rho)}"
         span = f"обычно от {_short(bands.DIESEL.low)} до {_short(bands.DIESEL.high)}"
         hint = f"{span}; если двигатель бензиновый, назовите его так в engine.name"
         yield Finding(("geometry", "compression_ratio"), what, hint, warning=True)

@@ -37,7 +37,7 @@ def normal(b):
             )
             for r in b.rows
         )
-        return replace(b, rows=rows)
+        return replace(b, rows=rows, note=b.note.strip())
     if isinstance(b, TableSpec):
         return replace(
             b,

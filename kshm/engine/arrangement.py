@@ -139,6 +139,20 @@ def pins(arrangement: Arrangement) -> tuple[tuple[int, ...], ...]:
     )
 
 
+def pin_counts(arrangement: Arrangement) -> tuple[int, ...]:
+    """Crankpins of every throw from the nose: more than one, in series, where they are split."""
+    places = {(c.throw, c.pin) for c in arrangement}
+    return tuple(
+        sum(throw == number for throw, _ in places) for number in range(len(throws(arrangement)))
+    )
+
+
+def rods_beside(arrangement: Arrangement, cylinder: int) -> int:
+    """Rods side by side on a cylinder's (from 0) crankpin; articulated rods take none of it."""
+    own = arrangement[cylinder]
+    return sum(c.master is None for c in arrangement if (c.throw, c.pin) == (own.throw, own.pin))
+
+
 def throws(arrangement: Arrangement) -> tuple[tuple[int, ...], ...]:
     """Cylinders (from 0) on every throw from the nose."""
     count = 1 + max(c.throw for c in arrangement)

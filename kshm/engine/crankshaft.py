@@ -126,7 +126,9 @@ class EndMass:
 class Crankshaft:
     """Crankshaft: throws from the nose, end masses, sizes of every journal [m].
 
-    Every throw has a pin, and there is a main journal more than throws.
+    Every throw has a pin, and there is a main journal more than throws.  ``pin_lengths`` are
+    working lengths under all the rods that a pin carries side by side; of a split pin that of
+    each part.
     """
 
     throws: tuple[Throw, ...]

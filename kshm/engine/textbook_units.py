@@ -286,7 +286,8 @@ def assemble(
         firing_offsets_deg: θ_i [°], one per cylinder.
         throws: ``throw(...)``, one for all or one each.
         pin_diameter_mm: diameters of the crankpins [mm], one for all or one per throw.
-        pin_length_mm: their lengths [mm], likewise.
+        pin_length_mm: their working lengths under all rods side by side [mm], likewise; of a
+            split pin that of each part.
         main_diameter_mm: diameters of the main journals [mm], one for all or one each.
         main_lengths_mm: their lengths [mm], likewise.
         nose: external counterweight at the nose.

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from kshm.arrays import Array
+from kshm.engine.arrangement import pin_counts
 from kshm.engine.engine import Engine
 from kshm.engine.masses import RodMasses
 from kshm.mechanics import dimensionless
@@ -74,11 +75,13 @@ def throw_inertias(engine: Engine) -> Array:
     """Moment of inertia of every throw without counterweights [kg·m²], Ilchenko (32)-(35).
 
     Shape (throws,).  With d⁴ in (32), (33) and the web's thickness in (34), as dimensions
-    demand; the main journal is the mean one, half of it on either side.
+    demand; the main journal is the mean one, half of it on either side.  A split pin has its
+    parts one beside another.
     """
     shaft, r = engine.crankshaft, engine.geometry.crank_radius
     bore, choice = engine.geometry.bore, engine.balancing
-    pin, pin_length = np.array(shaft.pin_diameters), np.array(shaft.pin_lengths)
+    pin = np.array(shaft.pin_diameters)
+    pin_length = np.array(shaft.pin_lengths) * pin_counts(engine.arrangement)
     main, main_length = np.array(shaft.main_diameters), np.array(shaft.main_lengths)
     pins = cylinder_inertia(pin, pin_length) + STEEL * np.pi * pin**2 / 4 * pin_length * r**2
     height = r + (pin + main.mean()) / 2 + _WEB_ALLOWANCE

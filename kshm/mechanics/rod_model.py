@@ -42,7 +42,7 @@ class RodEstimate:
 
 
 def sizes(bore: float, pin_diameter: float, pin_length: float, length: float) -> RodSizes:
-    """Middle sizes of table 1 for a bore, with the engine's crankpin."""
+    """Middle sizes of table 1 for a bore, with what one rod has of the engine's crankpin."""
     small_bore = 0.25 * bore
     small_outer = 1.45 * small_bore
     small_length = 0.39 * bore

@@ -13,17 +13,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from kshm.arrays import Array
-from kshm.engine.arrangement import hung
+from kshm.defaults import PULLEY_SHARE
+from kshm.engine.arrangement import hung, pin_counts
 from kshm.engine.engine import Engine
 from kshm.engine.torsion import StiffnessFormula, Torsion
 from kshm.mechanics.masses import point_masses
 
 FORMULAS: tuple[StiffnessFormula, ...] = ("wilson", "carter", "zimanenko")
-# Estimates without a source, from the six-cylinder diesel of Mendes, Meirelles, Zampieri 2008.
-PULLEY_SHARE = 0.4  # of a throw's inertia
-DAMPING_SHARE = 49200.0  # N·s/m³, of F r²
-RING_SHARE = 0.2  # of the inertia of the train brought to its first mass
-FLYWHEEL_SHARE = 8.0  # of all throws, where the irregularity of the run gives none
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +58,10 @@ class Train:
 
 @dataclass(frozen=True, slots=True)
 class Sections:
-    """Sizes of throws [m], shapes (throws,): journal j, pin p, web h × b, crank radius."""
+    """Sizes of throws [m], shapes (throws,): journal j, pin p, web h × b, crank radius.
+
+    ``pin_length`` is that of all pins of a throw, which a torque passes one after another.
+    """
 
     main_diameter: Array
     main_bore: Array
@@ -146,7 +145,7 @@ def sections(engine: Engine, torsion: Torsion) -> Sections:
         main_length=(length[:-1] + length[1:]) / 2,
         pin_diameter=np.array(shaft.pin_diameters),
         pin_bore=np.full(count, torsion.pin_bore),
-        pin_length=np.array(shaft.pin_lengths),
+        pin_length=np.array(shaft.pin_lengths) * pin_counts(engine.arrangement),
         thickness=np.array(thickness),
         width=np.full(count, torsion.web_width or choice.web_width_share * bore),
         radius=np.full(count, engine.geometry.crank_radius),

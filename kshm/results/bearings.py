@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kshm.arrays import Array, Columns, Results, Scalars, Tables
-from kshm.engine.arrangement import hung, throws
+from kshm.engine.arrangement import hung, rods_beside
 from kshm.engine.bearings import Bearings
 from kshm.mechanics import oil_film
 from kshm.mechanics.kinematics import Position
@@ -69,8 +69,7 @@ class Study:
         rows = []
         for k in self.numbers:
             if k == 0:
-                throw = engine.arrangement[0].throw
-                rods = len(throws(engine.arrangement)[throw])
+                throw, rods = engine.arrangement[0].throw, rods_beside(engine.arrangement, 0)
                 d, width = shaft.pin_diameters[throw], shaft.pin_lengths[throw] / rods
                 given, groove, clearances = (
                     asked.pin_width, asked.pin_groove, asked.pin_clearances,

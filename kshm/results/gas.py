@@ -61,6 +61,17 @@ def gas_scalars(case: Case) -> Scalars:
     return (_rounded_scalars(case, gas) if isinstance(gas, RoundedGas) else {}) | scalars
 
 
+def peak_pressure(case: Case) -> float:
+    """Largest pressure of the diagram itself [Pa], whatever the grid of angles meets, Gots 2.4."""
+    gas, geometry = case.engine.gas, case.engine.geometry
+    if isinstance(gas, TabulatedGas):
+        return max(gas.pressures)  # no line or cubic between points goes beyond them
+    if isinstance(gas, RoundedGas):
+        ratio = engine_stroke(geometry).ratio
+        return float(rounded_nodes(gas, geometry.compression_ratio, ratio).y.max())
+    return max(gas.p_max, corner_scalars(case)["p_start"])
+
+
 def corner_scalars(case: Case) -> Scalars:
     """Corner points of the polytropic diagram, of the first articulated cylinder too."""
     gas, hung = case.engine.gas, case.raw.hung

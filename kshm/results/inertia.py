@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from kshm.arrays import Array, Results, Scalars
+from kshm.engine.arrangement import rods_beside
 from kshm.engine.engine import Engine
 from kshm.mechanics import reduced_inertia as reduced
 from kshm.mechanics import rod_model, speed_fluctuation
@@ -73,8 +74,9 @@ def _rod_model(engine: Engine) -> Scalars:
     """The rod estimated from the main dimensions with the first pin, Ilchenko (20)-(31)."""
     shaft, geometry = engine.crankshaft, engine.geometry
     sizes = rod_model.sizes(
-        geometry.bore, shaft.pin_diameters[0], shaft.pin_lengths[0], geometry.rod_length
-    )
+        geometry.bore, shaft.pin_diameters[0],
+        shaft.pin_lengths[0] / rods_beside(engine.arrangement, 0), geometry.rod_length,
+    )  # fmt: skip
     model = rod_model.estimate(sizes)
     return {
         "rod_model_mass": model.mass,

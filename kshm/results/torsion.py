@@ -9,6 +9,17 @@ import numpy as np
 
 from kshm.arrays import Array, Columns, Results, Scalars
 from kshm.chain.solve import solve_batch
+from kshm.defaults import (
+    DAMPING_SHARE,
+    FLYWHEEL_SHARE,
+    LAST_ORDER,
+    OTHER_FLYWHEEL,
+    RAYS,
+    RING_SHARE,
+    SPEED_RANGE,
+    SPEEDS,
+    STARS,
+)
 from kshm.engine.arrangement import hung
 from kshm.engine.torsion import Torsion
 from kshm.mechanics import reduced_inertia, speed_fluctuation, torsion, torsion_response
@@ -18,15 +29,9 @@ from kshm.mechanics.torsion import Complex, Modes
 from kshm.mechanics.torsion_response import Damper, Response
 from kshm.mechanics.torsional_train import Train
 from kshm.results.case import Case
+from kshm.results.gas import peak_pressure
 
 MOST_MODES = 3
-LAST_ORDER = 12.0
-SPEEDS = 63
-RAYS = 12
-STARS = 6
-# Estimates without a source where the file gives nothing.
-_RANGE = (0.4, 1.1)  # of the speed of the regime
-_OTHER = 1.5  # times the flywheel
 _STILL = 1e-9  # of the speed: gas forces alone
 _TIE = 1 - 1e-9
 # What is added up to tell whether the forced vibration belongs to the data beside it; SI.
@@ -68,7 +73,7 @@ class Study:
             return max(mass.inertia for mass in asked.masses)
         if asked.flywheel is not None:
             return asked.flywheel
-        share = trains.FLYWHEEL_SHARE * float(self._throws.sum())
+        share = FLYWHEEL_SHARE * float(self._throws.sum())
         if hung(engine.arrangement):
             return share
         work = speed_fluctuation.excess_work(
@@ -86,7 +91,7 @@ class Study:
     @cached_property
     def other_flywheel(self) -> float:
         """A second flywheel to compare with [kg·m²]."""
-        return self.asked.other_flywheel or _OTHER * self.flywheel
+        return self.asked.other_flywheel or OTHER_FLYWHEEL * self.flywheel
 
     @cached_property
     def train(self) -> Train:
@@ -116,7 +121,7 @@ class Study:
     def damping(self) -> Array:
         """Absolute damping of every mass [N·m·s/rad], shape (masses,)."""
         geometry = self.case.engine.geometry
-        share = trains.DAMPING_SHARE * geometry.piston_area * geometry.crank_radius**2
+        share = DAMPING_SHARE * geometry.piston_area * geometry.crank_radius**2
         each = share if self.asked.damping is None else self.asked.damping
         counts = np.bincount([place.throw for place in self.case.engine.arrangement])
         return np.array(
@@ -150,15 +155,14 @@ class Study:
         gas = np.ones_like(omega)
         if self.asked.peaks:
             speeds, pressures = zip(*self.asked.peaks, strict=True)
-            greatest = self.case.raw.p[self.case.index, 0].max()
-            gas = np.interp(omega, speeds, pressures) / greatest
+            gas = np.interp(omega, speeds, pressures) / peak_pressure(self.case)
         return gas, (omega / self.case.engine.omega) ** 2
 
     @cached_property
     def range(self) -> tuple[float, float]:
         """Working speeds [rad/s]."""
         asked, omega = self.asked, self.case.engine.omega
-        return asked.speed_min or _RANGE[0] * omega, asked.speed_max or _RANGE[1] * omega
+        return asked.speed_min or SPEED_RANGE[0] * omega, asked.speed_max or SPEED_RANGE[1] * omega
 
     @cached_property
     def speeds(self) -> Array:
@@ -170,7 +174,7 @@ class Study:
         """The damper given, or the best one of its kind for the first form."""
         asked, omega = self.asked, float(self.modes.omega[0])
         brought = float(torsion.brought_inertia(self.train, self.modes)[0])
-        ring = asked.damper_inertia or trains.RING_SHARE * brought
+        ring = asked.damper_inertia or RING_SHARE * brought
         share = ring / brought
         kappa, zeta = torsion.best_tuning(share)
         tuned = asked.damper == "tuned"

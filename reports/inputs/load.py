@@ -18,6 +18,7 @@ from pydantic import ValidationError
 from reports.inputs import cells, load_regimes, messages
 from reports.inputs.cell_words import in_cells
 from reports.inputs.checks import cross_checks
+from reports.inputs.checks.accepted import accepted_keys, explained
 from reports.inputs.checks.plausibility import check_plausibility
 from reports.inputs.checks.signs import check_signs
 from reports.inputs.diagram_file import files_of, with_points
@@ -160,10 +161,14 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
             raise InputError(reader.problems)
         if run is not None and run.design is not None:
             found = run.design.bore, run.design.stroke
-    known = {key for key, _ in reader.warnings}  # a line for each key
-    odd = [*check_plausibility(model, sizes_of(model, found)), *check_signs(model)]
+    accepted = accepted_keys(() if model.checks is None else model.checks.accepted)
+    known = {key for key, _ in reader.warnings} - accepted  # a line for each key
+    odd = [*check_plausibility(model, sizes_of(model, found), accepted), *check_signs(model)]
     reader.take(finding for finding in odd if key_text(finding.path) not in known)
-    return reader.loaded(model)
+    loaded = reader.loaded(model)
+    if reader.problems:  # what else is odd may be the cause
+        raise InputError([*reader.problems, *loaded.warnings])
+    return loaded
 
 
 def load_apart(raw: Mapping[str, Any]) -> Loaded:
@@ -218,16 +223,9 @@ class _Reader:
 
     def loaded(self, model: InputFile) -> Loaded:
         """The model with its oddities, those it explains itself apart."""
-        reasons = {} if model.checks is None else {
-            entry.what: entry.reason for entry in model.checks.accepted
-        }  # fmt: skip
-        return Loaded(
-            model,
-            tuple(problem for key, problem in self.warnings if key not in reasons),
-            tuple(
-                Accepted(problem, reasons[key]) for key, problem in self.warnings if key in reasons
-            ),
-        )
+        entries = () if model.checks is None else model.checks.accepted
+        odd, taken = explained(self.warnings, entries)
+        return Loaded(model, tuple(odd), tuple(Accepted(*each) for each in taken))
 
     def from_cells(self, data: dict[str, Any]) -> dict[str, Any]:
         source = str(data["gas"].get("source")) if isinstance(data.get("gas"), dict) else ""

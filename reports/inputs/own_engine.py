@@ -89,8 +89,8 @@ USUAL: dict[tuple[str, int], Usual] = {
 class Ratios:
     """The crankshaft: diameters over the bore, lengths over diameters, web over the bore.
 
-    ``pin_length`` is that under one rod; ``counterweights`` is the share of the rotating
-    masses that they take.
+    ``pin_length`` is that under all the rods of a pin; ``counterweights`` is the share of the
+    rotating masses that they take.
     """
 
     pin: float
@@ -104,8 +104,8 @@ class Ratios:
 SHAFTS: dict[tuple[str, str], Ratios] = {
     ("inline", "petrol"): Ratios(0.65, 0.6, 0.78, 0.52, 0.21),
     ("inline", "diesel"): Ratios(0.68, 0.58, 0.8, 0.52, 0.245),
-    ("v", "petrol"): Ratios(0.6, 0.45, 0.7, 0.5, 0.21, 0.8),
-    ("v", "diesel"): Ratios(0.68, 0.45, 0.75, 0.52, 0.245, 0.8),
+    ("v", "petrol"): Ratios(0.6, 0.9, 0.7, 0.5, 0.21, 0.8),
+    ("v", "diesel"): Ratios(0.68, 0.9, 0.75, 0.52, 0.245, 0.8),
     ("opposed", "petrol"): Ratios(0.62, 0.4, 0.64, 0.4, 0.14),
     ("opposed", "diesel"): Ratios(0.66, 0.4, 0.7, 0.4, 0.15),
 }
@@ -122,7 +122,7 @@ class Made:
 
 @dataclass(frozen=True, slots=True)
 class ShaftSizes:
-    """Journals and webs [mm]; ``main_lengths`` from the nose."""
+    """Journals and webs [mm]; ``pin_length`` of the whole pin, ``main_lengths`` from the nose."""
 
     pin: float
     pin_length: float
@@ -234,9 +234,14 @@ def _named(kind: str, layout: str, cylinders: int, strokes: int) -> str:
     return f"{noun}: {LAYOUTS[layout]}, {words}, цилиндров {cylinders}"
 
 
+def rods_of(layout: str) -> int:
+    """Rods side by side on a pin: two of a V engine share one."""
+    return 2 if layout == "v" else 1
+
+
 def throws_of(cylinders: int, layout: str) -> int:
-    """Number of throws: two rods of a V engine share one."""
-    return cylinders // 2 if layout == "v" else cylinders
+    """Number of throws."""
+    return cylinders // rods_of(layout)
 
 
 def usual_shaft(layout: str, kind: str, bore: float, throws: int) -> ShaftSizes:
@@ -246,7 +251,8 @@ def usual_shaft(layout: str, kind: str, bore: float, throws: int) -> ShaftSizes:
     length = round(ratios.main_length * main, 1)
     notes = {
         "crankshaft.pin_diameter_mm": f"обычно {number_text(ratios.pin)} D",
-        "crankshaft.pin_length_mm": f"обычно {number_text(ratios.pin_length)} d под шатуном",
+        "crankshaft.pin_length_mm": f"обычно {number_text(ratios.pin_length)} d"
+        + (" под двумя шатунами" if rods_of(layout) == 2 else ""),
         "crankshaft.main_diameter_mm": f"обычно {number_text(ratios.main)} D",
         "crankshaft.main_lengths_mm": f"обычно {number_text(ratios.main_length)} d",
         "crankshaft.arms.left_web_mm": f"обычно {number_text(ratios.web)} D",
@@ -275,7 +281,7 @@ def table_masses(
     area = size.piston_area * size.heavier
     near = area_masses(Estimate(fuel="diesel" if kind == "diesel" else "petrol"),
                        bore / 1000, stroke / 1000)  # fmt: skip
-    rods = 2 if layout == "v" else 1
+    rods = rods_of(layout)
     pin = near.throw * PIN_SHARE * (_SHARED_PIN if rods == 2 else 1.0)
     web = near.throw * (1 - PIN_SHARE) / 2
     rotating = pin + 2 * web + rods * (1 - share) * near.rod
@@ -352,7 +358,7 @@ def shaft(layout: str, timing: Phases, sizes: ShaftSizes, masses: ThrowMasses) -
 
 def _arms(layout: str, sizes: ShaftSizes, number: int) -> dict[str, float]:
     """Figure 35: half a main journal, half the pin under a rod, and so to the other side."""
-    half = round(sizes.pin_length / 2, 6)
+    half = round(sizes.pin_length / rods_of(layout) / 2, 6)
     left, right = (round(sizes.main_lengths[number + side] / 2, 6) for side in (0, 1))
     between = {"l3_mm": half, "l4_mm": half} if layout == "v" else {}
     return {

@@ -12,12 +12,16 @@ import math
 from itertools import pairwise
 from typing import Any
 
+from kshm.engine.arrangement import rods_beside
 from reports.inputs.checks.bands import BANDS
+from reports.inputs.checks.kind import stated_kind
 from reports.inputs.fields import to_mapping
+from reports.inputs.firing import arrangement_of
 from reports.inputs.own_carried import TRAIN_LEFT, Grown, carried
 from reports.inputs.own_engine import (
     Made,
     ShaftSizes,
+    rods_of,
     shaft,
     table_masses,
     throws_of,
@@ -36,7 +40,8 @@ _OFFSETS = ("crank_offset_mm", "pin_offset_mm")
 _SIZING = ("power_kw", "stroke_bore", "size_step_mm", "rounding")
 _LEAST_BETWEEN = 1.08  # axes of neighbours over the bore: the nearest of the samples have 1.085
 _APART = ("crankshaft.main_lengths_mm", "crankshaft.arms.left_web_mm")  # what sets them apart
-_SINGLE = ("pin_diameter_mm", "pin_length_mm", "main_diameter_mm")
+_PIN_LENGTH = "pin_length_mm"
+_SINGLE = ("pin_diameter_mm", _PIN_LENGTH, "main_diameter_mm")
 
 
 def alternative(
@@ -101,7 +106,7 @@ def alternative(
     data["crankshaft"] = shaft(layout, timing, sizes, found)
     for name in ("articulated", "variants", "checks"):
         data.pop(name, None)
-    data = carried(data, _grown(model, sizes, linear, faster))
+    data = carried(data, _grown(model, layout, sizes, linear, faster))
     linear_words = f"× ({old.cylinders}/{cylinders})^⅓"
     more = f" × {number_text(round(displacement, 6))}^⅓" if displacement != 1 else ""
     notes = {
@@ -126,12 +131,8 @@ def alternative(
 
 def kind_of(model: InputFile) -> str:
     """Diesel or petrol as the file says it, else by the compression ratio."""
-    if model.cycle is not None:
-        return model.cycle.kind
-    known = getattr(model.gas, "kind", None) or model.masses.estimate_fuel
-    if known is not None:
-        return str(known)
-    return "diesel" if model.geometry.compression_ratio >= _DIESEL_RATIO else "petrol"
+    burnt = "diesel" if model.geometry.compression_ratio >= _DIESEL_RATIO else "petrol"
+    return stated_kind(model) or burnt
 
 
 def _shaft(
@@ -140,7 +141,9 @@ def _shaft(
     """Journals of the old shaft by the rule; lists of other length by their mean."""
     old = model.crankshaft
     usual = usual_shaft(layout, kind, bore, throws)
-    found = {key: round(_one(old, key) * factor, DIGITS) for key in _SINGLE}
+    rods = _rods(model, layout)
+    sized = {key: _one(old, key) * (rods if key == _PIN_LENGTH else 1) for key in _SINGLE}
+    found = {key: round(size * factor, DIGITS) for key, size in sized.items()}
     kept = {key: _bounded(key, found[key], bore) for key in _SINGLE}
     before = old.main_lengths_mm
     if len(before) != throws + 1:
@@ -149,6 +152,8 @@ def _shaft(
     web = round(sum(thick) / len(thick) * factor, DIGITS) if thick else usual.web
     rule = "по правилу (n₁/n)^½"
     notes = {f"crankshaft.{key}": rule for key in _SINGLE}
+    if rods != 1:
+        notes[f"crankshaft.{_PIN_LENGTH}"] += f", шатунов рядом {rods_of(layout)}"
     for key in _SINGLE:
         if kept[key] != found[key]:
             share = number_text(round(kept[key] / bore, 4))
@@ -160,11 +165,11 @@ def _shaft(
     notes["crankshaft.arms.left_web_mm"] = rule if thick else "обычная"
     lengths = tuple(round(value * factor, DIGITS) for value in before)
     pin, length, main = (kept[key] for key in _SINGLE)
-    rods, every = length * (2 if layout == "v" else 1), 2 if layout == "opposed" else 1
-    between = every * (min(map(sum, pairwise(lengths))) / 2 + 2 * web + rods)
+    every = 2 if layout == "opposed" else 1
+    between = every * (min(map(sum, pairwise(lengths))) / 2 + 2 * web + length)
     if throws > every and between < _LEAST_BETWEEN * bore:
-        more = (_LEAST_BETWEEN * bore - every * rods) / (between - every * rods)
-        lengths, web = tuple(_up(value * more) for value in lengths), _up(web * more)
+        longer = (_LEAST_BETWEEN * bore - every * length) / (between - every * length)
+        lengths, web = tuple(_up(value * longer) for value in lengths), _up(web * longer)
         notes |= dict.fromkeys(_APART, _apart_words(rule, between / bore))
     return ShaftSizes(pin, length, main, lengths, web, notes)
 
@@ -176,13 +181,18 @@ def _apart_words(rule: str, between: float) -> str:
     )
 
 
-def _grown(model: InputFile, sizes: ShaftSizes, linear: float, faster: float) -> Grown:
-    """The new shaft over the old one."""
+def _rods(model: InputFile, layout: str) -> float:
+    """Rods side by side on a new pin over those on an old one."""
+    return rods_of(layout) / rods_beside(arrangement_of(model), 0)
+
+
+def _grown(model: InputFile, layout: str, sizes: ShaftSizes, linear: float, faster: float) -> Grown:
+    """The new shaft over the old one, along a pin that of one rod."""
     old = model.crankshaft
     before = sum(old.main_lengths_mm) / len(old.main_lengths_mm)
     return Grown(
         pin=sizes.pin / _one(old, "pin_diameter_mm"),
-        pin_length=sizes.pin_length / _one(old, "pin_length_mm"),
+        pin_length=sizes.pin_length / _rods(model, layout) / _one(old, _PIN_LENGTH),
         main=sizes.main / _one(old, "main_diameter_mm"),
         main_length=sum(sizes.main_lengths) / len(sizes.main_lengths) / before,
         linear=linear,

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from kshm.engine.arrangement import Arrangement, pins, throws
+from kshm.engine.arrangement import Arrangement, pin_counts, pins, rods_beside, throws
 from reports.inputs.firing import arrangement_of
 from reports.inputs.sections.input_file import GeometrySection, InputFile
 
@@ -104,6 +104,16 @@ class Shape:
     def split(self) -> bool:
         """Whether the pins are split."""
         return any(place.pin for place in self.arrangement)
+
+    @property
+    def parts(self) -> int:
+        """Crankpins of a throw, one behind another: more than one where they are split."""
+        return max(pin_counts(self.arrangement))
+
+    @property
+    def rods_beside(self) -> int:
+        """Rods side by side on a crankpin; articulated ones take none of its length."""
+        return rods_beside(self.arrangement, 0)
 
     @property
     def articulated(self) -> bool:

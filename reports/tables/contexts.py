@@ -27,6 +27,7 @@ from reports.spec.shape import pin_figure, pin_name, pin_table, rays_table
 from reports.tables.gas.cycle_names import section_of, sizes_are_found
 from reports.tables.gas.cycle_ranges import ranges_of
 from reports.tables.rod_share import USUAL_SHARE, is_usual_share
+from reports.tables.torsion_members import torsion_names
 
 Bounds = tuple[float, float]
 
@@ -172,6 +173,7 @@ _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
     "rod_masses": _table_4,
     "summary": _summary,
     "torque_orders": _torque_orders,
+    "torsion": torsion_names,
     "wear": _surfaces,
 }
 

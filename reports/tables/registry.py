@@ -21,9 +21,6 @@ from reports.tables.oil.safety import safety
 from reports.tables.overview.left_out import left_out_note
 from reports.tables.overview.verdicts import accepted_checks
 from reports.tables.stand_ins import mass_stand_ins, size_stand_ins
-from reports.tables.torsion.free import free
-from reports.tables.torsion.resonance import resonance
-from reports.tables.torsion.train import train
 
 # Files of tables in the order of their sheets.
 BEFORE: tuple[PartOf, ...] = (
@@ -40,7 +37,7 @@ AFTER: tuple[PartOf, ...] = (
     book("balance"), book("balance_orders"), book("firing"), book("inertia"),
     book("torque_orders"), book("piston_motion"), book("reference"),
     book("bearings"), book("continuous"), book("two_term"),
-    train, free, resonance,
+    book("torsion"),
     film, orbit, safety,
 )  # fmt: skip
 

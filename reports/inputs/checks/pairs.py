@@ -13,10 +13,10 @@ from itertools import permutations
 
 from pydantic import BaseModel
 
+from kshm.defaults import SPEED_RANGE
 from reports.inputs.findings import Finding, Path, Values, radius_and_rod
 from reports.inputs.sections.bearings import OILS, OilGrade
 from reports.inputs.sections.input_file import LAMBDA_MAX, LAMBDA_MIN
-from reports.inputs.sections.torsion import LEAST_SPEED, MOST_SPEED
 from reports.inputs.units import number_text, span_text
 
 _TERM = re.compile(r"(?:(?P<times>[\d.]+)\*)?(?P<key>=?[a-z0-9_.]+)(?:\^(?P<power>[\d.]+))?")
@@ -149,8 +149,8 @@ PAIRS = (
          "выпуск должен открываться раньше продувки", strokes=2),
     Pair("gas.peak_after_tdc_deg", "gas.expansion_after_tdc_deg",
          "Выход на линию расширения позже наибольшего давления"),
-    Pair(f"torsion.speed_min_rpm | {LEAST_SPEED}*regime.speed_rpm",
-         f"torsion.speed_max_rpm | {MOST_SPEED}*regime.speed_rpm",
+    Pair(f"torsion.speed_min_rpm | {SPEED_RANGE[0]}*regime.speed_rpm",
+         f"torsion.speed_max_rpm | {SPEED_RANGE[1]}*regime.speed_rpm",
          "Крутильные колебания: наименьшая частота вращения меньше наибольшей",
          "диапазон от {less} до {more} мин⁻¹ пуст", "нужно speed_min_rpm < speed_max_rpm",
          at="more"),

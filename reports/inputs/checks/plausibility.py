@@ -12,12 +12,17 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from kshm.engine.arrangement import rods_beside
 from reports.inputs.checks import bands
+from reports.inputs.checks.accepted import Keys, apart
 from reports.inputs.checks.bands import BANDS, Band
-from reports.inputs.checks.room import check_neighbours, check_room
+from reports.inputs.checks.kind import diesel_rho, stated_kind
+from reports.inputs.checks.room import check_neighbours, check_one_rod, check_room
 from reports.inputs.checks.train import train_values
 from reports.inputs.checks.volume import volume_ratio
+from reports.inputs.fields import key_text
 from reports.inputs.findings import Finding, Path
+from reports.inputs.firing import arrangement_of
 from reports.inputs.sections.gas import CycleGasSection, GasSection, TableGasSection
 from reports.inputs.sections.input_file import InputFile, Regime
 from reports.inputs.to_si.geometry import Sizes
@@ -26,23 +31,32 @@ from reports.inputs.units import is_within, number_text
 _MOST_OFF = 0.5  # share of the sizes that disagree with the bore when the bore is wrong
 
 
-def check_plausibility(model: InputFile, sizes: Sizes) -> Iterator[Finding]:
-    """Yield a warning for every value that hardly belongs to an engine."""
+def check_plausibility(
+    model: InputFile, sizes: Sizes, accepted: Keys = frozenset()
+) -> Iterator[Finding]:
+    """Yield a warning for every value that hardly belongs to an engine.
+
+    What stands for others in one line does so only as far as it is not ``accepted``.
+    """
     tested = list(_tested(model, sizes))
     outside = [entry for entry in tested if not entry[1].low <= entry[2] <= entry[1].high]
     off, all_sizes = _of_the_bore(outside), _of_the_bore(tested)
     ratio = list(_stroke(model, sizes))
     found_by_power = getattr(model.geometry, "bore_mm", None) is None
+    bore = _wrong_bore(model, sizes, len(off), len(all_sizes))
     wrong_bore = bool(ratio or found_by_power) and len(off) > _MOST_OFF * len(all_sizes)
     if wrong_bore:
-        yield _wrong_bore(model, sizes, len(off), len(all_sizes))
-        yield from _told([entry for entry in outside if entry not in off])
+        yield bore
+        wrong_bore = key_text(bore.path) not in accepted
+    if wrong_bore:
+        yield from _told([entry for entry in outside if entry not in off], accepted)
     else:
         yield from ratio
-        yield from _told(outside)
+        yield from _told(outside, accepted)
+    yield from _burning(model)
     yield from _speed(model, sizes)
-    yield from _shaft(model, sizes)
-    yield from check_room(model)
+    yield from _shaft(model, sizes, accepted)
+    yield from check_room(model, accepted)
     yield from _efficiency(model)
     yield from _gas(model, model.gas, ())
     if not wrong_bore:
@@ -62,18 +76,19 @@ def _of_the_bore(entries: list[Tested]) -> list[Tested]:
     return [entry for entry in entries if entry[1].base in ("D", "F")]
 
 
-def _told(outside: list[Tested]) -> Iterator[Finding]:
+def _told(outside: list[Tested], accepted: Keys) -> Iterator[Finding]:
     """A finding for each value; equal ones of a list, of copied webs say, are told once."""
     alike: dict[tuple[Path, float], list[Tested]] = {}
     for path, band, value in outside:
         key = tuple(part for part in path if isinstance(part, str))
         alike.setdefault((key, value), []).append((path, band, value))
-    for (path, band, value), *others in alike.values():
-        yield _finding(path, band, value, len(others))
+    for entries in alike.values():
+        for (path, band, value), *others in apart(entries, accepted):
+            yield _finding(path, band, value, len(others))
 
 
 def _tested(model: InputFile, sizes: Sizes) -> Iterator[Tested]:
-    kind = kind_of(model)
+    kind = stated_kind(model)
     bases = {
         "": 1.0, "D": sizes.bore, "r": sizes.radius, "L": sizes.rod, "F": sizes.piston_area,
         "n": float(model.regime.speed_rpm),
@@ -87,13 +102,6 @@ def _tested(model: InputFile, sizes: Sizes) -> Iterator[Tested]:
                 over = abs(value) if band.base and band.zero else value
                 own_band = band.scaled(sizes.heavier) if band.base == "F" else band
                 yield path, own_band, over / bases[band.base]
-
-
-def kind_of(model: InputFile) -> str:
-    """Diesel or petrol, as far as the file says it; else empty."""
-    if model.cycle is not None:
-        return model.cycle.kind
-    return getattr(model.gas, "kind", None) or model.masses.estimate_fuel or ""
 
 
 def values_at(model: InputFile, key: str) -> Iterator[tuple[Path, float]]:
@@ -122,6 +130,16 @@ def _finding(path: Path, band: Band, value: float, others: int = 0) -> Finding:
     what = f"{band.words} = {_short(value)}{unit} необычно{more}"
     hint = f"обычно от {_short(band.low)} до {_short(band.high)}{unit} ({band.source})"
     return Finding(path, what, f"{hint}; проверьте единицу и запятую", warning=True)
+
+
+def _burning(model: InputFile) -> Iterator[Finding]:
+    """The compression ratio of a diesel that only its ρ makes one."""
+    ratio, rho = _ratio(model), diesel_rho(model)
+    if rho and not is_within(ratio, (bands.DIESEL.low, bands.DIESEL.high)):
+        what = f"ε = {_short(ratio)} необычно для дизеля, о котором говорит ρ = {_short(rho)}"
+        span = f"обычно от {_short(bands.DIESEL.low)} до {_short(bands.DIESEL.high)}"
+        hint = f"{span}; если двигатель бензиновый, назовите его так в engine.name"
+        yield Finding(("geometry", "compression_ratio"), what, hint, warning=True)
 
 
 def _short(value: float) -> str:
@@ -185,14 +203,17 @@ def _efficiency(model: InputFile) -> Iterator[Finding]:
 
 
 # --- journals and webs ---
-def _shaft(model: InputFile, sizes: Sizes) -> Iterator[Finding]:
+def _shaft(model: InputFile, sizes: Sizes, accepted: Keys) -> Iterator[Finding]:
     pins, mains = _entries(model, bands.PIN_DIAMETERS), _entries(model, bands.MAIN_DIAMETERS)
-    for keys, band, diameters in (
-        (bands.PIN_LENGTHS, bands.PIN_LENGTH, pins),
-        (("main_lengths_mm",), bands.MAIN_LENGTH, mains),
+    rods, one_rod = rods_beside(arrangement_of(model), 0), list(check_one_rod(model, accepted))
+    yield from one_rod
+    for keys, band, diameters, shared in (
+        (() if one_rod else bands.PIN_LENGTHS, bands.PIN_LENGTH, pins, rods),
+        (("main_lengths_mm",), bands.MAIN_LENGTH, mains, 1),
     ):
         for index, (path, length) in enumerate(_entries(model, keys)):
-            yield from _judged(path, band, length / diameters[min(index, len(diameters) - 1)][1])
+            diameter = diameters[min(index, len(diameters) - 1)][1]
+            yield from _judged(path, band, length / shared / diameter)
     path, main = max(mains, key=lambda entry: entry[1])
     yield from _judged(path, bands.MAIN_TO_PIN, main / max(pin for _, pin in pins))
     for index, web in enumerate(model.crankshaft.webs):

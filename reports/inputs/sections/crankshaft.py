@@ -71,9 +71,12 @@ class CrankshaftSection(Strictly):
     pin_diameters_mm: tuple[float, ...] | None = number(
         "Шатунная шейка {n}: диаметр", "d_шш{n}", MM, 2, 2000, None
     )
-    pin_length_mm: float | None = number("Рабочая длина шатунной шейки", "l_ш.ш", MM, 1, 2000, None)
+    pin_length_mm: float | None = number(
+        "Рабочая длина всей шатунной шейки (сдвинутой — каждой половины)",
+        "l_ш.ш", MM, 1, 2000, None,
+    )  # fmt: skip
     pin_lengths_mm: tuple[float, ...] | None = number(
-        "Шатунная шейка {n}: рабочая длина", "l_шш{n}", MM, 1, 2000, None
+        "Шатунная шейка {n}: рабочая длина всей шейки", "l_шш{n}", MM, 1, 2000, None
     )
     main_diameter_mm: float | None = number("Диаметр коренных шеек", "d_к.ш", MM, 2, 2000, None)
     main_diameters_mm: tuple[float, ...] | None = number(

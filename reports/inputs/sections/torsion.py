@@ -17,7 +17,6 @@ FORMULAS = {
 DAMPERS = {"viscous": "вязкостный", "tuned": "настроенный"}
 LEAST, MOST = 1e-6, 1e7  # kg·m²
 SOFT, HARD = 1.0, 1e12  # N·m/rad
-LEAST_SPEED, MOST_SPEED = 0.4, 1.1  # of the speed of the regime, where none is given
 
 
 class MassSection(Strictly):

@@ -95,7 +95,7 @@ def _each(cases: list[Case], key: str, texts: list[str], sources: list[str]) -> 
 def _cases(scope: Scope, section: BearingsSection, cases: list[Case]) -> Grid:
     diameters, widths, gaps, sources, forces, peaks, lands = [], [], [], [], [], [], []
     throw = scope.shape.throw_of(1)
-    rods = len(scope.shape.groups[throw - 1])
+    rods = scope.shape.rods_beside
     for case in cases:
         k, end, part = case.bearing, "max" if case.which == 2 else "min", case.part
         diameters.append(f"main_diameter_{k}_mm" if k else f"pin_diameter_{throw}_mm")

@@ -1,1 +1,0 @@
-"""Torsional vibration of the shaft."""

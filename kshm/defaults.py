@@ -1,4 +1,4 @@
-"""Engineering defaults: estimates that both statements of the mechanics take where a file is silent.
+"""Engineering defaults: estimates that both statements take where a file is silent.
 
 A default is an assumption, not physics: it stands once.
 """
@@ -14,3 +14,9 @@ OTHER_FLYWHEEL = 1.5  # times the flywheel
 SPEED_RANGE = (0.4, 1.1)  # of the speed of the regime
 LAST_ORDER = 12.0
 SPEEDS, RAYS, STARS = 63, 12, 6  # points of the forced vibration, rays and stars drawn
+
+# Safety of the journals, without a source.
+FILLET_SHARE = 0.06  # of the journal's diameter
+
+# Clearances of the bearings over the root of the diameter [mm over √mm], from memory.
+CLEARANCE_SHARES = {"min": 0.007, "max": 0.014}

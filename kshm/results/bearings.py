@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kshm.arrays import Array, Columns, Results, Scalars, Tables
+from kshm.defaults import CLEARANCE_SHARES
 from kshm.engine.arrangement import hung, rods_beside
 from kshm.engine.bearings import Bearings
 from kshm.mechanics import oil_film
@@ -24,7 +25,6 @@ from kshm.results.safety import safety_results
 
 Number = TypeVar("Number", np.float64, np.complex128)
 CLEARANCES = 2  # the least and the largest
-_RULES = (0.007, 0.014)  # mm per root of the diameter in mm
 _PLACES = 72  # angles of the oil hole that are tried
 
 
@@ -81,7 +81,7 @@ class Study:
                 )  # fmt: skip
             lands = 2 if groove else 1
             land = ((given or width) - groove) / lands
-            for rule, clearance in zip(_RULES, clearances, strict=True):
+            for rule, clearance in zip(tuple(CLEARANCE_SHARES.values()), clearances, strict=True):
                 gap = clearance or rule * np.sqrt(1000 * d) / 1000
                 rows.append((d, land, lands, gap, engine.omega, asked.hole))
         return BearingArrays(*np.array(rows, dtype=float).T)

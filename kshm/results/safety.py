@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from kshm.arrays import Array, Columns, Results, Scalars, Tables
+from kshm.defaults import FILLET_SHARE
 from kshm.engine.bearings import Bearings
 from kshm.mechanics import pin_bearing
 from kshm.mechanics.fatigue import (
@@ -22,7 +23,6 @@ from kshm.results.case import Case
 from kshm.results.extremes import first_number
 from kshm.results.pin_bearing import bending_forces, oil_hole
 
-_FILLET = 0.06  # of the crankpin's diameter, where the file gives no radius
 # Scalars of the weakest crankpin and the least of all pins, by the rows that they come from.
 _WEAKEST = {
     "safe_n_turn_fillet": "safe_pin_turn_fillet{}", "safe_n_turn_hole": "safe_pin_turn_hole{}",
@@ -168,7 +168,7 @@ def _class_rule(
     shapes = s.hole_bending, s.hole_torsion
     given: dict[str, Array] = {}
     if where == "fillet":
-        radius = np.full_like(diameters, s.fillet) if s.fillet else _FILLET * diameters
+        radius = np.full_like(diameters, s.fillet) if s.fillet else FILLET_SHARE * diameters
         shapes = s.fillet_bending, s.fillet_torsion
         given = {"safe_fillet{}_mm": radius}
     bend, turn = (concentration(shape, s.sensitivity) for shape in shapes)

@@ -70,6 +70,6 @@ def notes_of(loaded: Loaded) -> tuple[str, ...]:
     geometry = loaded.model.geometry
     if not getattr(geometry, "is_offset", False) and loaded.model.articulated is None:
         return ()  # without loading the tables
-    from reports.tables.overview.left_out import left_out_note
+    from reports.tables.left_out import left_out_note
 
     return (left_out_note(loaded.model),)

@@ -16,7 +16,7 @@ from reports.shared.errors import InputError, Problem
 from reports.shared.russian import capital, joined, short, uncapital
 from reports.spec.charts import PHI
 from reports.spec.shape import pin_name, pin_table
-from reports.tables.overview.unused import given_by_cycle
+from reports.tables.unused import given_by_cycle
 
 if TYPE_CHECKING:
     from kshm.results.solution import Solution

@@ -103,8 +103,8 @@ def build(
     """
     from reports.inputs.checks.flywheel import solution_remarks
     from reports.spec.evaluation import evaluate_model
-    from reports.tables.overview.verdicts import failed_checks
     from reports.tables.registry import build_model
+    from reports.tables.verdicts import failed_checks
 
     needs(kinds)
     make_dir(folder)

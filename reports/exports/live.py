@@ -22,7 +22,7 @@ from reports.spec.blocks import Model, ScalarTable
 from reports.spec.charts import ChartSpec
 from reports.spec.evaluation import Evaluation
 from reports.spec.judged import NO
-from reports.tables.overview.verdicts import check_value, reasons_of
+from reports.tables.verdicts import check_value, reasons_of
 
 Data = dict[str, Any]
 _DIGITS = 8  # of the greatest number of a curve: what no screen shows

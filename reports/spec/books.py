@@ -307,10 +307,11 @@ def _known(node: Kind) -> Kind:
     """
     if node.expr is not None:
         parse(node.expr)
-    unit, said = node.quantity.unit, node.key.rpartition("_")[2]
-    if node.of and said in UNITS and unit in UNITS and said != unit:
+    _ = node.quantity
+    said, wanted = (name.rpartition("_")[2] for name in (node.key, node.of))
+    if node.of and wanted and said != wanted and {said, wanted} <= UNITS.keys():
         raise ValueError(
-            f"у «{node.of}» единица {unit or 'безразмерная'}, а у ключа «{node.key}» {said}"
+            f"единица «{said}» ключа «{node.key}» — не «{wanted}» величины «{node.of}»"
         )
     return node
 

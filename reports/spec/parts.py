@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -49,18 +48,6 @@ class Part:
 
     blocks: tuple[Block, ...] = ()
     charts: tuple[ChartSpec, ...] = ()
-
-
-PartOf = Callable[[Scope], Part]
-
-
-def joined(scope: Scope, parts: tuple[PartOf, ...]) -> Part:
-    """All parts in order."""
-    made = [part(scope) for part in parts]
-    return Part(
-        tuple(block for part in made for block in part.blocks),
-        tuple(chart for part in made for chart in part.charts),
-    )
 
 
 def stepped(first: float, last: float, step: float) -> tuple[float, ...]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
 from kshm.cycle.fuel import FUELS
@@ -22,10 +21,11 @@ from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, to_estimate
 from reports.inputs.units import MM
 from reports.spec.books import read_book
 from reports.spec.context import names_of
-from reports.spec.parts import Part, PartOf, Scope
+from reports.spec.parts import Part, Scope
 from reports.spec.shape import pin_figure, pin_name, pin_table, rays_table
-from reports.tables.gas.cycle_names import section_of, sizes_are_found
-from reports.tables.gas.cycle_ranges import ranges_of
+from reports.tables.cycle_names import section_of, sizes_are_found
+from reports.tables.cycle_ranges import ranges_of
+from reports.tables.oil_members import oil_names, safety_names
 from reports.tables.rod_share import USUAL_SHARE, is_usual_share
 from reports.tables.torsion_members import torsion_names
 
@@ -170,7 +170,9 @@ _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
     "cycle": _cycle,
     "cycle_results": _cycle,
     "cycle_speed": _cycle,
+    "oil": oil_names,
     "rod_masses": _table_4,
+    "safety": safety_names,
     "summary": _summary,
     "torque_orders": _torque_orders,
     "torsion": torsion_names,
@@ -184,6 +186,10 @@ def book_part(book: str, scope: Scope) -> Part:
     return read_book(f"{book}.book", names_of(scope, **(further(scope) if further else {})))
 
 
-def book(name: str) -> PartOf:
-    """A book of the house as a part of the model."""
-    return partial(book_part, name)
+def books(scope: Scope, names: Iterable[str]) -> Part:
+    """Blocks and charts of books of the house, one after another."""
+    parts = [book_part(name, scope) for name in names]
+    return Part(
+        tuple(block for part in parts for block in part.blocks),
+        tuple(chart for part in parts for chart in part.charts),
+    )

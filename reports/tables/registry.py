@@ -9,36 +9,25 @@ from reports.inputs.fields import Value, iter_fields, tables_shape
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import smallness_of
 from reports.spec.blocks import Model
-from reports.spec.parts import Part, PartOf, Scope, joined
+from reports.spec.parts import Part, Scope
 from reports.spec.rename import sized, substituted
-from reports.tables.contexts import book
-from reports.tables.gas.cycle_names import cycle_stand_ins
-from reports.tables.loads.comparison import comparison
-from reports.tables.loads.regimes import regime_models
-from reports.tables.oil.film import film
-from reports.tables.oil.orbit import orbit
-from reports.tables.oil.safety import safety
-from reports.tables.overview.left_out import left_out_note
-from reports.tables.overview.verdicts import accepted_checks
+from reports.tables.contexts import books
+from reports.tables.cycle_names import cycle_stand_ins
+from reports.tables.left_out import left_out_note
+from reports.tables.regimes import comparison, regime_models
 from reports.tables.stand_ins import mass_stand_ins, size_stand_ins
+from reports.tables.verdicts import accepted_checks
 
-# Files of tables in the order of their sheets.
-BEFORE: tuple[PartOf, ...] = (
-    book("scheme"), book("cycle"), book("cycle_results"), book("cycle_speed"),
-)  # fmt: skip
+# Books in the order of their sheets.
+BEFORE = ("scheme", "cycle", "cycle_results", "cycle_speed")
 # Chapters 1 and 2: all that speed and gas decide, and more; every regime has them.
-CHAIN: tuple[PartOf, ...] = (
-    book("mechanism"), book("rod_masses"), book("kinematics"),
-    book("articulated"), book("gas"), book("cylinders"),
-    book("torques"), book("crankpins"), book("throws"), book("journals"),
-    book("wear"), book("summary"),
+CHAIN = (
+    "mechanism", "rod_masses", "kinematics", "articulated", "gas", "cylinders", "torques",
+    "crankpins", "throws", "journals", "wear", "summary",
 )  # fmt: skip
-AFTER: tuple[PartOf, ...] = (
-    book("balance"), book("balance_orders"), book("firing"), book("inertia"),
-    book("torque_orders"), book("piston_motion"), book("reference"),
-    book("bearings"), book("continuous"), book("two_term"),
-    book("torsion"),
-    film, orbit, safety,
+AFTER = (
+    "balance", "balance_orders", "firing", "inertia", "torque_orders", "piston_motion",
+    "reference", "bearings", "continuous", "two_term", "torsion", "oil", "safety",
 )  # fmt: skip
 
 
@@ -49,11 +38,11 @@ def build_model(model: InputFile, remarks: tuple[str, ...] = ()) -> Model:
     """
     scope, regimes = Scope(model), regime_models(model, chain)
     parts = (
-        joined(scope, BEFORE),
+        books(scope, BEFORE),
         chain(model),
         comparison(model, regimes),
         *(regime.part() for regime in regimes),
-        joined(scope, AFTER),
+        books(scope, AFTER),
     )
     blocks = tuple(block for part in parts for block in part.blocks)
     charts = tuple(chart for part in parts for chart in part.charts)
@@ -89,5 +78,5 @@ def stand_ins(model: InputFile) -> dict[str, str]:
 
 def chain(model: InputFile) -> Part:
     """Blocks and charts that a regime has too."""
-    part = joined(Scope(model), CHAIN)
+    part = books(Scope(model), CHAIN)
     return Part(substituted(part.blocks, stand_ins(model)), part.charts)

@@ -14,7 +14,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from reports.shared.russian import capital
 from reports.spec.blocks import Model
 from reports.spec.shape import Shape, pin_figure, pin_name
-from reports.tables.overview.left_out import left_out_note
+from reports.tables.left_out import left_out_note
 from reports.workbook import styles
 from reports.workbook.chapters import chapter_of, heading
 from reports.workbook.charts import HIGH, WIDE, make_chart, ranges_of

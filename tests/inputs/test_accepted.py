@@ -6,8 +6,8 @@ from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.checks import CHECKS
 from reports.spec.evaluation import evaluate_model
-from reports.tables.overview.verdicts import failed_checks
 from reports.tables.registry import build_model
+from reports.tables.verdicts import failed_checks
 from tests.conftest import sample
 
 

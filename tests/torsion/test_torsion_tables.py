@@ -17,9 +17,9 @@ from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.spec.blocks import Model
 from reports.spec.evaluation import Evaluation, evaluate_model
-from reports.spec.parts import Scope, joined
+from reports.spec.parts import Scope
 from reports.spec.rename import substituted
-from reports.tables.contexts import book
+from reports.tables.contexts import books
 from reports.tables.registry import build_model, stand_ins
 from reports.tables.torsion_members import main_orders
 from reports.workbook.layout import FIRST_ROW, Layout
@@ -108,7 +108,7 @@ def test_frequencies_that_all_but_meet(link: float) -> None:
 
 def free_sheets(data: InputFile) -> Model:
     """The sheets of the free vibration alone: a small book."""
-    part = joined(Scope(data), (book("mechanism"), book("torsion")))
+    part = books(Scope(data), ("mechanism", "torsion"))
     last = [block.id for block in part.blocks].index("torsion_results")
     blocks = substituted(part.blocks[: last + 1], stand_ins(data))
     return Model(data, tuple(iter_fields(data)), blocks, ())

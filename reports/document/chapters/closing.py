@@ -23,7 +23,7 @@ from reports.inputs.checks.grid import remark_on
 from reports.shared.russian import NBSP, capital, fixed
 from reports.spec.judged import NO, YES
 from reports.spec.shape import Shape, pin_table, rays_table, rods_table
-from reports.tables.overview.verdicts import check_value, reasons_of
+from reports.tables.verdicts import check_value, reasons_of
 
 _TEXT = "— Текст : непосредственный"
 SOURCES = {

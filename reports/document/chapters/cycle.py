@@ -16,8 +16,8 @@ from reports.document.text.symbols import inline_html, titled_html
 from reports.document.text.terms import Terms
 from reports.shared.russian import MINUS, capital, fixed
 from reports.spec.blocks import ScalarTable
-from reports.tables.gas.cycle_names import friction_by_speed, is_boosted, section_of
-from reports.tables.gas.cycle_ranges import UNCHECKED
+from reports.tables.cycle_names import friction_by_speed, is_boosted, section_of
+from reports.tables.cycle_ranges import UNCHECKED
 
 _MOST_DECIMALS = 8  # of values in passes
 

@@ -17,7 +17,7 @@ from reports.inputs.sections.bearings import MATERIALS
 from reports.shared.russian import NBSP, capital, fixed
 from reports.spec.blocks import Grid
 from reports.spec.parts import Scope
-from reports.tables.oil.film import Case, cases_of
+from reports.tables.oil_members import FilmCase, film_cases
 
 _FILM = (
     r"F\cos(\gamma_F - \delta_F) = F_D\cos\beta_F + F_V, \quad "
@@ -51,7 +51,7 @@ def oil(chapter: Chapter) -> Markup:
     terms, section = chapter.terms, chapter.input.bearings
     if section is None:
         return Markup("")
-    cases = cases_of(Scope(chapter.input))
+    cases = film_cases(Scope(chapter.input))
     steady = min(
         (_worst(case, terms.value(f"oil_K{case.number}")) for case in cases),
         key=lambda each: each.value,
@@ -100,7 +100,7 @@ def concluded(chapter: Chapter) -> Markup:
     if section is None:
         return Markup("")
     gaps = terms.column("oil_orbits.oil_orb_h_um")
-    thin = _worst(cases_of(Scope(chapter.input))[int(gaps.argmin())], float(gaps.min()))
+    thin = _worst(film_cases(Scope(chapter.input))[int(gaps.argmin())], float(gaps.min()))
     side = "меньше" if thin.value < terms.value("oil_hcr_um") else "не меньше"
     pin, main = terms.value("safe_n_pin"), terms.value("safe_n_main")
     part = _weakest(chapter)
@@ -124,7 +124,7 @@ _SAFE_PINS = (
 )  # fmt: skip
 
 
-def _worst(case: Case, value: float) -> Worst:
+def _worst(case: FilmCase, value: float) -> Worst:
     name = f"коренного подшипника {case.bearing}" if case.bearing else "шатунного подшипника"
     gap = "наибольшем" if case.which == 2 else "наименьшем"
     return Worst(f"{name} при {gap} зазоре", value, fixed(value, 2))
@@ -162,7 +162,7 @@ def _beside(terms: Terms, grid: Grid, keys: Sequence[str]) -> TableBlock:
     return table_block(columns, rows)
 
 
-def _steady(terms: Terms, cases: list[Case]) -> TableBlock:
+def _steady(terms: Terms, cases: list[FilmCase]) -> TableBlock:
     heads = [
         Column("Подшипник", 3.2, text=True), Column(symbol_head(r"k_{\mathrm{ср}}", "МПа")),
         Column(symbol_head(r"\chi", "")), Column(symbol_head(r"t_{\mathrm{м}}", "°C")),
@@ -181,7 +181,7 @@ def _steady(terms: Terms, cases: list[Case]) -> TableBlock:
     return table_block(heads, rows)
 
 
-def _orbits(terms: Terms, cases: list[Case]) -> TableBlock:
+def _orbits(terms: Terms, cases: list[FilmCase]) -> TableBlock:
     heads = [
         Column("Подшипник", 3.2, text=True), Column(symbol_head(r"\chi_{\max}", "")),
         Column(symbol_head(r"h_{\min}", "мкм")), Column(symbol_head(r"\varphi", "°")),

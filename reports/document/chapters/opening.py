@@ -24,7 +24,7 @@ from reports.inputs.sections.input_file import InputFile
 from reports.shared.russian import joined
 from reports.spec.context import diagram_kind
 from reports.spec.shape import Shape
-from reports.tables.overview.unused import unused
+from reports.tables.unused import unused
 
 _LISTS = ("firing_offset_", "throw_angle_", "force_offset_", "web_", "gas_point_")
 _ARMS = ("l1", "l2", "l3", "l4", "l5", "l6", "left_web", "right_web")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from reports.inputs.sections.input_file import InputFile
 from reports.spec.shape import Shape
-from reports.tables.gas.cycle_names import section_of
+from reports.tables.cycle_names import section_of
 
 _ALWAYS = {"notation", "introduction", "inputs", "conclusion", "sources"}
 _SHORT = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals"}

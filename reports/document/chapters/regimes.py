@@ -17,7 +17,7 @@ from reports.document.text.terms import input_text
 from reports.formula.tex import input_symbol_tex
 from reports.shared.russian import BREAK, capital
 from reports.shared.signs import printable
-from reports.tables.loads.comparison import regime_titles
+from reports.tables.regimes import regime_titles
 
 _PARTS = (
     ("Ps_max", "поршень, палец и сжатие шатуна"),

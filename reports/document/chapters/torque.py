@@ -16,7 +16,7 @@ from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms
 from reports.shared.russian import fixed, short
 from reports.spec.judged import YES
-from reports.tables.overview.verdicts import reasons_of
+from reports.tables.verdicts import reasons_of
 
 _MOST_PANELS = 2
 

@@ -13,7 +13,7 @@ from itertools import permutations
 
 from pydantic import BaseModel
 
-from kshm.defaults import SPEED_RANGE
+from kshm.defaults import CLEARANCE_SHARES, SPEED_RANGE
 from reports.inputs.findings import Finding, Path, Values, radius_and_rod
 from reports.inputs.sections.bearings import OILS, OilGrade
 from reports.inputs.sections.input_file import LAMBDA_MAX, LAMBDA_MIN
@@ -21,7 +21,6 @@ from reports.inputs.units import number_text, span_text
 
 _TERM = re.compile(r"(?:(?P<times>[\d.]+)\*)?(?P<key>=?[a-z0-9_.]+)(?:\^(?P<power>[\d.]+))?")
 _SHAFTS = (("bearings", "в расчёте подшипников"), ("torsion", "в крутильной схеме"))
-CLEARANCES = {"min": 0.007, "max": 0.014}  # of the root of the diameter, where none is given
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +83,7 @@ def _journals(part: str, whose: str, mark: str) -> tuple[Pair, ...]:
     size = f"crankshaft.{part}_diameter"
     sizes = f"{size}s_mm | {size}_mm"
     rules = [" | ".join(f"{share}*{key}^0.5" for key in sizes.split(" | "))
-             for share in CLEARANCES.values()]  # fmt: skip
+             for share in CLEARANCE_SHARES.values()]  # fmt: skip
     return (
         Pair(f"bearings.{part}_clearance_min_mm | {rules[0]}",
              f"bearings.{part}_clearance_max_mm | {rules[1]}",

@@ -9,7 +9,7 @@ from kshm.cycle.usual_ranges import usual_ranges
 from kshm.nomenclature.dizdn_listing import EXTRA, INPUTS, OUTPUTS
 from reports.inputs.sections.cycle import CycleSection
 from reports.shared.russian import short
-from reports.tables.gas.cycle_names import is_boosted
+from reports.tables.cycle_names import is_boosted
 
 UNCHECKED = "обычные значения, с книгой не сверены"
 

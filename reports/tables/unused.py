@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import InputFile
-from reports.tables.gas.cycle_names import friction_by_speed, section_of
+from reports.tables.cycle_names import friction_by_speed, section_of
 
 _DEVICES = frozenset({"counterweight_share", "first_shafts_share", "second_shafts_share",
                       "suppression", "shaft_radius_mm"})  # fmt: skip

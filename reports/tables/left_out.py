@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from reports.inputs.sections.input_file import GeometrySection, InputFile
 from reports.spec.blocks import Block
-from reports.spec.parts import PartOf, Scope, joined
+from reports.spec.parts import Scope
 from reports.spec.shape import Shape
-from reports.tables.contexts import book
+from reports.tables.contexts import books
 
-_BY_ORDERS: tuple[PartOf, ...] = (
-    book("piston_motion"), book("balance"), book("balance_orders"), book("firing"),
-    book("inertia"), book("torque_orders"),
-)  # fmt: skip
+_BY_ORDERS = ("piston_motion", "balance", "balance_orders", "firing", "inertia", "torque_orders")
 
 
 def left_out(model: InputFile) -> tuple[Block, ...]:
@@ -23,8 +20,8 @@ def left_out(model: InputFile) -> tuple[Block, ...]:
         none = {"crank_offset_mm": None, "pin_offset_mm": None}
         geometry = geometry.model_copy(update=none)
     plain = model.model_copy(update={"geometry": geometry, "articulated": None})
-    blocks = joined(Scope(plain), _BY_ORDERS).blocks
-    known = {block.id for block in joined(Scope(model), _BY_ORDERS).blocks}
+    blocks = books(Scope(plain), _BY_ORDERS).blocks
+    known = {block.id for block in books(Scope(model), _BY_ORDERS).blocks}
     return tuple(block for block in blocks if block.id not in known)
 
 

@@ -1,1 +1,0 @@
-"""Tables of the gas pressure: indicator diagrams and the working cycle."""

@@ -1,1 +1,0 @@
-"""Tables of forces, torques and loads on pins and journals, Gots 2.5-2.8."""

@@ -1,1 +1,0 @@
-"""Oil film of the bearings and safety of the journals."""

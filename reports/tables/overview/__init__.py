@@ -1,1 +1,0 @@
-"""Summary, checks, scheme of the engine."""

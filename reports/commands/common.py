@@ -55,6 +55,13 @@ def tell(loaded: Loaded, source: Path) -> None:
         click.echo(line, err=True)
 
 
+def tell_written(target: Path, more: str = "") -> None:
+    """Name a file that is there now; where it is the output itself, beside the output."""
+    from reports.shared.files import is_output
+
+    click.echo(f"{target}{more}", err=is_output(target))
+
+
 def tell_solved(loaded: Loaded, *, aside: bool = False) -> bool:
     """What the solution shows, ``aside`` of the output; whether it needs a person's eye."""
     from reports.inputs.checks.flywheel import solution_remarks

@@ -22,6 +22,7 @@ from reports.commands.common import (
     path_option,
     tell,
     tell_solved,
+    tell_written,
     verbose_option,
 )
 from reports.commands.words import RussianCommand
@@ -55,17 +56,17 @@ def new(output: Path | None, base: Path | None, **wanted: Any) -> int:  # noqa: 
     данного двигателя с другим числом цилиндров.
     """
     from reports.commands.own import new_text
-    from reports.shared.files import write_text
+    from reports.shared.files import is_stream, write_text
 
     given = None if base is None else (str(base), lambda: load(base).model)
     text = new_text(given, **wanted)
     if output is None:
         click.echo(text, nl=False)
         return DONE
-    if output.exists():
+    if output.exists() and not is_stream(output):
         raise KshmError(f"{output}: файл уже есть; укажите другое имя ключом -o или удалите его")
     write_text(output, text)
-    click.echo(f"{output}")
+    tell_written(output)
     return DONE
 
 
@@ -186,7 +187,7 @@ def solve(source: Path, folder: Path | None, target: str | None) -> int:
             temporary.write_text(
                 json_text(loaded.model, solution, notes_of(loaded)), encoding="utf-8"
             )
-        click.echo(target)
+        tell_written(Path(target))
     wordless = folder is not None or target is not None
     if not wordless:
         _print_summary(solution.scalars, smallness_of(loaded.model))

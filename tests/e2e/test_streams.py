@@ -1,4 +1,4 @@
-"""Output that goes elsewhere than to a terminal: other code pages, readers that leave, no stream."""
+"""Output elsewhere than to a terminal: other code pages, readers that leave, no stream."""
 
 from __future__ import annotations
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from reports.inputs.checks.power import MOST
 from reports.inputs.sections.input_file import InputFile
 from reports.shared.russian import capital
 from reports.spec.blocks import Block, Grid, GridRow, Scalar, ScalarTable
@@ -185,7 +186,7 @@ def checks(model: InputFile, shape: Shape) -> ScalarTable:
     if _power_is_known(model):
         tests.append(
             ("power", "Средняя тангенциальная сила сходится с мощностью цикла: расхождение, %",
-             "T_error", "abs({value}) <= 2")
+             "T_error", f"abs({{value}}) <= {MOST:g}")
         )  # fmt: skip
     if model.masses.reciprocating_kg is None:
         tests.append(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from decimal import Decimal
 from typing import Protocol
 
@@ -32,6 +32,15 @@ class References(Protocol):
     def down_to_here(self, key: str) -> str:
         """Range of a column from its first row down to this one."""
 
+    def each(self, key: str) -> Sequence[str]:
+        """All cells of a run, one by one."""
+
+    def wave(self, turn: str, angle: str, order: float | str) -> str:
+        """Range of ``cos`` or ``sin`` of an order times an angle column, but its last row.
+
+        ``order`` is a number or the key of the table's first column.
+        """
+
 
 _FUNCTIONS = {
     "sin": "SIN", "cos": "COS", "tan": "TAN", "asin": "ASIN", "acos": "ACOS", "sqrt": "SQRT",
@@ -55,11 +64,6 @@ def number(value: float | str) -> str:
     if float(value).is_integer() and abs(value) < 1e15:
         return str(int(value))
     return f"{Decimal(repr(float(value))):f}"  # an exponent is no number to every parser
-
-
-def is_array(formula: str) -> bool:
-    """Whether a formula reckons with whole ranges: Gnumeric wants such a cell to say so."""
-    return "SUMPRODUCT(" in formula
 
 
 def compile_formula(text: str, refs: References) -> str:
@@ -138,7 +142,7 @@ def _call(name: str, args: list[ast.expr], refs: References) -> tuple[str, int]:
     if name in ("fourier_cos", "fourier_sin"):
         return _fourier(name, args, refs), 3
     if name in ("wave_cos", "wave_sin"):
-        return _wave(name, args, refs), _ATOM
+        return _wave(name, args, refs), 2
     if name == "first_largest":
         run = refs.column(_key(args[0]), repeat_last=True)
         return f"MATCH(MAX({run}),{run},0)", _ATOM
@@ -190,14 +194,17 @@ def _aggregate(name: str, node: ast.expr, refs: References) -> str:
 
 def _fourier(name: str, args: list[ast.expr], refs: References) -> str:
     """Fourier coefficient of a column over an angle in degrees, without the repeated last row."""
+    # No function over a range: Gnumeric wants such a cell to be an array formula, and LibreOffice
+    # loads those dirty: at the first edit what depends on them keeps its old values.
     values = refs.column(_key(args[0]), repeat_last=False)
-    angles = refs.column(_key(args[1]), repeat_last=False)
-    turn = f"{name.removeprefix('fourier_').upper()}({angles}*({_emit(args[2], refs)[0]}*PI()/180))"
-    return f"2*SUMPRODUCT({values},{turn})/COUNT({values})"
+    order = float(args[2].value) if isinstance(args[2], ast.Constant) else _key(args[2])  # type: ignore[arg-type]
+    wave = refs.wave(name.removeprefix("fourier_"), _key(args[1]), order)
+    return f"2*SUMPRODUCT({values},{wave})/COUNT({values})"
 
 
 def _wave(name: str, args: list[ast.expr], refs: References) -> str:
-    """Waves, weighted or not, over all of a run."""
-    *weights, angles = (refs.column(_key(arg), repeat_last=True) for arg in args[:-1])
-    turn = f"{name.removeprefix('wave_').upper()}({angles}*({_emit(args[-1], refs)[0]}*PI()/180))"
-    return f"SUMPRODUCT({','.join([*weights, turn])})"
+    """Waves, weighted or not, over all of a run, cell by cell for the same reason."""
+    turn, order = name.removeprefix("wave_").upper(), _emit(args[-1], refs)[0]
+    *weights, angles = (refs.each(_key(arg)) for arg in args[:-1])
+    waves = [f"{turn}({angle}*({order}*PI()/180))" for angle in angles]
+    return "+".join(map("*".join, zip(*weights, waves, strict=True)))

@@ -7,17 +7,22 @@ defined names; cells of grids are absolute addresses.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from openpyxl.utils import get_column_letter
 
 from reports.formula.excel import number
 from reports.inputs.fields import Field
 from reports.spec.blocks import Grid, Model, ScalarTable, TableSpec
+from reports.workbook.orders import Grid as AngleGrid
+from reports.workbook.orders import Waves, grid_of, waves_of
 
 INPUT_SHEET = "Исходные данные"
 CONTENTS_SHEET = "Содержание"
+WAVES_SHEET = "Синусы и косинусы"
 
 TITLE_ROW = 1
 NOTE_ROW = 2
@@ -32,6 +37,7 @@ KEY_COLUMN = 6
 _ROW = "\x01"  # stands for the row number in a formula compiled once for a whole column
 _NEXT = "\x02"
 _ABOVE = "\x03"
+_WAVE = re.compile("\x04(\\d+)\x04")  # the column of the first row's order; the next row's beside it
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +88,7 @@ class Layout:
     next_row: dict[str, int] = field(default_factory=dict)
     next_column: dict[str, int] = field(default_factory=dict)
     beside: dict[str, int] = field(default_factory=dict)  # row of the next list beside a table
+    waves: dict[AngleGrid, int] = field(default_factory=dict)  # column of the angles
 
     @classmethod
     def of(cls, model: Model) -> Layout:
@@ -98,7 +105,16 @@ class Layout:
                 layout._list(block, beside_table=beside_table)
             elif isinstance(block, Grid):
                 layout._grid(block, below_table=beside_table)
+        column = 1
+        for grid, waves in layout.orders.items():
+            layout.waves[grid] = column
+            column += 1 + sum(map(len, waves.orders.values())) + 1
         return layout
+
+    @cached_property
+    def orders(self) -> Mapping[AngleGrid, Waves]:
+        """Orders of the sines and cosines by the grid of their angles."""
+        return waves_of(self.model)
 
     # --- assignment -------------------------------------------------------------------
 
@@ -186,6 +202,12 @@ class Layout:
         ends = f"${get_column_letter(last_cell.column)}${last_cell.row}"
         return f"{first.absolute}:{ends}"
 
+    def wave_column(self, turn: str, grid: AngleGrid, order: float) -> int:
+        """Sheet column of a function of an order times the angles of a grid."""
+        orders = self.orders[grid].orders
+        before = sum(len(orders[name]) for name in tuple(orders)[: tuple(orders).index(turn)])
+        return self.waves[grid] + 1 + before + orders[turn].index(order)
+
     def cells_of_run(self, key: str) -> list[Cell]:
         """Cells of a grid's row or of input points, see ``keys_of_run``."""
         return [self.cells[name] for name in self.keys_of_run(key)]
@@ -261,6 +283,35 @@ class RowReferences:
         prefix, separator, last = here.rpartition("!")
         return f"{prefix}{separator}${letter}${FIRST_ROW}:{last}"
 
+    def each(self, key: str) -> list[str]:
+        """Cells of a run."""
+        full = self._qualified(key)
+        if full in self._layout.columns:
+            table, column = self._layout.columns[full]
+            cells = [Cell(table.sheet, row, column) for row in self._layout.rows_of(table)]
+        else:
+            cells = self._layout.cells_of_run(full)
+        return [cell.absolute.removeprefix(self._own) for cell in cells]
+
+    def wave(self, turn: str, angle: str, order: float | str) -> str:
+        """Sines or cosines of an order; of each row's own where it is a column."""
+        grid = grid_of(self._layout.columns[self._qualified(angle)][0])
+        last = FIRST_ROW + len(grid[0]) - 2
+        first = order if isinstance(order, float) else self._orders(turn, grid)[0]
+        column = self._layout.wave_column(turn, grid, first)
+        if isinstance(order, float):
+            return column_range(WAVES_SHEET, column, FIRST_ROW, last)
+        letter = f"\x04{column}\x04"
+        return f"{quoted(WAVES_SHEET)}!${letter}${FIRST_ROW}:${letter}${last}"
+
+    def _orders(self, turn: str, grid: AngleGrid) -> tuple[float, ...]:
+        """Orders of the rows, which stand side by side as the formulas stand below each other."""
+        rows = self._table.rows if self._table is not None else ()
+        known = self._layout.orders[grid].orders[turn]
+        if not rows or known[: len(rows)] != rows:
+            raise ValueError("two tables of different orders over one grid of angles")
+        return rows
+
     def _qualified(self, key: str) -> str:
         local = f"{self._table.id}.{key}" if self._table is not None else key
         return local if local in self._layout.columns else key
@@ -279,6 +330,10 @@ class RowReferences:
 def at_row(formula: str, row: int, *, last: bool = False) -> str:
     """A column's formula in one row; in the last row the following row is the row itself."""
     below = str(row if last else row + 1)
+    if "\x04" in formula:
+        formula = _WAVE.sub(
+            lambda found: get_column_letter(int(found[1]) + row - FIRST_ROW), formula
+        )
     return formula.replace(_ROW, str(row)).replace(_NEXT, below).replace(_ABOVE, str(row - 1))
 
 

@@ -150,8 +150,8 @@ def _call(name: str, args: list[ast.expr], refs: References) -> tuple[str, int]:
         body = refs.column(_key(args[1]), repeat_last=False)
         return f"MATCH({_emit(args[0], refs)[0]},{body},1)", _ATOM
     if name == "rank":
-        run = refs.column(_key(args[1]), repeat_last=True)
-        return f"1+SUMPRODUCT(({run}<{_wrapped(args[0], 2, refs)})*1)", 2
+        than = _wrapped(args[0], 2, refs)
+        return "+".join(["1", *(f"({one}<{than})*1" for one in refs.each(_key(args[1])))]), 2
     if name == "round":
         decimals = _emit(args[1], refs)[0] if args[1:] else "0"
         return f"ROUND({_emit(args[0], refs)[0]},{decimals})", _ATOM

@@ -10,7 +10,7 @@ import pytest
 from lxml import etree
 from openpyxl import load_workbook
 
-from reports.formula.excel import compile_formula, is_array
+from reports.formula.excel import compile_formula
 from reports.formula.numeric import evaluate
 from reports.formula.parse import FormulaError, names, parse
 from reports.inputs.fields import to_mapping
@@ -29,8 +29,6 @@ def cell(formula: str, value: str = "1") -> etree._Element:
     root = etree.Element(f"{MAIN}c", r="A9")
     made = etree.SubElement(root, f"{MAIN}f")
     made.text = formula
-    if is_array(formula):
-        made.attrib.update({"t": "array", "ref": "A9"})
     etree.SubElement(root, f"{MAIN}v").text = value
     return root
 

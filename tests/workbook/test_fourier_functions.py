@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from unittest.mock import Mock
+
 import numpy as np
 import pytest
 
@@ -31,8 +33,23 @@ def test_a_running_sum_takes_the_rows_down_to_its_own() -> None:
 
 def test_formulas_leave_the_repeated_last_row_out() -> None:
     made = model()
-    references = RowReferences(Layout.of(made), made.tables["P4_2"])
-    text = compile_formula("fourier_cos(M1_Nm, phi_deg, 0.5)", references)
-    assert text == ("=2*SUMPRODUCT($B$6:$B$77,COS($A$6:$A$77*(0.5*PI()/180)))/COUNT($B$6:$B$77)")
-    running = compile_formula("running_sum(M1_Nm)", references)
+    references = RowReferences(Layout.of(made), made.tables["torque_orders"])
+    text = compile_formula("fourier_cos(tangential.t_gas_MPa, tangential.phi_deg, 1.5)", references)
+    waves = "'Синусы и косинусы'!$D$6:$D$77"
+    assert text == f"=2*SUMPRODUCT($B$6:$B$77,{waves})/COUNT($B$6:$B$77)"
+    running = compile_formula("running_sum(tangential.t_gas_MPa)", references)
     assert at_row(running, 9) == "=SUM($B$6:B9)"
+
+
+def test_each_row_sums_over_the_waves_of_its_order() -> None:
+    made = model()
+    references = RowReferences(Layout.of(made), made.tables["torque_orders"])
+    text = compile_formula("fourier_sin(tangential.t_gas_MPa, tangential.phi_deg, order)", references)
+    assert "'Синусы и косинусы'!$R$6:$R$77)" in at_row(text, 6)
+    assert "'Синусы и косинусы'!$AG$6:$AG$77)" in at_row(text, 21)
+
+
+def test_sums_over_cylinders_are_written_out() -> None:
+    references = Mock(each=lambda key: {"weight": ("W1", "W2"), "angle": ("A1", "A2")}[key])
+    wave = compile_formula("wave_cos(weight, angle, 2)", references)
+    assert wave == "=W1*COS(A1*(2*PI()/180))+W2*COS(A2*(2*PI()/180))"

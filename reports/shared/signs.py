@@ -88,9 +88,7 @@ def unprintable(text: str) -> tuple[str, ...]:
     if USUAL.fullmatch(text):
         return ()
     signs = dict.fromkeys(unicodedata.normalize("NFC", text))
-    return tuple(
-        char for char in signs if char != REPLACEMENT and REPLACEMENT in printable(char)
-    )
+    return tuple(char for char in signs if char != REPLACEMENT and REPLACEMENT in printable(char))
 
 
 def _printed(char: str) -> str:

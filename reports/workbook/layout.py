@@ -37,7 +37,8 @@ KEY_COLUMN = 6
 _ROW = "\x01"  # stands for the row number in a formula compiled once for a whole column
 _NEXT = "\x02"
 _ABOVE = "\x03"
-_WAVE = re.compile("\x04(\\d+)\x04")  # the column of the first row's order; the next row's beside it
+# The column of the first row's order; that of the next row stands beside it.
+_WAVE = re.compile("\x04(\\d+)\x04")
 
 
 @dataclass(frozen=True, slots=True)

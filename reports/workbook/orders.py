@@ -44,8 +44,9 @@ def waves_of(model: Model) -> Mapping[Grid, Waves]:
                 orders_of = found.setdefault(grid, Waves(full)).orders
                 known = orders_of.get(turn, ())
                 # Rows first: their orders stand side by side.
-                both = (*known, order) if isinstance(order, float) else (*_rows(table, order), *known)
-                orders_of[turn] = tuple(dict.fromkeys(both))
+                rows = () if isinstance(order, float) else _rows(table, order)
+                last = (order,) if isinstance(order, float) else ()
+                orders_of[turn] = tuple(dict.fromkeys((*rows, *known, *last)))
     return found
 
 

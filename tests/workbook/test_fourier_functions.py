@@ -44,7 +44,8 @@ def test_formulas_leave_the_repeated_last_row_out() -> None:
 def test_each_row_sums_over_the_waves_of_its_order() -> None:
     made = model()
     references = RowReferences(Layout.of(made), made.tables["torque_orders"])
-    text = compile_formula("fourier_sin(tangential.t_gas_MPa, tangential.phi_deg, order)", references)
+    sines = "fourier_sin(tangential.t_gas_MPa, tangential.phi_deg, order)"
+    text = compile_formula(sines, references)
     assert "'Синусы и косинусы'!$R$6:$R$77)" in at_row(text, 6)
     assert "'Синусы и косинусы'!$AG$6:$AG$77)" in at_row(text, 21)
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from reports.document.text import texcases
 from reports.document.text.symbols import SIGNS
-from reports.document.text.tex import FRACTIONS, Node, tree
+from reports.document.text.tex import FRACTIONS, GREEK, Node, tree
 from reports.shared.russian import MINUS
 
 _GREEK = {
@@ -19,9 +19,7 @@ _GREEK = {
     "tau": "тау", "upsilon": "ипсилон", "varphi": "фи", "phi": "фи", "chi": "хи", "psi": "пси",
     "omega": "омега", "partial": "дэ",
 }  # fmt: skip
-_LETTERS = dict(zip("αβγδεζηθικλμνξοπρςστυφχψω", (
-    "альфа бета гамма дельта эпсилон дзета эта тета йота каппа лямбда мю ню кси омикрон пи ро "
-    "сигма сигма тау ипсилон фи хи пси омега").split(), strict=True))  # fmt: skip
+_LETTERS = {sign: _GREEK[name] for name, sign in GREEK.items() if name in _GREEK}
 _FUNCTIONS = {
     "sin": "синус", "cos": "косинус", "tg": "тангенс", "tan": "тангенс", "ctg": "котангенс",
     "arcsin": "арксинус", "arccos": "арккосинус", "arctg": "арктангенс", "arctan": "арктангенс",
@@ -29,10 +27,11 @@ _FUNCTIONS = {
     "sh": "гиперболический синус", "ch": "гиперболический косинус", "sign": "знак", "sgn": "знак",
     "min": "мин", "max": "макс", "lim": "предел", "mod": "остаток",
 }  # fmt: skip
-_SIGNS = {name: SIGNS[name] for name in ("cdot", "times", "pm", "approx", "leq", "geq", "le", "ge")}
-_SIGNS |= {"sum": "сумма", "int": "интеграл", "oint": "интеграл по контуру", "infty": "бесконечность",
-           "prod": "произведение", "neq": "≠", "ne": "≠", "equiv": "≡", "dots": "…",
-           "ldots": "…", "circ": "°", "degree": "°", "prime": "штрих", "mid": "|",
+_KEPT = ("cdot", "times", "pm", "approx", "leq", "geq", "le", "ge")
+_SIGNS = {name: SIGNS[name] for name in _KEPT}
+_SIGNS |= {"sum": "сумма", "int": "интеграл", "oint": "интеграл по контуру",
+           "infty": "бесконечность", "prod": "произведение", "neq": "≠", "ne": "≠", "equiv": "≡",
+           "dots": "…", "ldots": "…", "circ": "°", "degree": "°", "prime": "штрих", "mid": "|",
            "parallel": "∥", "to": "→", "Delta": "дельта", "colon": ":"}  # fmt: skip
 _OVER = {
     "bar": "с чертой", "overline": "с чертой", "dot": "с точкой", "ddot": "с двумя точками",
@@ -65,7 +64,8 @@ def _said(nodes: Sequence[Node]) -> str:
     for node, before in zip(nodes, (None, *nodes), strict=False):
         piece = _piece(node)
         alike = before is not None and _in_number(node) and _in_number(before)
-        index = before is not None and before.token.isalpha() and before.token.isascii() and _is_short(node)
+        letter = before is not None and before.token.isalpha() and before.token.isascii()
+        index = letter and _is_short(node)
         pieces.append(piece if alike or index else f" {piece}")
     return "".join(pieces)
 

@@ -41,6 +41,9 @@ class References(Protocol):
         ``order`` is a number or the key of the table's first column.
         """
 
+    def run_wave(self, turn: str, angles: str, order: float | str) -> str:
+        """The same for the angles of a run, all of them."""
+
 
 _FUNCTIONS = {
     "sin": "SIN", "cos": "COS", "tan": "TAN", "asin": "ASIN", "acos": "ACOS", "sqrt": "SQRT",
@@ -142,7 +145,7 @@ def _call(name: str, args: list[ast.expr], refs: References) -> tuple[str, int]:
     if name in ("fourier_cos", "fourier_sin"):
         return _fourier(name, args, refs), 3
     if name in ("wave_cos", "wave_sin"):
-        return _wave(name, args, refs), 2
+        return _wave(name, args, refs), _ATOM
     if name == "first_largest":
         run = refs.column(_key(args[0]), repeat_last=True)
         return f"MATCH(MAX({run}),{run},0)", _ATOM
@@ -197,14 +200,19 @@ def _fourier(name: str, args: list[ast.expr], refs: References) -> str:
     # No function over a range: Gnumeric wants such a cell to be an array formula, and LibreOffice
     # loads those dirty: at the first edit what depends on them keeps its old values.
     values = refs.column(_key(args[0]), repeat_last=False)
-    order = float(args[2].value) if isinstance(args[2], ast.Constant) else _key(args[2])  # type: ignore[arg-type]
-    wave = refs.wave(name.removeprefix("fourier_"), _key(args[1]), order)
+    wave = refs.wave(name.removeprefix("fourier_"), _key(args[1]), _order(args[2]))
     return f"2*SUMPRODUCT({values},{wave})/COUNT({values})"
 
 
 def _wave(name: str, args: list[ast.expr], refs: References) -> str:
-    """Waves, weighted or not, over all of a run, cell by cell for the same reason."""
-    turn, order = name.removeprefix("wave_").upper(), _emit(args[-1], refs)[0]
-    *weights, angles = (refs.each(_key(arg)) for arg in args[:-1])
-    waves = [f"{turn}({angle}*({order}*PI()/180))" for angle in angles]
-    return "+".join(map("*".join, zip(*weights, waves, strict=True)))
+    """Waves, weighted or not, over all of a run."""
+    *weights, angles = map(_key, args[:-1])
+    waves = refs.run_wave(name.removeprefix("wave_"), angles, _order(args[-1]))
+    if not weights:
+        return f"SUM({waves})"
+    return f"SUMPRODUCT({refs.column(weights[0], repeat_last=True)},{waves})"
+
+
+def _order(node: ast.expr) -> float | str:
+    """A number, or the key of a column of orders."""
+    return float(node.value) if isinstance(node, ast.Constant) else _key(node)  # type: ignore[arg-type]

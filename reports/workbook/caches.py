@@ -185,9 +185,9 @@ def _fill_chart(data: bytes, ranges: dict[str, list[float]]) -> bytes:
     root = etree.fromstring(data)
     for reference in root.iter(f"{{{_CHART}}}numRef"):
         numbers = ranges[reference.findtext(f"{{{_CHART}}}f")]
-        # Cells still to be filled in have no value; a picture needs no more than five digits.
+        # Cells still to be filled in have no value; a picture needs no more than six digits.
         points = "".join(
-            f'<pt idx="{i}"><v>{n:.5g}</v></pt>' for i, n in enumerate(numbers) if math.isfinite(n)
+            f'<pt idx="{i}"><v>{n:.6g}</v></pt>' for i, n in enumerate(numbers) if math.isfinite(n)
         )
         reference.append(
             etree.fromstring(

@@ -18,7 +18,7 @@ from reports.formula.excel import number
 from reports.inputs.fields import Field
 from reports.spec.blocks import Grid, Model, ScalarTable, TableSpec
 from reports.workbook.orders import Grid as AngleGrid
-from reports.workbook.orders import Waves, grid_of, waves_of
+from reports.workbook.orders import Waves, grid_of, place_of, runs_of, waves_of
 
 INPUT_SHEET = "Исходные данные"
 CONTENTS_SHEET = "Содержание"
@@ -38,6 +38,7 @@ _ROW = "\x01"  # stands for the row number in a formula compiled once for a whol
 _NEXT = "\x02"
 _ABOVE = "\x03"
 # The column of the first row's order; that of the next row stands beside it.
+_BELOW = re.compile("\x05(\\d+)\x05")  # the same for rows
 _WAVE = re.compile("\x04(\\d+)\x04")
 
 
@@ -90,6 +91,7 @@ class Layout:
     next_column: dict[str, int] = field(default_factory=dict)
     beside: dict[str, int] = field(default_factory=dict)  # row of the next list beside a table
     waves: dict[AngleGrid, int] = field(default_factory=dict)  # column of the angles
+    run_waves: dict[str, int] = field(default_factory=dict)  # row of a run's angles
 
     @classmethod
     def of(cls, model: Model) -> Layout:
@@ -110,6 +112,10 @@ class Layout:
         for grid, waves in layout.orders.items():
             layout.waves[grid] = column
             column += 1 + sum(map(len, waves.orders.values())) + 1
+        row = max((FIRST_ROW + len(rows) for rows, _ in layout.orders), default=HEADER_ROW)
+        for run, waves in layout.run_orders.items():
+            layout.run_waves[run] = row + 2
+            row += 3 + sum(map(len, waves.orders.values()))
         return layout
 
     @cached_property
@@ -203,11 +209,18 @@ class Layout:
         ends = f"${get_column_letter(last_cell.column)}${last_cell.row}"
         return f"{first.absolute}:{ends}"
 
-    def wave_column(self, turn: str, grid: AngleGrid, order: float) -> int:
-        """Sheet column of a function of an order times the angles of a grid."""
-        orders = self.orders[grid].orders
-        before = sum(len(orders[name]) for name in tuple(orders)[: tuple(orders).index(turn)])
-        return self.waves[grid] + 1 + before + orders[turn].index(order)
+    @cached_property
+    def run_orders(self) -> Mapping[str, Waves]:
+        """Orders of the sines and cosines by the run of their angles."""
+        return runs_of(self.model)
+
+    def wave_row(self, turn: str, run: str, orders: tuple[float, ...]) -> int:
+        """Sheet row of a function of the first of some orders times the angles of a run."""
+        return self.run_waves[run] + 1 + _place(self.run_orders[run], turn, orders)
+
+    def wave_column(self, turn: str, grid: AngleGrid, orders: tuple[float, ...]) -> int:
+        """Sheet column of a function of the first of some orders times the angles of a grid."""
+        return self.waves[grid] + 1 + _place(self.orders[grid], turn, orders)
 
     def cells_of_run(self, key: str) -> list[Cell]:
         """Cells of a grid's row or of input points, see ``keys_of_run``."""
@@ -231,6 +244,15 @@ class Layout:
     def defined_names(self) -> Mapping[str, str]:
         """Defined name → absolute address."""
         return {name: self.cells[name].absolute for name in sorted(self.named)}
+
+
+def _place(waves: Waves, turn: str, orders: tuple[float, ...]) -> int:
+    """Number of the waves that stand before some orders."""
+    names = tuple(waves.orders)
+    before = sum(len(waves.orders[name]) for name in names[: names.index(turn)])
+    found = place_of(waves.orders[turn], orders)
+    assert found is not None
+    return before + found
 
 
 class RowReferences:
@@ -298,20 +320,25 @@ class RowReferences:
         """Sines or cosines of an order; of each row's own where it is a column."""
         grid = grid_of(self._layout.columns[self._qualified(angle)][0])
         last = FIRST_ROW + len(grid[0]) - 2
-        first = order if isinstance(order, float) else self._orders(turn, grid)[0]
-        column = self._layout.wave_column(turn, grid, first)
+        column = self._layout.wave_column(turn, grid, self._orders(order))
         if isinstance(order, float):
             return column_range(WAVES_SHEET, column, FIRST_ROW, last)
         letter = f"\x04{column}\x04"
         return f"{quoted(WAVES_SHEET)}!${letter}${FIRST_ROW}:${letter}${last}"
 
-    def _orders(self, turn: str, grid: AngleGrid) -> tuple[float, ...]:
-        """Orders of the rows, which stand side by side as the formulas stand below each other."""
-        rows = self._table.rows if self._table is not None else ()
-        known = self._layout.orders[grid].orders[turn]
-        if not rows or known[: len(rows)] != rows:
-            raise ValueError("two tables of different orders over one grid of angles")
-        return rows
+    def run_wave(self, turn: str, angles: str, order: float | str) -> str:
+        """Sines or cosines of a run's angles; of each row's own order where it is a column."""
+        row = str(self._layout.wave_row(turn, angles, self._orders(order)))
+        mark = row if isinstance(order, float) else f"\x05{row}\x05"
+        last = get_column_letter(1 + len(self._layout.keys_of_run(angles)))
+        return f"{quoted(WAVES_SHEET)}!$B${mark}:${last}${mark}"
+
+    def _orders(self, order: float | str) -> tuple[float, ...]:
+        """An order, or those of the table's rows."""
+        if isinstance(order, float):
+            return (order,)
+        assert self._table is not None
+        return self._table.rows
 
     def _qualified(self, key: str) -> str:
         local = f"{self._table.id}.{key}" if self._table is not None else key
@@ -331,6 +358,8 @@ class RowReferences:
 def at_row(formula: str, row: int, *, last: bool = False) -> str:
     """A column's formula in one row; in the last row the following row is the row itself."""
     below = str(row if last else row + 1)
+    if "\x05" in formula:
+        formula = _BELOW.sub(lambda found: str(int(found[1]) + row - FIRST_ROW), formula)
     if "\x04" in formula:
         formula = _WAVE.sub(
             lambda found: get_column_letter(int(found[1]) + row - FIRST_ROW), formula

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from reports.formula.parse import parse
@@ -26,6 +26,14 @@ def grid_of(table: TableSpec) -> Grid:
     return table.rows, table.step
 
 
+def runs_of(model: Model) -> Mapping[str, Waves]:
+    """Orders of the sums over a run of a grid, by the run of their angles."""
+    found: dict[str, Waves] = {}
+    for table, turn, angle, order in _met(model, "wave_"):
+        _add(found.setdefault(angle, Waves(angle)), table, turn, order)
+    return found
+
+
 def waves_of(model: Model) -> Mapping[Grid, Waves]:
     """Orders by grid; the rows of a table of orders follow one another.
 
@@ -33,37 +41,47 @@ def waves_of(model: Model) -> Mapping[Grid, Waves]:
         ValueError: an order is neither a number nor the first column of its table.
     """
     found: dict[Grid, Waves] = {}
-    for block in model.blocks:
-        table = block if isinstance(block, TableSpec) else None
-        for _, node in nodes_in(block):
-            if node.expr is None or "fourier_" not in node.expr:
-                continue
-            for turn, angle, order in _calls(node.expr):
-                full = angle if "." in angle or table is None else f"{table.id}.{angle}"
-                grid = grid_of(model.tables[full.partition(".")[0]])
-                orders_of = found.setdefault(grid, Waves(full)).orders
-                known = orders_of.get(turn, ())
-                # Rows first: their orders stand side by side.
-                rows = () if isinstance(order, float) else _rows(table, order)
-                last = (order,) if isinstance(order, float) else ()
-                orders_of[turn] = tuple(dict.fromkeys((*rows, *known, *last)))
+    for table, turn, angle, order in _met(model, "fourier_"):
+        full = angle if "." in angle or table is None else f"{table.id}.{angle}"
+        grid = grid_of(model.tables[full.partition(".")[0]])
+        _add(found.setdefault(grid, Waves(full)), table, turn, order)
     return found
 
 
-def _calls(text: str) -> list[tuple[str, str, float | str]]:
-    """Function, angle column and order of each Fourier coefficient of an expression."""
-    return [
-        (
-            call.func.id.removeprefix("fourier_"),
-            ast.unparse(call.args[1]),
-            float(order.value) if isinstance(order, ast.Constant) else ast.unparse(order),  # type: ignore[arg-type]
-        )
-        for call in ast.walk(parse(text))
-        if isinstance(call, ast.Call)
-        and isinstance(call.func, ast.Name)
-        and call.func.id.startswith("fourier_")
-        for order in call.args[2:]
-    ]
+def _add(waves: Waves, table: TableSpec | None, turn: str, order: float | str) -> None:
+    """More orders; those of a table's rows stand side by side."""
+    wanted = (order,) if isinstance(order, float) else _rows(table, order)
+    known = waves.orders.setdefault(turn, ())
+    if place_of(known, wanted) is None:
+        waves.orders[turn] = (*known, *wanted)
+
+
+def place_of(known: tuple[float, ...], wanted: tuple[float, ...]) -> int | None:
+    """Where some orders stand side by side among others."""
+    count = len(wanted)
+    places = range(len(known) - count + 1)
+    return next((i for i in places if known[i : i + count] == wanted), None)
+
+
+def _met(model: Model, beginning: str) -> Iterator[tuple[TableSpec | None, str, str, float | str]]:
+    """Table, function, angles and order of each call of the functions of such a name."""
+    for block in model.blocks:
+        table = block if isinstance(block, TableSpec) else None
+        for _, node in nodes_in(block):
+            if node.expr is None or beginning not in node.expr:
+                continue
+            for call in ast.walk(parse(node.expr)):
+                if not (isinstance(call, ast.Call) and isinstance(call.func, ast.Name)):
+                    continue
+                if call.func.id.startswith(beginning):
+                    # After what is summed: the angles and the order.
+                    angle, order = call.args[-2:]
+                    said = (
+                        float(order.value)  # type: ignore[arg-type]
+                        if isinstance(order, ast.Constant)
+                        else ast.unparse(order)
+                    )
+                    yield table, call.func.id.removeprefix(beginning), ast.unparse(angle), said
 
 
 def _rows(table: TableSpec | None, order: str) -> tuple[float, ...]:

@@ -89,7 +89,7 @@ def assemble(
         notes = [block.note for block in model.blocks if block.sheet == title and block.note]
         if notes:
             _note(book[title], " ".join(dict.fromkeys(notes)))
-    if layout.orders:
+    if layout.orders or layout.run_orders:
         waves = book.create_sheet(WAVES_SHEET, _index(book, WAVES_SHEET))
         _heading(waves, heading(WAVES_SHEET))
         write_waves(waves, writer)

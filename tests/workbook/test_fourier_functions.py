@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from unittest.mock import Mock
-
 import numpy as np
 import pytest
 
 from reports.formula.excel import compile_formula
 from reports.formula.numeric import evaluate
+from reports.spec.shape import FIRING
 from reports.workbook.layout import Layout, RowReferences, at_row
 from tests.workbook.made import model
 
@@ -50,7 +49,9 @@ def test_each_row_sums_over_the_waves_of_its_order() -> None:
     assert "'Синусы и косинусы'!$AG$6:$AG$77)" in at_row(text, 21)
 
 
-def test_sums_over_cylinders_are_written_out() -> None:
-    references = Mock(each=lambda key: {"weight": ("W1", "W2"), "angle": ("A1", "A2")}[key])
-    wave = compile_formula("wave_cos(weight, angle, 2)", references)
-    assert wave == "=W1*COS(A1*(2*PI()/180))+W2*COS(A2*(2*PI()/180))"
+def test_sums_over_cylinders_take_the_waves_of_each_order() -> None:
+    made = model()
+    references = RowReferences(Layout.of(made), made.tables["torque_orders"])
+    text = compile_formula(f"wave_sin({FIRING}, order)", references)
+    first, second = at_row(text, 6), at_row(text, 7)
+    assert first.startswith("=SUM('Синусы и косинусы'!$B$") and first != second

@@ -8,6 +8,7 @@ from math import cos, radians, sin
 from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
 
+from reports.formula.excel import number
 from reports.workbook import styles
 from reports.workbook.layout import FIRST_ROW, HEADER_ROW, NUMBER_ROW, Cell, quoted
 from reports.workbook.orders import Waves
@@ -60,7 +61,8 @@ def _write_run(sheet: Worksheet, writer: Writer, run: str) -> None:
     for column, (cell, angle) in enumerate(zip(cells, angles, strict=True), 2):
         _cell(sheet, writer, top, column, f"={cell.absolute}", angle)
     for row, (turn, order) in enumerate(_each(layout.run_orders[run]), top + 1):
-        sheet.cell(row, 1, order).style = styles.NUMBER
+        writer.formula(sheet, row, 1, f"={number(order)}", order)
+        sheet.cell(row, 1).style = styles.NUMBER
         for column, angle in enumerate(angles, 2):
             letter = get_column_letter(column)
             text = f"={turn.upper()}({letter}${top}*($A{row}*PI()/180))"

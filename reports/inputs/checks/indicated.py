@@ -35,6 +35,7 @@ class Indicated:
     compression: float | None
     expansion: float | None
     intake: float | None
+    ambient: float
 
 
 def indicated_of(model: InputFile, gas: TableGasSection, sizes: Sizes) -> Indicated:
@@ -59,7 +60,7 @@ def indicated_of(model: InputFile, gas: TableGasSection, sizes: Sizes) -> Indica
     return Indicated(
         mean_pressure(pressures, ratio, eps), float(pressures[top]), float(angles[top]),
         float(past[top]), exponent(COMPRESSION), exponent(EXPANSION),
-        float(pressures[taken_in].mean()) if taken_in.any() else None,
+        float(pressures[taken_in].mean()) if taken_in.any() else None, gas.ambient_pressure_mpa,
     )  # fmt: skip
 
 
@@ -117,10 +118,11 @@ def _odd_compression(n_1: float, n_2: float | None, found: Indicated, path: Path
     """An exponent of compression out of its band, and what speaks for which cause."""
     high = n_1 > bands.TRACE_COMPRESSION.high
     level = "" if found.intake is None else f", на впуске {MPA.text(_rounded(found.intake))}"
-    cause, mend = "нуль давления, ВМТ или степень сжатия неверны", "проверьте их"
-    if high and n_2 is not None and n_2 >= _GAUGE:
+    cause, mend = "занижен нуль давления или неверны ВМТ и степень сжатия", "проверьте их"
+    low = found.intake is None or found.intake < found.ambient
+    if high and low and n_2 is not None and n_2 >= _GAUGE:
         cause, mend = "давление избыточное", "нужно абсолютное: прибавьте атмосферное"
-    elif n_2 is not None and (high or n_2 > _LATE):
+    elif n_2 is not None and (n_2 < _GAUGE if high else n_2 > _LATE):
         late = "позже" if high else "раньше"
         cause, mend = f"ВМТ принята {late} действительной", "проверьте firing_tdc_deg"
     elif not high:

@@ -188,9 +188,9 @@ def _table(width: float) -> Complex:
     stretch = _stretch(e, seen)
     angle = np.arctan2(np.sin(gamma), np.cos(gamma) * stretch)
     size = np.log(np.abs(force) * np.hypot(np.cos(angle), stretch * np.sin(angle)))
-    rows = zip(seen, size, angle, strict=True)
+    lines = zip(seen, size, angle, strict=True)
     inside = np.array(
-        [_even(at, size, 1) + 1j * _even(at, turned, -1) for at, size, turned in rows]
+        [_even(at, size, 1) + 1j * _even(at, turned, -1) for at, size, turned in lines]
     )
     above, below = (3 * (a - b) + c for a, b, c in (inside[:3], inside[:-4:-1]))
     rim = np.vstack([above, inside, below])

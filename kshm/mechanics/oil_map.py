@@ -32,6 +32,8 @@ _NOTHING = 1e-300
 # Cubics through two points with the slopes of the chords beside them, Catmull and Rom.
 _CUBIC = np.array([[0, -1, 2, -1], [2, 0, -5, 3], [0, 1, 4, -3], [0, 0, -1, 1]]) / 2
 
+_AROUND_CORNER = np.arange(4)[:, None] * (_COLUMNS + 2) + np.arange(4)
+
 
 def squeeze_force(eccentricity: Array, direction: Array, width: float) -> Complex:
     """F ψ²/(B D η |v|) [-] with its direction from the line of centres, Reynolds.
@@ -147,19 +149,19 @@ class MobilityMap:
         """Entries between the points of the tables, by cubics both ways."""
         i = np.clip(row.astype(int), 0, _ROWS - 2)
         j = np.clip(column.astype(int), 0, _COLUMNS - 2)
-        by_row, by_column = (_weights(at) for at in (row - i, column - j))
         corner = self.first + i * (_COLUMNS + 2) + j
-        value = np.zeros(corner.shape, dtype=complex)
-        for k in range(4):
-            line = corner + k * (_COLUMNS + 2)
-            part = sum(by_column[m] * self.tables.take(line + m) for m in range(4))
-            value += by_row[k] * part
+        around = _AROUND_CORNER.reshape(4, 4, *(1,) * corner.ndim)
+        near = self.tables.take(corner + around)
+        part = (near * _weights(column - j)).sum(axis=1)
+        value: Complex = (part * _weights(row - i)).sum(axis=0)
         return value
 
 
 def _weights(share: Array) -> Array:
-    powers = np.stack([np.ones_like(share), share, share**2, share**3])
-    return np.tensordot(_CUBIC, powers, axes=1)
+    square = share * share
+    powers = np.stack([np.ones_like(share), share, square, square * share])
+    weights: Array = _CUBIC @ powers.reshape(4, -1)
+    return weights.reshape(powers.shape)
 
 
 def _seen(load: Complex, e: Array) -> Array:

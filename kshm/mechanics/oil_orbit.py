@@ -20,7 +20,7 @@ from kshm.mechanics.oil_map import MobilityMap
 
 Complex = NDArray[np.complex128]
 CLOSED = 1e-3  # of the clearance: how near the cycle's end must come to its start
-MOST_CYCLES = 12
+MOST_CYCLES = 20
 _TOUCHES = 1e-4  # of the clearance: some nanometres, which no film is
 _TOLERANCE = 2e-4  # of the gap in a step
 _LEAST_STEP = 1e-9

@@ -116,7 +116,7 @@ def report_pdf(
     look = find_style(model.input.report, source.parent, style)
     page = report_page(model, values, media="print", templates=folder, style=look, further=further)
     try:
-        return render_pdf(page, attachments=_files(model, source, workbook))
+        return render_pdf(page, attachments=_files(model, source, workbook, look))
     except RenderError as error:
         if folder is None:
             raise
@@ -124,14 +124,17 @@ def report_pdf(
 
 
 def _files(
-    model: Model, source: Path, workbook: bytes | Callable[[], bytes]
+    model: Model, source: Path, workbook: bytes | Callable[[], bytes], style: Style
 ) -> Iterator[AttachedFile]:
     """The files to attach; a workbook in the making is waited for here."""
     given = f"исходные-данные{source.suffix}"
     yield AttachedFile(given, source.read_bytes(), "Исходные данные")
     book = workbook if isinstance(workbook, bytes) else workbook()
     yield AttachedFile(f"{source.stem}.xlsx", book, "Книга Excel с формулами", "Supplement")
-    if isinstance(model.input.gas, TableGasSection):
+    step: int = model.input.calculation.step_deg
+    if model.input.report.detail != "full":
+        step = max(step, style.table_step_deg)
+    if isinstance(model.input.gas, TableGasSection) and opening.printed(model.input, step)[1]:
         rows = "".join(f"{angle},{pressure}\n" for angle, pressure in model.input.gas.points)
         points = f"phi_deg,p_MPa\n{rows}".encode()
         yield AttachedFile(opening.POINTS_FILE, points, "Точки индикаторной диаграммы", "Data")

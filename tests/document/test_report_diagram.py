@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from reports.document.page.style import USUAL
 from reports.document.report import _files, report_html
 from reports.exports.build import remarks_of
 from reports.inputs.fields import to_mapping
@@ -55,7 +56,7 @@ def test_all_points_are_attached(tmp_path: Path) -> None:
     source = tmp_path / "d.toml"
     source.write_text("x = 1", encoding="utf-8")
     model = build_model(made({"source": "table", "points": POINTS}))
-    files = {file.name: file.data for file in _files(model, source, b"")}
+    files = {file.name: file.data for file in _files(model, source, b"", USUAL)}
     lines = files["диаграмма.csv"].decode().splitlines()
     assert lines[0] == "phi_deg,p_MPa"
     assert [[float(x) for x in line.split(",")] for line in lines[1:]] == POINTS

@@ -108,7 +108,7 @@ def input_data(chapter: Chapter) -> Markup:
     """Tables of the input data."""
     model = chapter.input
     fields = chapter.model.inputs
-    printed, step = _printed(model, chapter.printed_step or model.calculation.step_deg)
+    shown, step = printed(model, chapter.printed_step or model.calculation.step_deg)
     plans = {
         "inputs": TablePlan(
             partial(_general, fields, unused(model)), "Исходные данные для расчёта", size="dense"
@@ -116,7 +116,7 @@ def input_data(chapter: Chapter) -> Markup:
         "phases": TablePlan(partial(_phases, fields, model), "Фазы работы цилиндров и углы колен"),
         "webs": TablePlan(partial(_webs, fields), "Щёки и их противовесы", keep=True),
         "arms": TablePlan(partial(_arms, fields), "Размеры колен, мм", size="dense", keep=True),
-        "points": TablePlan(partial(_points, printed), "Точки индикаторной диаграммы"),
+        "points": TablePlan(partial(_points, shown), "Точки индикаторной диаграммы"),
     }
     return chapter.page(
         "inputs",
@@ -219,7 +219,7 @@ def _arms(fields: Sequence[Field]) -> TableBlock:
 Points = Sequence[tuple[float, float]]
 
 
-def _printed(model: InputFile, step: float) -> tuple[Points, float]:
+def printed(model: InputFile, step: float) -> tuple[Points, float]:
     """Points to print, and the step by which they were taken, 0 for all of them.
 
     Of more points than rows of a table with that step the nearest to each row stand there,

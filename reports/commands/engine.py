@@ -134,7 +134,7 @@ def check(source: Path, as_json: bool) -> int:
             "errors": [_as_dict(problem) for problem in problems],
             "warnings": [_as_dict(problem) for problem in warnings],
         }
-        notes = () if problems else notes_of(loaded)
+        notes = () if problems else (*loaded.notes, *notes_of(loaded))
         if notes:
             data["notes"] = list(notes)
         if accepted:

@@ -46,6 +46,7 @@ from reports.document.page.writer import Writer
 from reports.document.text import texts
 from reports.document.text.terms import Terms
 from reports.inputs.checks.grid import fine_columns
+from reports.inputs.sections.gas import TableGasSection
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.report import Report
 from reports.spec.blocks import Model
@@ -93,7 +94,7 @@ def report_pdf(
     style: Path | None = None,
     further: Further = (),
 ) -> bytes:
-    """The report as PDF with the input file and the workbook attached.
+    """The report as PDF with the input file, the workbook and the diagram's points attached.
 
     Args:
         model: specifications of the engine.
@@ -115,19 +116,28 @@ def report_pdf(
     look = find_style(model.input.report, source.parent, style)
     page = report_page(model, values, media="print", templates=folder, style=look, further=further)
     try:
-        return render_pdf(page, attachments=_files(source, workbook))
+        return render_pdf(page, attachments=_files(model, source, workbook, look))
     except RenderError as error:
         if folder is None:
             raise
         raise overrides.style_error(folder, str(error)) from error
 
 
-def _files(source: Path, workbook: bytes | Callable[[], bytes]) -> Iterator[AttachedFile]:
+def _files(
+    model: Model, source: Path, workbook: bytes | Callable[[], bytes], style: Style
+) -> Iterator[AttachedFile]:
     """The files to attach; a workbook in the making is waited for here."""
     given = f"исходные-данные{source.suffix}"
     yield AttachedFile(given, source.read_bytes(), "Исходные данные")
     book = workbook if isinstance(workbook, bytes) else workbook()
     yield AttachedFile(f"{source.stem}.xlsx", book, "Книга Excel с формулами", "Supplement")
+    step: int = model.input.calculation.step_deg
+    if model.input.report.detail != "full":
+        step = max(step, style.table_step_deg)
+    if isinstance(model.input.gas, TableGasSection) and opening.printed(model.input, step)[1]:
+        rows = "".join(f"{angle},{pressure}\n" for angle, pressure in model.input.gas.points)
+        points = f"phi_deg,p_MPa\n{rows}".encode()
+        yield AttachedFile(opening.POINTS_FILE, points, "Точки индикаторной диаграммы", "Data")
 
 
 def report_html(

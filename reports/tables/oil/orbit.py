@@ -9,6 +9,7 @@ from reports.inputs.sections.input_file import InputFile
 from reports.inputs.solved import solved
 from reports.spec.blocks import Block, Column, ScalarTable, TableSpec
 from reports.spec.charts import ChartSpec, Series, over_phi, polar
+from reports.spec.judged import allowed
 from reports.spec.listing import column_list, corners, scalar_list
 from reports.spec.parts import Part, Scope
 from reports.tables.oil.film import bearings_of, cases_of
@@ -30,7 +31,7 @@ def orbit(scope: Scope) -> Part:
     if scope.input.bearings is None:
         return Part()
     bearings = bearings_of(scope)
-    blocks: list[Block] = [_summary(scope), _fresh()]
+    blocks: list[Block] = [_summary(scope), _fresh(), _allowed()]
     if 0 in bearings:
         blocks.append(_holes())
     for k in bearings:
@@ -72,8 +73,8 @@ def _summary(scope: Scope) -> TableSpec:
         ),
         tuple(float(case.number) for case in cases),
         note=(
-            f"Числа этого листа — значения, а не формулы: {BY_PROGRAM} решением обоих уравнений "
-            "плёнки, пока цикл не замкнётся. Строки: "
+            f"Числа этого листа — значения, а не формулы: {BY_PROGRAM} по подвижности плёнки из "
+            "уравнения Рейнольдса, пока цикл не замкнётся. Строки: "
             + "; ".join(f"{case.number} — {case.label}" for case in cases)
             + ". Плёнка с сохранением массы масла тоньше, чем по этому методу."
         ),
@@ -89,6 +90,13 @@ def _fresh() -> ScalarTable:
         "oil_fresh", "Значения орбит", SUMMARY,
         scalar_list(f"oil_fresh = {text}"),
     )  # fmt: skip
+
+
+def _allowed() -> ScalarTable:
+    least = "col_min(oil_orbits.oil_orb_h_um)/oil_hcr_um"
+    line = "oil_orbit", least, "Наименьшая за цикл плёнка к критической"
+    title = "Плёнка за цикл не тоньше критической"
+    return allowed("oil_orbit_allowed", title, SUMMARY, ">= 1", [line])
 
 
 def _holes() -> ScalarTable:

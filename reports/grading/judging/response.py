@@ -7,7 +7,7 @@ it costs it nothing, and a number in the guise of a formula does not follow.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -21,6 +21,7 @@ from reports.grading.judging.shaking import Shaking
 from reports.grading.judging.tolerances import close, tolerance
 from reports.grading.judging.trials import Trial, fixed, turned
 from reports.grading.judging.tryout import Tryout
+from reports.grading.reading.signatures import Signatures
 from reports.grading.reading.student import Student
 from reports.recalculation.bench import cuts, pinned, rounded_to, unrounded_grid
 
@@ -36,14 +37,14 @@ _INSIDE = 2e-3  # share of a column that roundings inside a formula may cost
 
 @dataclass
 class Proofs:
-    """What is known of formulas that refer to nothing but cells of the work-book.
+    """Formulas that are right for every trial, and refer to nothing but cells of the work-book.
 
-    Many students write the same formulas: they are tried once for a class.
+    Many students write the same formulas: they are tried once for a class.  What else is said of
+    a formula may rest on the engine of its student, and is said of nobody else's.
     """
 
     trials: tuple[Trial, ...]
-    known: dict[tuple[object, ...], str] = field(default_factory=dict)
-    exact: set[tuple[object, ...]] = field(default_factory=set)  # that follow to the last digit
+    known: dict[tuple[object, ...], bool] = field(default_factory=dict)  # to the last digit or not
 
 
 @dataclass
@@ -71,9 +72,22 @@ class Response:
     @cached_property
     def _keys(self) -> dict[str, tuple[object, ...]]:
         """What the response of a node follows from, where it may be known of another book."""
+        signatures = Signatures(self.student)
         return {
-            node: key for node in self._nodes if (key := self.student.signature(node)) is not None
+            node: (*key, *self._not_tried(node))
+            for node in self._nodes
+            if (key := signatures.of(node)) is not None
         }
+
+    def _not_tried(self, node: str) -> Iterator[tuple[str, object]]:
+        """The input data that a node refers to and that the trials leave as its student has them.
+
+        Among them is the number of the variant.
+        """
+        fields = self.student.assignment.model.fields
+        for name in sorted(self.student.refers(node) & fields.keys()):
+            if not all(name in trial.inputs for trial in self.trials):
+                yield name, fields[name].value
 
     @cached_property
     def _tried(self) -> list[str]:
@@ -81,8 +95,13 @@ class Response:
 
     @cached_property
     def _values(self) -> dict[str, list[Array] | str]:
-        """Values of the tried nodes for every trial, or why they are unknown."""
-        return self.tryout.run(self._tried, self.trials)
+        """Values of the tried nodes for every trial, or why they are unknown.
+
+        What others may rely on is tried apart from what only this student has.
+        """
+        shared = [node for node in self._tried if node in self._keys]
+        own = [node for node in self._tried if node not in self._keys]
+        return self.tryout.run(shared, self.trials) | self.tryout.run(own, self.trials)
 
     @cached_property
     def _unrounded(self) -> dict[str, list[Array] | str]:
@@ -163,26 +182,49 @@ class Response:
         count = self.student.assignment.length(node)
         if node not in self._nodes:
             return NOTHING * count
-        key = self._keys.get(node)
-        if key is not None and key in self.proofs.known:
-            return self.proofs.known[key]
+        if node not in self._tried:
+            return RIGHT * count
         found = self._judged(item, node, count)
-        if key is not None:
-            self.proofs.known[key] = found
-            if set(found) == {RIGHT} and self._is_exact(item, node):
-                self.proofs.exact.add(key)
+        key = self._keys.get(node)
+        if key is not None and set(found) == {RIGHT}:
+            self._exact[node] = self._is_exact(node)
+            if self._is_proven(item, node):
+                self.proofs.known[key] = self._exact[node]
         return found
+
+    @cached_property
+    def _exact(self) -> dict[str, bool]:
+        """Whether right formulas follow to the last digit, of those that are tried."""
+        return {}
 
     @cached_property
     def settled(self) -> frozenset[str]:
         """Nodes that need not be calculated anew."""
-        exact = {node: key in self.proofs.exact for node, key in self._keys.items()}
-        return settled(self.student, exact)
+        for item in self.student.assignment.items:
+            if not self._keys.keys().isdisjoint(item.nodes) and item.quantity.digits.kind != "text":
+                self.letters(item)  # nobody before must have shown that they are right
+        known = {node: self.proofs.known.get(key, False) for node, key in self._keys.items()}
+        return settled(self.student, known | self._exact)
 
-    def _is_exact(self, item: Item, node: str) -> bool:
-        """Whether a node's formulas have given the very values of every trial."""
+    def _is_proven(self, item: Item, node: str) -> bool:
+        """Whether a node's formulas are right for every trial, whoever writes them.
+
+        Where the trials are alike it takes that the formulas react to something.
+        """
         values = self._values[node]
         if isinstance(values, str) or not values:
+            return False
+        first, *others = self.trials
+        decide = [trial for trial in others if trial.decides]
+        told = not fixed(node, first.expected, decide).all()
+        reacts = node in self._idle and not self._idle[node].any()
+        good = self._good(item, values, _right(node, self.trials))
+        return (told or reacts) and bool(good[0].all() and good[1].all())
+
+    def _is_exact(self, node: str) -> bool:
+        """Whether a node's formulas have given the very values of every trial."""
+        values = self._values[node]
+        if isinstance(values, str):
             return False
         return all(
             bool((np.abs(own - right) <= EXACT * np.abs(right).max()).all())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import datetime, timedelta
 from functools import cached_property
@@ -16,7 +17,7 @@ from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.causes import Causes, OtherVariant
-from reports.grading.judging.judgement import EMPTY, UNKNOWN
+from reports.grading.judging.judgement import EMPTY, GROUNDLESS, UNKNOWN
 from reports.grading.judging.lines import feedback_line
 from reports.grading.judging.marks import formula_marks, own_marks
 from reports.grading.judging.response import Proofs, Response
@@ -36,6 +37,7 @@ from reports.recalculation.language import UnknownFormula
 from reports.recalculation.read import read_grid
 from reports.shared.errors import InputError
 from reports.shared.russian import short
+from reports.spec.blocks import TURN
 from reports.spec.evaluation import Evaluation
 from reports.workbook.intake import check_data
 from reports.workbook.layout import Layout
@@ -207,6 +209,7 @@ class Marker:
             notes.append(f"изменены исходные или защищённые данные: ячеек {len(student.changed)}")
         if result["altered"]:
             notes.append("сохранённые значения не соответствуют формулам: " + result["altered"][0])
+        result["manual"] += asked_of_blanks(items)
         unknown = [line["label"] for line in items if line["verdict"] == UNKNOWN]
         if unknown:
             result["manual"].append("не удалось проверить: " + ", ".join(unknown[:8]))
@@ -275,6 +278,12 @@ def altered(student: Student, original: Grid | None) -> list[str]:
     found = []
     places = [student.placement.places.get(node) for node in student.answers]
     columns = {(place.sheet, place.column): place for place in places if place is not None}
+    turning = {
+        (place.sheet, place.column)
+        for node in student.answers
+        if (place := student.placement.places.get(node)) is not None
+        and student.assignment.model.nodes[node].quantity.unit == "deg"
+    }
     for place in columns.values():
         column = grid.column(place.sheet, place.column)
         for run in engine.grid.column(place.sheet, place.column).runs:
@@ -286,6 +295,8 @@ def altered(student: Student, original: Grid | None) -> list[str]:
             except UnknownFormula:
                 continue
             away = np.abs(claims - values)
+            if (place.sheet, place.column) in turning:  # −180° and 180° are one direction
+                away = np.abs(away - float(TURN) * np.round(away / float(TURN)))
             if not (away > 1e-6).any():
                 continue
             known = np.abs(values[np.isfinite(values)])
@@ -297,6 +308,21 @@ def altered(student: Student, original: Grid | None) -> list[str]:
                 if now != was:  # a program that saves few digits has changed nothing
                     found.append(f"{place.sheet}!{where}: сохранено {was}, формула даёт {now}")
     return found
+
+
+def asked_of_blanks(lines: Sequence[Mapping[str, Any]]) -> list[str]:
+    """What a person is asked where blanks take more points with them than they are worth."""
+    taken = [line for line in lines if line["verdict"] == GROUNDLESS]
+    roots = {origin for line in taken for origin in line["origins"]}
+    own = [line for line in lines if line["id"] in roots]
+    lost = sum(line["of"] for line in taken)
+    if lost <= sum(line["of"] for line in own) + 1e-6:
+        return []
+    names = ", ".join(line["label"] for line in own[:4])
+    return [
+        f"верные формулы остались без баллов, потому что опираются на пустое или круговое "
+        f"({names}): величин {len(taken)}, баллов {short(lost, 4)}; засчитать их?"
+    ]
 
 
 def score(result: Result, rubric: Rubric, time: datetime | None) -> None:

@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Item
-from reports.grading.judging.lists import listed, reads_a_list
+from reports.grading.judging.lists import is_of_angles, listed, reads_a_list
 from reports.grading.judging.settled import EXACT, settled
 from reports.grading.judging.shaking import Shaking
-from reports.grading.judging.tolerances import close, tolerance
+from reports.grading.judging.tolerances import apart, close, tolerance
 from reports.grading.judging.trials import Trial, fixed, turned
 from reports.grading.judging.tryout import Tryout
 from reports.grading.reading.signatures import Signatures
@@ -219,7 +219,8 @@ class Response:
         told = not fixed(node, first.expected, decide).all()
         reacts = node in self._idle and not self._idle[node].any()
         good = self._good(item, values, _right(node, self.trials))
-        return (told or reacts) and bool(good[0].all() and good[1].all())
+        listless = not listed(self.student.runs(node)) and not reads_a_list(self.student, node)
+        return (told or reacts) and listless and bool(good[0].all() and good[1].all())
 
     def _is_exact(self, node: str) -> bool:
         """Whether a node's formulas have given the very values of every trial."""
@@ -239,7 +240,10 @@ class Response:
         index = {row: i for i, row in enumerate(place.rows) if row is not None}
         letters = [NOTHING] * count
         lists = listed(self.student.runs(node))
-        pasted: bool | None = None
+        reads = reads_a_list(self.student, node)
+        of_angles = bool(lists or reads) and is_of_angles(self.student, node)
+        refers = bool(self.student.refers(node))  # to nothing: numbers, whatever they follow
+        made_up = bool(lists or reads) and refers and not of_angles  # a friend's fit exactly, too
         right = _right(node, self.trials)
         good = self._good(item, values, right)
         roughly = self._rounded_good(item, node, values, right)
@@ -265,17 +269,17 @@ class Response:
             few = (~good[0])[at].sum() <= _FEW and (good[0] & ~same)[at].mean() >= _MOST
             for i in at:
                 word = whole or (RIGHT if few and good[0][i] else "")
-                still = (bool(stands[i]) and not moves) or id(run) in lists
+                still = (bool(stands[i]) and not moves) or (id(run) in lists and not of_angles)
                 # What all variants have in common is a number or a list of numbers only where
                 # nothing follows from anything.
                 still &= not word or not (others[i] or same[i])
                 letter = STILL if still else word or PARTLY
                 letter = letter if word or np.isfinite(values[0][i]) else WRONG
                 letter = COARSE if coarse and letter == PARTLY else letter
-                if letter in (PARTLY, COARSE) or (letter == word and not others[i]):
-                    if pasted is None:
-                        turn = turn or self._turned(item, node)
-                        pasted = turn[0].mean() >= _MOST or reads_a_list(self.student, node)
+                unsure = letter in (PARTLY, COARSE) or (letter == word and not others[i])
+                if unsure or (made_up and letter == word):
+                    turn = turn or self._turned(item, node)
+                    pasted = turn[0].mean() >= _MOST or (unsure and reads)
                     letter = PASTED if pasted else letter
                 letters[i] = IDLE if idle[i] and same[i] and letter in (RIGHT, ROUNDED) else letter
         return "".join(letters)
@@ -332,7 +336,8 @@ class Response:
                 continue
             wanted = np.ravel(np.asarray(right, dtype=float))
             scale = float(np.nanmax(np.abs(wanted))) if wanted.size else 1.0
-            if not np.allclose(own, wanted, rtol=0, atol=1e-6 * max(scale, 1e-12), equal_nan=True):
+            near = apart([node], own, wanted, trial.expected) <= 1e-6 * max(scale, 1e-12)
+            if not (near | (np.isnan(own) & np.isnan(wanted))).all():
                 return False
         return True
 

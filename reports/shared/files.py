@@ -222,6 +222,28 @@ def make_dir(path: Path) -> None:
         raise _failure(path, OSError(errno.EROFS if reading_only else errno.EACCES, ""))
 
 
+def private_dir(path: Path, own: str) -> None:
+    """Make a folder that nobody else may enter, from its first moment.
+
+    One that stands open is closed if it is empty or holds a file called ``own``.
+
+    Raises:
+        OutputError: it cannot be made or written, or is open and holds what is not ours.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with contextlib.suppress(FileExistsError):
+            path.mkdir(mode=0o700)
+        if os.name != "nt" and path.is_dir() and path.stat().st_mode & 0o077:
+            if any(path.iterdir()) and not (path / own).exists():
+                what = "папка открыта другим, и в ней чужие файлы"
+                raise OutputError(Problem(str(path), what, "укажите новую папку или закройте эту"))
+            path.chmod(0o700)
+    except OSError as error:
+        raise _failure(path, error) from None
+    make_dir(path)
+
+
 def reason(error: OSError) -> str:
     """Return in Russian why the system refused."""
     return _REASONS.get(error.errno or 0, "ошибка ввода-вывода")

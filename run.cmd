@@ -2,6 +2,7 @@
 rem run test [ARGS]: lint, types, rooms and tests; run bench, docs, fuzz: as in run; run ARGS: kshm ARGS
 setlocal
 chcp 65001 >nul
+set "PYTHONUTF8=1"
 set "ROOT=%~dp0"
 if "%~1"=="" goto usage
 set "VENV=%ROOT%.venv"

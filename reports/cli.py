@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from typing import Any
 
@@ -14,6 +13,7 @@ from reports.commands.group import grade, issue
 from reports.commands.studies import compare, sweep, validate
 from reports.commands.words import RussianGroup, advice, error_text
 from reports.shared.errors import KshmError
+from reports.shared.streams import forget, is_lost, prepare, without_reader
 from reports.web.command import serve
 
 
@@ -26,22 +26,29 @@ class _Russian(RussianGroup):
             return super().invoke(ctx)
         except KeyboardInterrupt:
             raise click.Abort from None
-        except BrokenPipeError:
-            _forget_output()
-            return DONE
-        except Exception:
+        except Exception as error:
             from reports.shared.interrupt import asked
 
+            if isinstance(error, OSError) and without_reader(error):
+                raise _Unread from error
             # A library that calls back, as one that builds a schema, may tell of the signal by an
             # error of its own.
             if asked():
                 raise click.Abort from None
             raise
 
+    def make_context(self, *args: Any, **kwargs: Any) -> click.Context:  # noqa: ANN401
+        """Read the arguments; the help that nobody reads any more ends as other output does."""
+        try:
+            return super().make_context(*args, **kwargs)
+        except OSError as error:
+            raise (_Unread if without_reader(error) else error) from None
+
     def main(self, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401
         """Run; exit codes as in the contract."""
         from reports.shared.interrupt import stoppable
 
+        prepare()
         kwargs["standalone_mode"] = False
         kwargs.setdefault("prog_name", "kshm")
         arguments = kwargs.get("args") or (args[0] if args else None) or sys.argv[1:]
@@ -50,26 +57,25 @@ class _Russian(RussianGroup):
             try:
                 code = super().main(*args, **kwargs)
                 sys.stdout.flush()
-            except BrokenPipeError:
-                _forget_output()
-                code = DONE
             except Exception as error:
-                code = _failed(error, verbose)
-                _flushed_or_forgotten()
+                code = _ended(error, verbose)
         sys.exit(code if isinstance(code, int) else DONE)
 
 
-def _flushed_or_forgotten() -> None:
-    """Output that cannot be written was told of once: Python must not fail over it again."""
-    try:
-        sys.stdout.flush()
-    except OSError:
-        _forget_output()
+class _Unread(Exception):  # noqa: N818 - no error
+    """The reader of a stream is gone; click would end the program over an OSError."""
 
 
-def _forget_output() -> None:
-    """What is left in the buffer has no reader: the end of the program must not mind."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+def _ended(error: Exception, verbose: bool) -> int:
+    """The exit code of what did not come to its end, told where there is somebody to tell."""
+    if isinstance(error, _Unread) or (isinstance(error, OSError) and without_reader(error)):
+        # Output as long as it was wanted; but a warning unread has kept the work from being done.
+        code = DONE if is_lost(sys.stdout) else BAD
+        forget(sys.stdout)
+        forget(sys.stderr)
+        return code
+    forget(sys.stdout)
+    return _failed(error, verbose)
 
 
 def _failed(error: Exception, verbose: bool) -> int:
@@ -86,8 +92,11 @@ def _failed(error: Exception, verbose: bool) -> int:
         raise error
     else:
         lines, code = [_unexpected(error)], BAD
-    for line in lines:
-        click.echo(line, err=True)
+    try:
+        for line in lines:
+            click.echo(line, err=True)
+    except OSError:  # nobody to tell
+        forget(sys.stderr)
     return code
 
 

@@ -1,10 +1,9 @@
-"""Film of a journal bearing of finite width: carrying numbers, friction, flow.
+"""Film of a journal bearing of finite width under a steady load: carrying number, friction, flow.
 
-So_D = F ψ²/(B D η |ω̄|) of the rotation and So_V = F ψ²/(B D η ε̇) of the squeeze, with the
-closed forms fitted to Butenschön's tables (H. J. Butenschön, Karlsruhe 1976) as an open
-multibody program states them.  ψ is the diametral clearance over the diameter, b the width
-over the diameter, ω̄ = ω_J + ω_B − 2δ̇.  The pressure is cut off where it would be negative;
-a film that conserves its mass there is thinner.
+So_D = F ψ²/(B D η |ω̄|) of the rotation, with the closed forms fitted to Butenschön's tables
+(H. J. Butenschön, Karlsruhe 1976) as an open multibody program states them.  ψ is the diametral
+clearance over the diameter, b the width over the diameter, ω̄ = ω_J + ω_B.  The pressure is cut
+off where it would be negative; a film that conserves its mass there is thinner.
 """
 
 from __future__ import annotations
@@ -36,13 +35,11 @@ def _polynomial(b: Array, *coefficients: float) -> Array:
 
 @dataclass(frozen=True, slots=True)
 class Film:
-    """The closed forms for widths b = B/D: what depends on b alone, found once, a_1 … a_9."""
+    """The closed forms for widths b = B/D: what depends on b alone, found once, a_1 … a_7."""
 
     scale: Array  # −½b²a1
     a2: Array
     turn: tuple[Array, ...]  # a3 … a7
-    squeeze_scale: Array  # 4 b² a8
-    a9: Array
 
     @classmethod
     def of(cls, width: Array) -> Film:
@@ -55,8 +52,6 @@ class Film:
                 1.152624 - 0.104565 * b, -2.5905 + 0.798745 * b, 8.73393 - 2.3291 * b,
                 -13.3414 + 3.424337 * b, 6.6294 - 1.591732 * b,
             ),
-            4 * b**2 * _polynomial(b, 0.70038, 3.2415, -12.2486, 18.895, -9.3561),
-            _polynomial(b, -0.999935, 0.0157434, -0.74224, 0.42278, -0.368928),
         )  # fmt: skip
 
     def rotation(self, eccentricity: Array) -> Array:
@@ -79,19 +74,6 @@ class Film:
         angle: Array = np.arctan2(np.pi * np.sqrt(1 - e * e), 2 * e) * factor
         return angle
 
-    def squeeze(self, eccentricity: Array) -> Array:
-        """So_V [-] at ε [-] signed as ε̇ is, elementwise, Butenschön's tables fitted.
-
-        Median error 1.7 % of the printed tables, largest 5.5 %.
-        """
-        e = eccentricity
-        square = e * e
-        rest = 1 - square
-        root = np.sqrt(rest)
-        arc = (np.pi - np.arccos(e)) * (0.5 + square) + 1.5 * e * root
-        number: Array = self.squeeze_scale * arc * (1 - e) / (rest * rest * root * (-self.a9 - e))
-        return number
-
 
 def rotation_number(eccentricity: Array, width: Array) -> Array:
     """So_D [-] at ε and b [-], elementwise; see ``Film.rotation``, Butenschön."""
@@ -101,11 +83,6 @@ def rotation_number(eccentricity: Array, width: Array) -> Array:
 def attitude(eccentricity: Array, width: Array) -> Array:
     """β [rad] at ε and b [-], elementwise; see ``Film.attitude``, Butenschön."""
     return Film.of(width).attitude(eccentricity)
-
-
-def squeeze_number(eccentricity: Array, width: Array) -> Array:
-    """So_V [-] at signed ε and b [-], elementwise; see ``Film.squeeze``, Butenschön."""
-    return Film.of(width).squeeze(eccentricity)
 
 
 def steady_eccentricity(load_number: Array, width: Array) -> Array:

@@ -1,10 +1,10 @@
-"""Orbit of a journal's centre in its clearance circle over the cycle, by both film equations.
+"""Orbit of a journal's centre in its clearance circle over the cycle, by the mobility of its film.
 
-F cos(γ − δ) = F_D cos β + F_V and F sin(γ − δ) = −F_D sin β sgn ω̄ give ε̇ and δ̇ outright.  The
-centre is a complex number ε e^{iδ}, angles in the direction of rotation, so that it may pass
-through the middle.  All bearings step together, each with a step of its own, by
-Shampine's linearly implicit pair (ode23s): a film that lets go is stiff, because So_V of a
-journal that moves away is hundreds of times less than that of one that comes near.
+The load gives the velocity in axes that turn at the mean speed of journal and shell; these
+axes turn the centre besides.  It is a complex number ε e^{iδ}, angles in the direction of
+rotation, so that it may pass through the middle.  All bearings step together, each with a step
+of its own, by Shampine's linearly implicit pair (ode23s): a film that lets go is stiff, because
+a journal moves away hundreds of times more easily than it comes near.
 """
 
 from __future__ import annotations
@@ -15,11 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kshm.arrays import Array
-from kshm.mechanics.oil_film import Film, check_widths
+from kshm.mechanics.oil_film import check_widths
+from kshm.mechanics.oil_map import MobilityMap
 
 Complex = NDArray[np.complex128]
 CLOSED = 1e-3  # of the clearance: how near the cycle's end must come to its start
-MOST_CYCLES = 12
+MOST_CYCLES = 20
 _TOUCHES = 1e-4  # of the clearance: some nanometres, which no film is
 _TOLERANCE = 2e-4  # of the gap in a step
 _LEAST_STEP = 1e-9
@@ -52,33 +53,25 @@ class Orbits:
         return self.opening <= CLOSED
 
 
-def velocity(centre: Complex, load: Complex, half_speed: Array, film: Film) -> Complex:
-    """Derivative of ε e^{iδ} by the shaft's angle [1/rad], elementwise, both film equations.
+def velocity(centre: Complex, load: Complex, half_speed: Array, film: MobilityMap) -> Complex:
+    """Derivative of ε e^{iδ} by the shaft's angle [1/rad], (…, bearings), Booker's mobility.
 
     Args:
         centre: ε e^{iδ} [-].
         load: F ψ²/(B D η ω) with its direction [-].
         half_speed: (ω_J + ω_B)/(2ω) in the axes of the load [-].
-        film: the closed forms at the bearings' widths.
+        film: maps of the bearings.
     """
     distance = np.abs(centre)
-    e = np.maximum(distance, _MIDDLE)
-    unit: Complex = np.where(distance > _MIDDLE, centre / e, 1.0)
-    seen = load * unit.conj()
-    along, across = seen.real, seen.imag
-    beta = film.attitude(e)
-    sine = np.sin(beta)
-    net = along - np.abs(across) * np.cos(beta) / sine
-    out = net / film.squeeze(np.copysign(e, net))
-    around = half_speed * e + across * e / (2 * film.rotation(e) * sine)
-    step: Complex = out + 1j * around
-    return unit * step
+    unit: Complex = np.where(distance > _MIDDLE, centre / np.maximum(distance, _MIDDLE), 1.0)
+    step: Complex = unit * film.velocity(distance, load * unit.conj()) + 1j * half_speed * centre
+    return step
 
 
 def orbits(
     phi: Array, load: Complex, half_speed: Array, width: Array, most_cycles: int = MOST_CYCLES
 ) -> Orbits:
-    """Orbits over the closed cycle, shape (bearings, angles), by both film equations.
+    """Orbits over the closed cycle, shape (bearings, angles), by Booker's mobility.
 
     Args:
         phi: angles of the cycle with its end [rad], (angles,), in equal steps.
@@ -88,7 +81,7 @@ def orbits(
         most_cycles: when to give up.
 
     Raises:
-        ValueError: numbers that are none, or a width outside the closed forms.
+        ValueError: numbers that are none, or a width outside the tables of the steady film.
         FilmError: a load that the film does not carry.
     """
     check_widths(width)
@@ -111,7 +104,7 @@ class _Run:
     """Integration over one cycle after another; the steps that suited last are kept."""
 
     def __init__(self, phi: Array, load: Complex, half_speed: Array, width: Array) -> None:
-        self.phi, self.film = phi, Film.of(width)
+        self.phi, self.film = phi, MobilityMap.of(width)
         self.pitch = phi[1] - phi[0]
         self.step = np.full(len(width), self.pitch / 8)
         self.first = np.arange(len(width)) * len(phi)

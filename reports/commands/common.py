@@ -38,6 +38,26 @@ def path_option(*names: str, **more: Any) -> Callable[[Command], Command]:  # no
     return click.option(*names, type=click.Path(path_type=Path), **more)
 
 
+class DecimalNumber(click.ParamType):  # type: ignore[type-arg]
+    """A number with a decimal point or comma."""
+
+    name = "float"
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> float:
+        """Read it."""
+        try:
+            return float(str(value).replace(",", ".", 1))
+        except ValueError:
+            self.fail(f"'{value}' is not a valid float", param, ctx)
+
+
+def number_option(name: str, key: str, unit: str, text: str) -> Callable[[Command], Command]:
+    """An option whose value is a number; ``unit`` is shown in its place."""
+    return click.option(name, key, type=DecimalNumber(), metavar=unit, help=text)
+
+
 def load(source: Path) -> Loaded:
     """A checked input; its warnings are told."""
     from reports.exports.build import load_input
@@ -55,11 +75,20 @@ def tell(loaded: Loaded, source: Path) -> None:
         click.echo(line, err=True)
 
 
+def tell_written(target: Path, more: str = "") -> None:
+    """Name a file that is there now; where it is the output itself, beside the output."""
+    from reports.shared.files import is_output
+
+    click.echo(f"{target}{more}", err=is_output(target))
+
+
 def tell_solved(loaded: Loaded, *, aside: bool = False) -> bool:
     """What the solution shows, ``aside`` of the output; whether it needs a person's eye."""
     from reports.inputs.checks.flywheel import solution_remarks
+    from reports.inputs.checks.power import power_problems
 
-    lines = solution_remarks(loaded.model)
+    power = (f"Внимание: {problem.line()}" for problem in power_problems(loaded.model))
+    lines = (*power, *solution_remarks(loaded.model))
     for line in lines:
         click.echo(line, err=aside)
     return any(line.startswith("Внимание") for line in lines)

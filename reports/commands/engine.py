@@ -19,9 +19,11 @@ from reports.commands.common import (
     file_argument,
     load,
     notes_of,
+    number_option,
     path_option,
     tell,
     tell_solved,
+    tell_written,
     verbose_option,
 )
 from reports.commands.words import RussianCommand
@@ -42,30 +44,36 @@ if TYPE_CHECKING:
 @click.option("--layout", type=click.Choice(["inline", "v", "opposed"]),
               help="Рядный, V-образный или оппозитный.")  # fmt: skip
 @click.option("--strokes", type=click.Choice(["4", "2"]), help="Тактность.")
-@click.option(
-    "--kind", type=click.Choice(["diesel", "petrol"]), help="Дизель или с искровым зажиганием."
-)
-@click.option("--power", "power_kw", type=float, metavar="кВт", help="Эффективная мощность, кВт.")
-@click.option("--speed", "speed_rpm", type=float, metavar="МИН⁻¹", help="Частота вращения, мин⁻¹.")
+@click.option("--fuel", "--kind", "kind", type=click.Choice(["diesel", "petrol"]),
+              help="Дизель или с искровым зажиганием.")  # fmt: skip
+@number_option("--power", "power_kw", "кВт", "Эффективная мощность, кВт.")
+@number_option("--speed", "speed_rpm", "МИН⁻¹", "Частота вращения, мин⁻¹.")
+@number_option("--bore", "bore_mm", "ММ", "Диаметр цилиндра, мм.")
+@number_option("--stroke", "stroke_mm", "ММ", "Ход поршня, мм.")
+@number_option("--rod", "rod_mm", "ММ", "Длина шатуна, мм.")
+@number_option("--lambda", "lambda_", "ЧИСЛО", "Отношение радиуса кривошипа к длине шатуна.")
+@number_option("--compression", "compression", "ЧИСЛО", "Степень сжатия.")
+@number_option("--efficiency", "efficiency", "ЧИСЛО", "Механический КПД.")
 @verbose_option
 def new(output: Path | None, base: Path | None, **wanted: Any) -> int:  # noqa: ANN401
     """Дать файл исходных данных с пояснениями.
 
-    С ключом --cylinders — свой двигатель из обычных значений, вместе с --from — вариант
-    данного двигателя с другим числом цилиндров.
+    С ключом --cylinders — свой двигатель: что задано ключами, то в нём и стоит, остальное из
+    обычных значений, давления подобраны по мощности. Вместе с --from — вариант данного
+    двигателя с другим числом цилиндров.
     """
     from reports.commands.own import new_text
-    from reports.shared.files import write_text
+    from reports.shared.files import is_stream, write_text
 
     given = None if base is None else (str(base), lambda: load(base).model)
     text = new_text(given, **wanted)
     if output is None:
         click.echo(text, nl=False)
         return DONE
-    if output.exists():
+    if output.exists() and not is_stream(output):
         raise KshmError(f"{output}: файл уже есть; укажите другое имя ключом -o или удалите его")
     write_text(output, text)
-    click.echo(f"{output}")
+    tell_written(output)
     return DONE
 
 
@@ -112,6 +120,10 @@ def check(source: Path, as_json: bool) -> int:
         loaded = _with_named(source, load_input(source))
         problems: tuple[Any, ...] = ()
         warnings, accepted = loaded.warnings, loaded.accepted
+        if as_json:
+            from reports.inputs.checks.power import power_problems
+
+            warnings = (*warnings, *power_problems(loaded.model))
     except InputError as error:
         if not as_json:
             raise
@@ -122,7 +134,7 @@ def check(source: Path, as_json: bool) -> int:
             "errors": [_as_dict(problem) for problem in problems],
             "warnings": [_as_dict(problem) for problem in warnings],
         }
-        notes = () if problems else notes_of(loaded)
+        notes = () if problems else (*loaded.notes, *notes_of(loaded))
         if notes:
             data["notes"] = list(notes)
         if accepted:
@@ -186,7 +198,7 @@ def solve(source: Path, folder: Path | None, target: str | None) -> int:
             temporary.write_text(
                 json_text(loaded.model, solution, notes_of(loaded)), encoding="utf-8"
             )
-        click.echo(target)
+        tell_written(Path(target))
     wordless = folder is not None or target is not None
     if not wordless:
         _print_summary(solution.scalars, smallness_of(loaded.model))

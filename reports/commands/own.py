@@ -11,6 +11,11 @@ from reports.shared.errors import KshmError
 if TYPE_CHECKING:
     from reports.inputs.sections.input_file import InputFile
 
+# Power and speed, then what an alternative has by its rules.
+_NUMBERS = (
+    "power_kw", "speed_rpm", "bore_mm", "stroke_mm", "rod_mm", "lambda_", "compression",
+    "efficiency",
+)  # fmt: skip
 Base = tuple[str, Callable[[], "InputFile"]]
 
 
@@ -27,7 +32,7 @@ def new_text(
         base: Name of the engine of --from, and what reads it.
         sample: Value of --sample, which does not go with the other two.
         cylinders: Value of --cylinders.
-        wanted: ``layout``, ``strokes``, ``kind``, ``power_kw``, ``speed_rpm``; None is not given.
+        wanted: ``layout``, ``strokes``, ``kind`` and the numbers of a task; None is not given.
 
     Raises:
         KshmError: the options do not go together, or there is no such engine.
@@ -44,8 +49,8 @@ def new_text(
         raise KshmError(f"--sample и {other} вместе не нужны; оставьте один из ключей")
     if cylinders is None:
         raise KshmError("--from: не указано число цилиндров варианта; добавьте --cylinders")
-    for key in ("power_kw", "speed_rpm"):
-        value = wanted[key]
+    for key in _NUMBERS:
+        value = wanted.get(key)
         if value is not None and not (math.isfinite(value) and value > 0):
             raise KshmError(f"{_option(key)}: значение должно быть больше нуля")
     if base is not None:
@@ -53,8 +58,12 @@ def new_text(
     from reports.inputs.own_engine import own_engine
     from reports.inputs.own_file import file_text
 
-    given = {key: value for key, value in wanted.items() if value is not None}
-    return file_text(own_engine(cylinders, **{**given, "strokes": int(wanted["strokes"] or 4)}))
+    if wanted.get("rod_mm") is not None and wanted.get("lambda_") is not None:
+        raise KshmError("--rod и --lambda вместе не нужны; оставьте один из ключей")
+    kinds = {key: wanted[key] for key in ("layout", "kind") if wanted.get(key) is not None}
+    numbers: dict[str, Any] = {key: wanted.get(key) for key in _NUMBERS}
+    strokes = int(wanted.get("strokes") or 4)
+    return file_text(own_engine(cylinders, **kinds, strokes=strokes, **numbers))
 
 
 def _option(key: str) -> str:
@@ -69,6 +78,10 @@ def _alternative(base: Base, cylinders: int, wanted: Mapping[str, Any]) -> str:
     for key in ("strokes", "kind"):
         if wanted[key] is not None:
             raise KshmError(f"{_option(key)}: у варианта они те же, что в {base[0]}; уберите ключ")
+    for key in _NUMBERS[2:]:
+        if wanted.get(key) is not None:
+            what = f"у варианта следует из {base[0]} по подобию"
+            raise KshmError(f"{_option(key)}: {what}; уберите ключ или правьте файл")
     model = base[1]()
     speed, power, ratio, cause = wanted["speed_rpm"], wanted["power_kw"], 1.0, ""
     if power is not None:
@@ -76,16 +89,14 @@ def _alternative(base: Base, cylinders: int, wanted: Mapping[str, Any]) -> str:
         faster = 1.0 if speed is None else speed / model.regime.speed_rpm
         ratio = power / old / faster
         cause = comma(f"Мощность {power:g} кВт вместо {old:.4g} кВт при прежнем p_e")
-    return file_text(
-        alternative(
-            model,
-            cylinders,
-            layout=wanted["layout"],
-            speed_rpm=speed,
-            displacement=ratio,
-            cause=cause,
-        )
+    made = alternative(
+        model, cylinders, layout=wanted["layout"], speed_rpm=speed, displacement=ratio, cause=cause
     )
+    if power is not None and model.cycle is None:
+        regime = model.regime
+        stated = power / float(regime.mechanical_efficiency) * float(regime.fullness)
+        made.data["regime"]["indicated_power_kw"] = round(stated, 3)
+    return file_text(made)
 
 
 def _power_kw(model: Any) -> float:  # noqa: ANN401 - the heavy import waits

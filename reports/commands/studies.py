@@ -15,6 +15,7 @@ from reports.commands.common import (
     file_argument,
     load,
     path_option,
+    tell_written,
     verbose_option,
 )
 from reports.commands.words import RussianCommand
@@ -101,7 +102,7 @@ def sweep(
         source, vary, target, quantities=quantities, pairwise=pairwise,
         options=Options(jobs=jobs, dask=dask),
     )  # fmt: skip
-    click.echo(f"{target}: сочетаний {done.points}")
+    tell_written(target, f": сочетаний {done.points}")
     if done.failed:
         click.echo(f"Без результата: {done.failed}, например: {done.first_error}", err=True)
         return LOOK
@@ -127,5 +128,5 @@ def compare(sources: tuple[Path, ...], target: Path) -> int:
     check_suffix(target)
     check_sources(sources, target)
     write(sources, [load(source).model for source in sources], target)
-    click.echo(f"{target}: двигателей {len(sources)}")
+    tell_written(target, f": двигателей {len(sources)}")
     return DONE

@@ -47,6 +47,7 @@ from reports.document.page.writer import Writer
 from reports.document.text import texts
 from reports.document.text.terms import Terms
 from reports.inputs.checks.grid import fine_columns
+from reports.inputs.sections.gas import TableGasSection
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.report import ReportSection
 from reports.spec.blocks import Model
@@ -129,7 +130,7 @@ class Report:
         return cls(model, values, folder, find_style(report, source.parent, style), further)
 
     def pdf(self, source: Path, workbook: bytes | Callable[[], bytes]) -> bytes:
-        """The report as PDF with the input file and the workbook attached.
+        """The report as PDF with the input file, the workbook and the diagram's points attached.
 
         Args:
             source: the input file.
@@ -144,7 +145,9 @@ class Report:
 
         need_pango()
         try:
-            return render_pdf(self.page("print"), attachments=_files(source, workbook))
+            return render_pdf(
+                self.page("print"), attachments=_files(self.model, source, workbook, self.style)
+            )
         except RenderError as error:
             if self.templates is None:
                 raise
@@ -222,12 +225,21 @@ class Report:
         return texts.spaces_inside(head + start + texts.unbroken(page))
 
 
-def _files(source: Path, workbook: bytes | Callable[[], bytes]) -> Iterator[AttachedFile]:
+def _files(
+    model: Model, source: Path, workbook: bytes | Callable[[], bytes], style: Style
+) -> Iterator[AttachedFile]:
     """The files to attach; a workbook in the making is waited for here."""
     given = f"исходные-данные{source.suffix}"
     yield AttachedFile(given, source.read_bytes(), "Исходные данные")
     book = workbook if isinstance(workbook, bytes) else workbook()
     yield AttachedFile(f"{source.stem}.xlsx", book, "Книга Excel с формулами", "Supplement")
+    step: int = model.input.calculation.step_deg
+    if model.input.report.detail != "full":
+        step = max(step, style.table_step_deg)
+    if isinstance(model.input.gas, TableGasSection) and opening.printed(model.input, step)[1]:
+        rows = "".join(f"{angle},{pressure}\n" for angle, pressure in model.input.gas.points)
+        points = f"phi_deg,p_MPa\n{rows}".encode()
+        yield AttachedFile(opening.POINTS_FILE, points, "Точки индикаторной диаграммы", "Data")
 
 
 def remarks_on(model: InputFile, beside: Path, style: Path | None = None) -> tuple[str, ...]:

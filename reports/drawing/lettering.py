@@ -9,6 +9,8 @@ import functools
 import re
 from typing import TYPE_CHECKING
 
+from reports.shared.signs import fonts_dir
+
 if TYPE_CHECKING:
     from matplotlib.ft2font import FT2Font
 
@@ -20,26 +22,22 @@ _INDEX = re.compile(r"_([^\W_][\w.]*)")
 
 
 @functools.cache
-def _font() -> FT2Font:
-    from pathlib import Path
-
-    import matplotlib
+def _font(file: str) -> FT2Font:
     from matplotlib.ft2font import FT2Font
 
-    folder = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
-    return FT2Font(str(folder / "STIXGeneralItalic.ttf"))
+    return FT2Font(str(fonts_dir() / file))
 
 
 @functools.cache
 def _advance(char: str) -> float:
-    """Width of a letter [em]; three quarters of one for a letter that the face lacks."""
+    """Width of a letter [em]; three quarters of one for a letter that no face has."""
     from matplotlib.ft2font import LoadFlags
 
-    font = _font()
-    if ord(char) not in font.get_charmap():
-        return 0.75
-    glyph = font.load_char(ord(char), flags=LoadFlags.NO_SCALE)
-    return float(glyph.horiAdvance) / float(font.units_per_EM)
+    for font in map(_font, ("STIXGeneralItalic.ttf", "DejaVuSerif-Italic.ttf")):
+        if ord(char) in font.get_charmap():
+            glyph = font.load_char(ord(char), flags=LoadFlags.NO_SCALE)
+            return float(glyph.horiAdvance) / float(font.units_per_EM)
+    return 0.75
 
 
 def width_of(text: str, height: float) -> float:

@@ -10,7 +10,7 @@ from html import escape
 from reports.drawing.lettering import CAPITAL, INDEX, WIDER, parts_of, width_of
 from reports.drawing.primitives import Box, Circle, Item, Line, Words
 
-_FAMILY = "STIXGeneral"
+_FAMILY = "STIXGeneral, DejaVuSecond"  # the second for letters that the first lacks
 _GREY = "#9a9a9a"
 _PT = 72 / 25.4  # in a millimetre
 

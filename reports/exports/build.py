@@ -220,4 +220,5 @@ def remarks_of(loaded: Loaded) -> tuple[str, ...]:
     return (
         *(f"Внимание: {problem.line()}" for problem in loaded.warnings),
         *(f"Принято: {accepted.line()}" for accepted in loaded.accepted),
+        *(f"К сведению: {note}" for note in loaded.notes),
     )

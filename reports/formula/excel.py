@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from decimal import Decimal
 from typing import Protocol
 
@@ -32,6 +32,18 @@ class References(Protocol):
     def down_to_here(self, key: str) -> str:
         """Range of a column from its first row down to this one."""
 
+    def each(self, key: str) -> Sequence[str]:
+        """All cells of a run, one by one."""
+
+    def wave(self, turn: str, angle: str, order: float | str) -> str:
+        """Range of ``cos`` or ``sin`` of an order times an angle column, but its last row.
+
+        ``order`` is a number or the key of the table's first column.
+        """
+
+    def run_wave(self, turn: str, angles: str, order: float | str) -> str:
+        """The same for the angles of a run, all of them."""
+
 
 _FUNCTIONS = {
     "sin": "SIN", "cos": "COS", "tan": "TAN", "asin": "ASIN", "acos": "ACOS", "sqrt": "SQRT",
@@ -55,11 +67,6 @@ def number(value: float | str) -> str:
     if float(value).is_integer() and abs(value) < 1e15:
         return str(int(value))
     return f"{Decimal(repr(float(value))):f}"  # an exponent is no number to every parser
-
-
-def is_array(formula: str) -> bool:
-    """Whether a formula reckons with whole ranges: Gnumeric wants such a cell to say so."""
-    return "SUMPRODUCT(" in formula
 
 
 def compile_formula(text: str, refs: References) -> str:
@@ -146,8 +153,8 @@ def _call(name: str, args: list[ast.expr], refs: References) -> tuple[str, int]:
         body = refs.column(_key(args[1]), repeat_last=False)
         return f"MATCH({_emit(args[0], refs)[0]},{body},1)", _ATOM
     if name == "rank":
-        run = refs.column(_key(args[1]), repeat_last=True)
-        return f"1+SUMPRODUCT(({run}<{_wrapped(args[0], 2, refs)})*1)", 2
+        than = _wrapped(args[0], 2, refs)
+        return "+".join(["1", *(f"({one}<{than})*1" for one in refs.each(_key(args[1])))]), 2
     if name == "round":
         decimals = _emit(args[1], refs)[0] if args[1:] else "0"
         return f"ROUND({_emit(args[0], refs)[0]},{decimals})", _ATOM
@@ -190,14 +197,22 @@ def _aggregate(name: str, node: ast.expr, refs: References) -> str:
 
 def _fourier(name: str, args: list[ast.expr], refs: References) -> str:
     """Fourier coefficient of a column over an angle in degrees, without the repeated last row."""
+    # No function over a range: Gnumeric wants such a cell to be an array formula, and LibreOffice
+    # loads those dirty: at the first edit what depends on them keeps its old values.
     values = refs.column(_key(args[0]), repeat_last=False)
-    angles = refs.column(_key(args[1]), repeat_last=False)
-    turn = f"{name.removeprefix('fourier_').upper()}({angles}*({_emit(args[2], refs)[0]}*PI()/180))"
-    return f"2*SUMPRODUCT({values},{turn})/COUNT({values})"
+    wave = refs.wave(name.removeprefix("fourier_"), _key(args[1]), _order(args[2]))
+    return f"2*SUMPRODUCT({values},{wave})/COUNT({values})"
 
 
 def _wave(name: str, args: list[ast.expr], refs: References) -> str:
     """Waves, weighted or not, over all of a run."""
-    *weights, angles = (refs.column(_key(arg), repeat_last=True) for arg in args[:-1])
-    turn = f"{name.removeprefix('wave_').upper()}({angles}*({_emit(args[-1], refs)[0]}*PI()/180))"
-    return f"SUMPRODUCT({','.join([*weights, turn])})"
+    *weights, angles = map(_key, args[:-1])
+    waves = refs.run_wave(name.removeprefix("wave_"), angles, _order(args[-1]))
+    if not weights:
+        return f"SUM({waves})"
+    return f"SUMPRODUCT({refs.column(weights[0], repeat_last=True)},{waves})"
+
+
+def _order(node: ast.expr) -> float | str:
+    """A number, or the key of a column of orders."""
+    return float(node.value) if isinstance(node, ast.Constant) else _key(node)  # type: ignore[arg-type]

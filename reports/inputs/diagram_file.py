@@ -1,28 +1,33 @@
 """[gas], source = "file": points of the diagram from a text table beside the input.
 
 The file is a plain table of numbers: CSV with commas or semicolons, or columns between
-blanks or tabs, such as a results table saved by DIESEL-RK as text.  Its own project
-format is not documented and is not read.  The columns of crank angle and of absolute
-pressure are named in [gas]; what is not understood is refused.
+blanks or tabs, such as a recorder writes or a results table saved by DIESEL-RK as text.  Its
+own project format is not documented and is not read.  The columns of crank angle and of
+absolute pressure are named in [gas]; what is not understood is refused, what was made of the
+rows is told.
 """
 
 from __future__ import annotations
 
-import csv
-import io
 import math
-import re
+from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from reports.inputs.source import read_text
+from reports.inputs.diagram_rows import Recorded, Wanted, recorded, text_of
+from reports.inputs.messages import meta_at
+from reports.inputs.sections.gas import TableGasSection
 from reports.inputs.units import MPA, number_text
 from reports.shared.errors import InputError, Problem, one_line
 
+if TYPE_CHECKING:
+    from kshm.arrays import Array
+
 MOST_POINTS = 1500
+THINNED_DEG = 0.5
 WIDEST_GAP_DEG = 45.0
+LONE_GAP = 4.0  # times the gaps on both sides
 CLOSING = 0.02  # of the greatest pressure
 UNITS_MPA = {
     "mpa": 1.0,
@@ -31,9 +36,18 @@ UNITS_MPA = {
     "pa": MPA.from_si(1.0),
     "kgf_cm2": 0.0980665,
     "atm": 0.101325,
+    "psi": 0.006894757293168,
 }
-KEYS = {"file", "angle_column", "pressure_column", "pressure_unit", "firing_tdc_deg"}
-_NUMBER = re.compile(r"[-+]?(\d+([.,]\d*)?|[.,]\d+)([eE][-+]?\d+)?")
+_ALSO = {
+    "мпа": "mpa", "бар": "bar", "кпа": "kpa", "па": "pa", "атм": "atm", "кгс/см2": "kgf_cm2",
+    "кгс/см²": "kgf_cm2", "ат": "kgf_cm2", "at": "kgf_cm2", "kgf/cm2": "kgf_cm2",
+    "kgf/cm²": "kgf_cm2", "kg/cm2": "kgf_cm2", "кг/см2": "kgf_cm2", "кг/см²": "kgf_cm2",
+}  # fmt: skip
+_ANGLES = {"°", "deg", "deg.", "град", "град.", "°пкв", "° пкв", "°ca", "rad", "рад"}
+KEYS = {
+    "file", "angle_column", "pressure_column", "pressure_unit", "firing_tdc_deg",
+    "average_cycles",
+}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,34 +60,39 @@ class _Place:
         return InputError(Problem(f"{self.source}: {key}", text, hint))
 
 
-def with_points(raw: dict[str, Any], folder: Path, source: str) -> dict[str, Any]:
+@dataclass(frozen=True, slots=True)
+class Filled:
+    """A mapping with the points of its files, the files and what was made of them."""
+
+    raw: dict[str, Any]
+    files: tuple[Path, ...]
+    notes: tuple[str, ...]
+
+
+def with_points(raw: dict[str, Any], folder: Path, source: str) -> Filled:
     """The mapping with the points of the named file in place of ``source = "file"``.
 
     Raises:
         InputError: the file is missing or is no table of angles and pressures.
     """
     period = 360.0 if _strokes(raw) == 2 else 720.0
+    files: list[Path] = []
+    notes: list[str] = []
 
-    def filled(owner: dict[str, Any]) -> dict[str, Any]:
-        gas = owner.get("gas")
+    def filled(owner: Any) -> Any:  # noqa: ANN401 - a person may have written anything
+        gas = owner.get("gas") if isinstance(owner, dict) else None
         if not isinstance(gas, dict) or gas.get("source") != "file":
             return owner
-        return {**owner, "gas": _table(gas, folder, source, period)}
+        table, told = _table(gas, folder, source, period)
+        files.append(folder / gas["file"])
+        notes.extend(f"{one_line(gas['file'], 60)}: {note}" for note in told)
+        return {**owner, "gas": table}
 
     result = filled(raw)
     regimes = result.get("regimes")
     if isinstance(regimes, list):
-        entries = [filled(entry) if isinstance(entry, dict) else entry for entry in regimes]
-        result = {**result, "regimes": entries}
-    return result
-
-
-def files_of(raw: dict[str, Any]) -> list[str]:
-    """Names of the files that `with_points` reads."""
-    regimes = raw.get("regimes")
-    owners = [raw, *(regimes if isinstance(regimes, list) else [])]
-    parts = [owner.get("gas") for owner in owners if isinstance(owner, dict)]
-    return [gas["file"] for gas in parts if isinstance(gas, dict) and gas.get("source") == "file"]
+        result = {**result, "regimes": [filled(entry) for entry in regimes]}
+    return Filled(result, tuple(files), tuple(notes))
 
 
 def _strokes(raw: dict[str, Any]) -> object:
@@ -81,128 +100,157 @@ def _strokes(raw: dict[str, Any]) -> object:
     return engine.get("strokes") if isinstance(engine, dict) else None
 
 
-def _table(gas: dict[str, Any], folder: Path, source: str, period: float) -> dict[str, Any]:
+def _table(
+    gas: dict[str, Any], folder: Path, source: str, period: float
+) -> tuple[dict[str, Any], list[str]]:
     name = gas.get("file")
     if not isinstance(name, str) or not name:
         place = _Place(source, "")
         raise place.refused("не указан файл с диаграммой", 'например, file = "diagram.csv"')
     place = _Place(source, name)
-    unit = gas.get("pressure_unit")
-    if unit not in UNITS_MPA:
-        hint = "допустимо: " + ", ".join(UNITS_MPA)
-        raise place.refused("не указана единица давления", hint, key="gas.pressure_unit")
+    unit = _unit(gas.get("pressure_unit"), place)
     tdc = gas.get("firing_tdc_deg", 360.0 if period == 720.0 else 0.0)
     if isinstance(tdc, bool) or not isinstance(tdc, int | float) or not math.isfinite(tdc):
         raise place.refused("нужно число", "угол ВМТ сгорания в файле", key="gas.firing_tdc_deg")
     path = Path(name)
     if path.is_absolute() or ".." in path.parts:
         raise place.refused("файл должен лежать рядом с исходными данными", "укажите только имя")
-    heads, rows = _read(read_text(folder / path), place)
-    angle = _column(gas.get("angle_column", 1), heads, rows, place, "gas.angle_column")
-    pressure = _column(gas.get("pressure_column", 2), heads, rows, place, "gas.pressure_column")
-    turn = (360.0 if period == 720.0 else 0.0) - float(tdc)
-    pairs = [(row[angle] + turn, row[pressure] * UNITS_MPA[unit]) for row in rows]
-    kept = {key: value for key, value in gas.items() if key not in KEYS}
-    return {
-        "interpolation": "monotone",
-        **kept,
-        "source": "table",
-        "points": _closed(pairs, period, place),
-    }
-
-
-def _read(text: str, place: _Place) -> tuple[list[str], list[list[float]]]:
-    """Heads of the columns, if there are any, and the rows of numbers."""
-    lines = [line for line in text.splitlines() if line.strip()]
-    delimiter = _delimiter(lines)
-    heads: list[str] = []
-    rows: list[list[float]] = []
-    for number, line in enumerate(lines, 1):
-        fields = _fields(line, delimiter)
-        values = [_value(field, delimiter) for field in fields]
-        found = [value for value in values if value is not None]
-        if len(found) == len(values) and len(values) >= 2:
-            if rows and len(values) != len(rows[0]):
-                what = f"строка {number}: чисел {len(values)}, а выше {len(rows[0])}"
-                raise place.refused(what, "в таблице должно быть одно число столбцов")
-            rows.append(found)
-        elif rows:
-            raise place.refused(f"строка {number}: не числа", "оставьте одну таблицу чисел")
-        else:
-            heads = fields
-    if len(rows) < 3:
-        raise place.refused("не найдена таблица чисел", "нужны столбцы угла и давления")
-    if len(rows) > MOST_POINTS:
-        what = f"строк {len(rows)}, а допустимо не больше {MOST_POINTS}"
-        raise place.refused(what, "сохраните диаграмму с большим шагом")
-    return heads if len(heads) == len(rows[0]) else [], rows
-
-
-def _delimiter(lines: list[str]) -> str:
-    sample = lines[len(lines) // 2] if lines else ""
-    for mark in (";", "\t"):
-        if mark in sample:
-            return mark
-    # A comma between digits may be a decimal one: then blanks stand between the columns.
-    return "," if ("," in sample and len(sample.split()) < 2) or ", " in sample else " "
-
-
-def _fields(line: str, delimiter: str) -> list[str]:
-    if delimiter == " ":
-        return line.split()
-    (row,) = csv.reader(io.StringIO(line), delimiter=delimiter)
-    fields = [field.strip() for field in row]
-    return fields[:-1] if fields and not fields[-1] else fields
-
-
-def _value(field: str, delimiter: str) -> float | None:
-    if not _NUMBER.fullmatch(field):
-        return None
-    value = float(field.replace(",", ".") if delimiter != "," else field)
-    return value if math.isfinite(value) else None
-
-
-def _column(
-    wanted: object, heads: list[str], rows: list[list[float]], place: _Place, key: str
-) -> int:
-    """Index of a column by its number from 1 or by its head."""
-    if isinstance(wanted, int) and not isinstance(wanted, bool):
-        if 1 <= wanted <= len(rows[0]):
-            return wanted - 1
-        what = f"нет столбца {wanted}"
-        raise place.refused(what, f"в таблице столбцов {len(rows[0])}", key=key)
-    if isinstance(wanted, str) and wanted in heads:
-        return heads.index(wanted)
-    shown = one_line(str(wanted), 40)
-    hint = f"есть: {', '.join(one_line(head, 20) for head in heads[:12])}" if heads else (
-        "у столбцов нет заголовков: укажите номер"
+    asked = Wanted(
+        gas.get("angle_column", 1), gas.get("pressure_column", 2),
+        frozenset({*UNITS_MPA, *_ALSO, *_ANGLES}), place.refused,
     )  # fmt: skip
-    raise place.refused(f"нет столбца «{shown}»", hint, key=key)
+    rows = recorded(text_of(folder / path, place.refused), asked)
+    _check_pressures(rows, unit, str(gas["pressure_unit"]), place)
+    turn = (360.0 if period == 720.0 else 0.0) - float(tdc)
+    points, notes = _closed(rows, turn, period, gas.get("average_cycles", False), place)
+    kept = {key: value for key, value in gas.items() if key not in KEYS}
+    made = [[angle, pressure * unit] for angle, pressure in points]
+    return {"interpolation": "monotone", **kept, "source": "table", "points": made}, notes
 
 
-def _closed(pairs: list[tuple[float, float]], period: float, place: _Place) -> list[list[float]]:
-    """Points over one cycle from 0 to its end, the ends being equal."""
-    spread = max(a for a, _ in pairs) - min(a for a, _ in pairs)
-    if spread > period + 1e-6:
-        what = f"углы занимают {number_text(spread)}°, больше цикла {number_text(period)}°"
-        raise place.refused(what, "оставьте один цикл")
-    points: dict[float, float] = {}
-    highest = max(p for _, p in pairs)
-    for angle, pressure in pairs:
-        at = round(angle % period, 6) % period
-        if at in points and abs(points[at] - pressure) > CLOSING * highest:
-            what = f"при {number_text(at)}° два разных давления"
-            raise place.refused(what, "проверьте столбцы и угол ВМТ")
-        points.setdefault(at, pressure)
-    ordered = sorted(points.items())
-    gaps = [b[0] - a[0] for a, b in pairwise(ordered)]
-    gaps.append(ordered[0][0] + period - ordered[-1][0])
-    if max(gaps) > WIDEST_GAP_DEG:
-        what = f"между точками {number_text(max(gaps))}°, диаграмма не покрывает цикл"
-        raise place.refused(what, f"допустимо до {number_text(WIDEST_GAP_DEG)}°")
-    if ordered[0][0] > 0:  # the seam of the cycle, on the straight line between its neighbours
-        (first, p_first), (last, p_last) = ordered[0], ordered[-1]
+def _unit(given: object, place: _Place) -> float:
+    """How many MPa the unit of pressure is, in whatever case and language it is written."""
+    word = str(given or "").strip().casefold().replace(" ", "")
+    unit = UNITS_MPA.get(_ALSO.get(word, word))
+    if unit is None:
+        hint = "допустимо: " + ", ".join(UNITS_MPA)
+        what = "не указана единица давления"
+        if word:
+            what = f"неизвестная единица давления «{one_line(str(given), 20)}»"
+        raise place.refused(what, hint, key="gas.pressure_unit")
+    return unit
+
+
+def _check_pressures(rows: Recorded, unit: float, called: str, place: _Place) -> None:
+    """Refuse pressures that no absolute pressure can be: one line for all of them."""
+    limits = meta_at(TableGasSection, ("points", 0, 1))
+    low, high = (limits.minimum or 0.0, limits.maximum or math.inf) if limits else (0.0, math.inf)
+    for bad, hint in (
+        ([i for i, p in enumerate(rows.pressures) if p * unit < low],
+         "нужно абсолютное давление: похоже, в файле избыточное, прибавьте атмосферное"),
+        ([i for i, p in enumerate(rows.pressures) if p * unit > high],
+         f"допустимо до {MPA.text(high)}: проверьте pressure_unit"),
+    ):  # fmt: skip
+        if bad:
+            value = number_text(rows.pressures[bad[0]])
+            more = f", таких строк ещё {len(bad) - 1}" if len(bad) > 1 else ""
+            what = f"строка {rows.lines[bad[0]]}: давление {value} {one_line(called, 20)}{more}"
+            raise place.refused(what, hint)
+
+
+def _closed(
+    rows: Recorded, turn: float, period: float, average: object, place: _Place
+) -> tuple[list[tuple[float, float]], list[str]]:
+    """Points over one cycle from 0 to its end, the ends being equal, and what was done."""
+    import numpy as np
+
+    angles, pressures = np.array(rows.angles), np.array(rows.pressures)
+    # A new cycle may begin with the angles of the first one.
+    angles = angles + period * np.cumsum(np.diff(angles, prepend=angles[0]) < -period / 2)
+    cycles, step = _cycles(angles, period, average, place)
+    at = np.round((angles + turn) % period, 6) % period
+    notes = []
+    if cycles > 1:
+        at, pressures = _means(at, pressures, step, period)
+        notes.append(f"давления {cycles} циклов усреднены по углу")
+    else:
+        at, pressures = _single(at, pressures, place)
+    if len(at) > MOST_POINTS:
+        notes.append(f"{len(at)} строк усреднены до точек через {number_text(THINNED_DEG)}°")
+        at, pressures = _means(at, pressures, THINNED_DEG, period)
+    notes += _gaps(at, period, place)
+    points = list(zip(at.tolist(), pressures.tolist(), strict=True))
+    (first, p_first), (last, p_last) = points[0], points[-1]
+    if first > 0:  # the seam of the cycle, on the straight line between its neighbours
         share = (period - last) / (first + period - last)
-        ordered.insert(0, (0.0, p_last + share * (p_first - p_last)))
-    ordered.append((period, ordered[0][1]))
-    return [[angle, pressure] for angle, pressure in ordered]
+        points.insert(0, (0.0, p_last + share * (p_first - p_last)))
+    return [*points, (period, points[0][1])], notes
+
+
+def _cycles(angles: Array, period: float, average: object, place: _Place) -> tuple[int, float]:
+    """How many whole cycles there are, and their step; more than one must be asked for."""
+    import numpy as np
+
+    spread = float(angles.max() - angles.min())
+    gaps = np.diff(np.sort(angles))
+    step = float(np.median(gaps[gaps > 1e-6])) if (gaps > 1e-6).any() else period
+    if spread <= period + 1e-6:
+        return 1, step
+    if average is not True:
+        given = number_text(round(spread, 3))
+        what = f"углы занимают {given}°, больше цикла {number_text(period)}°"
+        hint = "оставьте один цикл или задайте average_cycles = true: давления будут усреднены"
+        raise place.refused(what, hint)
+    cycles = round((spread + step / 2) / period)
+    if cycles < 2 or abs(spread + step / 2 - cycles * period) > step / 2 + 1e-6:
+        what = f"углы занимают {number_text(round(spread / period, 2))} цикла"
+        raise place.refused(what, "оставьте целое число циклов")
+    return cycles, step
+
+
+def _means(at: Array, pressures: Array, width: float, period: float) -> tuple[Array, Array]:
+    """Mean angle and pressure of each stretch around the multiples of a width."""
+    import numpy as np
+
+    count = round(period / width)
+    # Beyond the last middle lies the first one.
+    near = np.where(at >= period - width / 2 - 1e-9, at - period, at)
+    places = np.floor(near / width + 0.5 + 1e-9).astype(int)
+    held = np.bincount(places, minlength=count)
+    filled = held > 0
+    means = (np.bincount(places, values, count)[filled] / held[filled]
+             for values in (near, pressures))  # fmt: skip
+    middle, mean = means
+    middle = np.round(middle, 6)
+    if middle[0] < 0:
+        middle, mean = np.append(middle[1:], middle[0] + period), np.append(mean[1:], mean[0])
+    return middle, mean
+
+
+def _single(at: Array, pressures: Array, place: _Place) -> tuple[Array, Array]:
+    """Points in the order of their angles; both ends of the cycle give one."""
+    import numpy as np
+
+    angles, which = np.unique(at, return_inverse=True)
+    held = np.bincount(which)
+    means = np.bincount(which, pressures) / held
+    off = np.abs(pressures - means[which]) > CLOSING / 2 * pressures.max()
+    if off.any():
+        what = f"при {number_text(float(at[off][0]))}° два разных давления"
+        raise place.refused(what, "проверьте столбцы и угол ВМТ")
+    return angles, means
+
+
+def _gaps(at: Array, period: float, place: _Place) -> Iterator[str]:
+    """Tell of a lone gap; refuse one that is no diagram."""
+    import numpy as np
+
+    gaps = np.diff(at, append=at[0] + period)
+    if gaps.max() > WIDEST_GAP_DEG:
+        what = f"между точками {number_text(round(float(gaps.max()), 6))}°, "
+        hint = f"допустимо до {number_text(WIDEST_GAP_DEG)}°"
+        raise place.refused(f"{what}диаграмма не покрывает цикл", hint)
+    beside = np.maximum(np.roll(gaps, 1), np.roll(gaps, -1))
+    for i in np.flatnonzero(gaps > LONE_GAP * beside):
+        ends = (number_text(float(angle)) for angle in (at[i], at[i] + gaps[i]))
+        yield f"между {' и '.join(ends)}° точек нет"

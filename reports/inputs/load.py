@@ -21,7 +21,7 @@ from reports.inputs.checks import cross_checks
 from reports.inputs.checks.accepted import accepted_keys, explained
 from reports.inputs.checks.plausibility import check_plausibility
 from reports.inputs.checks.signs import check_signs
-from reports.inputs.diagram_file import files_of, with_points
+from reports.inputs.diagram_file import with_points
 from reports.inputs.fields import Path, key_text
 from reports.inputs.findings import Finding, Values
 from reports.inputs.firing import FOLLOWING, expand
@@ -53,6 +53,7 @@ class Loaded:
     warnings: tuple[Problem, ...]
     accepted: tuple[Accepted, ...] = ()
     beside: tuple[FilePath, ...] = ()  # further files that were read
+    notes: tuple[str, ...] = ()  # what was made of them
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,9 +89,8 @@ def load_text(text: str, *, source: str, folder: FilePath = FilePath()) -> Loade
         problems = read_ranges(section, raw, source)[1]
         if problems:
             raise InputError(problems)
-    raw = understood(raw, source)
-    loaded = load_mapping(with_points(raw, folder, source), source=source)
-    return replace(loaded, beside=tuple(folder / name for name in files_of(raw)))
+    filled = with_points(understood(raw, source), folder, source)
+    return replace(load_mapping(filled.raw, source=source), beside=filled.files, notes=filled.notes)
 
 
 def parsed(text: str, *, source: str) -> dict[str, Any]:

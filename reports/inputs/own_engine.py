@@ -1,7 +1,8 @@
 """Engines made of usual values: what ``kshm new --cylinders …`` and ``--from`` write.
 
-The rules are data: gas data and sizes by kind and number of strokes, the crankshaft over the
-bore by layout, the phases in `reports.inputs.own_phases`.  The ratios of the crankshaft are
+The rules are data: gas data and sizes by kind and number of strokes in `own_sizes`, pressures
+for a wanted power in `own_power`, the crankshaft over the bore by layout, the phases in
+`own_phases`.  The ratios of the crankshaft are
 those of Kolchin and Demidov («Расчет автомобильных и тракторных двигателей», sizes of
 crankshafts), by memory; the opposed ones are those of the sample vw-1600; masses are table 4
 of the textbook.
@@ -15,74 +16,18 @@ from typing import Any
 
 from kshm.engine.masses import Estimate
 from kshm.mechanics.rod_masses import PISTON, ROD, THROW, area_masses
+from reports.inputs.load import load_mapping
 from reports.inputs.own_phases import Phases, phases
+from reports.inputs.own_power import pressures_for
+from reports.inputs.own_sizes import Task, main_sizes, size_notes, usual_for
 from reports.inputs.sections.input_file import LAYOUTS
 from reports.inputs.to_si.geometry import Sizes
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE
 from reports.inputs.units import number_text, span_text
-from reports.shared.errors import InputError, Problem
 
-BORES_MM = (20.0, 1000.0)
 # Two rods share a pin: its mass over table 4, as of the sample yamz-238.
 _SHARED_PIN = 1.4
 Notes = dict[str, str]
-
-
-@dataclass(frozen=True, slots=True)
-class Usual:
-    """An engine without its size.
-
-    Attributes:
-        gas: keys of [gas]: polytropes that give ``effective_mpa``.
-        ratio: compression ratio.
-        stroke_bore: S/D.
-        lam: λ = r/L.
-        efficiency: mechanical efficiency.
-        effective_mpa: mean effective pressure that the diagram gives; a test holds it.
-        piston_speed: Sn/30 at the rated speed [m/s].
-        bore_mm: bore where neither power nor speed is given.
-    """
-
-    gas: dict[str, float]
-    ratio: float
-    stroke_bore: float
-    lam: float
-    efficiency: float
-    effective_mpa: float
-    piston_speed: float
-    bore_mm: float
-
-
-_GAS = (
-    "ambient_pressure_mpa", "intake_pressure_mpa", "residual_pressure_mpa", "max_pressure_mpa",
-    "compression_exponent", "expansion_exponent", "preexpansion_ratio", "injection_advance_deg",
-    "ignition_delay_deg", "exhaust_start_before_bdc_deg", "exhaust_end_after_bdc_deg",
-    "scavenge_start_before_bdc_deg",
-)  # fmt: skip
-
-
-def _gas(*values: float) -> dict[str, float]:
-    return dict(zip(_GAS, values, strict=False))
-
-
-USUAL: dict[tuple[str, int], Usual] = {
-    ("petrol", 4): Usual(
-        _gas(0.1, 0.085, 0.115, 6.2, 1.37, 1.25, 1.1, 30, 12, 55, 25),
-        9.5, 0.95, 0.28, 0.8, 0.81, 13.0, 82.0,
-    ),
-    ("diesel", 4): Usual(
-        _gas(0.1, 0.09, 0.11, 7.8, 1.37, 1.26, 1.27, 24, 14, 56, 25),
-        16.5, 1.15, 0.27, 0.78, 0.645, 9.0, 105.0,
-    ),
-    ("petrol", 2): Usual(
-        _gas(0.115, 0.11, 0.12, 4.3, 1.33, 1.28, 1.05, 28, 10, 78, 70, 60),
-        8.2, 1.0, 0.26, 0.85, 0.557, 12.0, 66.0,
-    ),
-    ("diesel", 2): Usual(
-        _gas(0.1, 0.12, 0.125, 7.8, 1.36, 1.27, 1.2, 18, 8, 80, 60, 48),
-        16.0, 1.15, 0.26, 0.8, 0.603, 8.0, 108.0,
-    ),
-}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,37 +83,24 @@ def own_engine(
     layout: str = "inline",
     strokes: int = 4,
     kind: str = "petrol",
-    power_kw: float | None = None,
-    speed_rpm: float | None = None,
+    **given: float | None,
 ) -> Made:
-    """An engine of usual values for a power and a speed, or for the usual ones.
+    """An engine for a task, ``given`` as fields of `Task`; of usual values where it says nothing.
 
     Raises:
         InputError: there is no such engine.
     """
-    timing = phases(cylinders, layout, strokes)
-    usual = USUAL[kind, strokes]
-    bore, stroke, speed = _size(usual, cylinders, strokes, power_kw, speed_rpm)
-    area = math.pi * bore**2 / 4
-    swept = area * stroke * cylinders
+    task, timing = Task(**given), phases(cylinders, layout, strokes)
+    usual = usual_for(kind, strokes, task)
+    bore, stroke, speed = main_sizes(task, usual, cylinders, strokes)
+    swept = math.pi * bore**2 / 4 * stroke * cylinders
     power = usual.effective_mpa * swept * speed / (30 * strokes * 1e6)  # MPa·mm³/s = 1e-3 W
-    notes = {
-        "geometry.bore_mm": f"при p_e = {number_text(usual.effective_mpa)} МПа и Sn/30 ≈ "
-        f"{number_text(round(stroke * speed / 30000, 1))} м/с; впишите свой",
-        "geometry.stroke_mm": f"обычное S/D = {number_text(usual.stroke_bore)}; впишите свой",
-        "geometry.rod_length_mm": f"обычное λ = {number_text(usual.lam)}",
-        "regime.mechanical_efficiency": "обычное",
-        "gas.max_pressure_mpa": f"диаграмма даёт p_e ≈ {number_text(usual.effective_mpa)} МПа",
-    }
-    if speed_rpm is None:
-        words = f"обычная: средняя скорость поршня {number_text(usual.piston_speed)} м/с"
-        notes["regime.speed_rpm"] = words
     data = {
         "engine": _engine(cylinders, layout, strokes, _named(kind, layout, cylinders, strokes)),
         "geometry": {
             "bore_mm": bore,
             "stroke_mm": stroke,
-            "rod_length_mm": round(stroke / 2 / usual.lam, 1),
+            **_rod(task, stroke, usual.lam),
             "compression_ratio": usual.ratio,
         },
         "regime": {"speed_rpm": speed, "mechanical_efficiency": usual.efficiency},
@@ -177,50 +109,26 @@ def own_engine(
     sizes = usual_shaft(layout, kind, bore, throws_of(cylinders, layout))
     masses, found = table_masses(layout, kind, bore, stroke)
     data["masses"], data["crankshaft"] = masses, shaft(layout, timing, sizes, found)
+    model = load_mapping(data, source="kshm new").model
+    notes = size_notes(task, usual, stroke, speed)
+    words = f"из обычных значений: около {number_text(round(power, 1))} кВт"
+    if task.power_kw is not None:
+        words = f"по заданию: {number_text(task.power_kw)} кВт"
+        found_gas = pressures_for(model, task.power_kw, kind)
+        data["gas"] |= found_gas.gas
+        data["regime"]["indicated_power_kw"] = found_gas.indicated_kw
+        notes |= found_gas.notes
     head = (
-        f"Двигатель составлен из обычных значений: около {number_text(round(power, 1))} кВт при "
-        f"{number_text(speed)} мин⁻¹, рабочий объём {number_text(round(swept / 1e6, 2))} л.",
+        f"Двигатель составлен {words} при {number_text(speed)} мин⁻¹, "
+        f"рабочий объём {number_text(round(swept / 1e6, 2))} л.",
     )
     return Made(data, {**notes, **found.notes, **sizes.notes, **timing_notes(timing)}, head)
 
 
-def _size(
-    usual: Usual, cylinders: int, strokes: int, power_kw: float | None, speed_rpm: float | None
-) -> tuple[float, float, float]:
-    """Bore, stroke [mm] and speed [min⁻¹]."""
-    metres = usual.piston_speed * 30 * 1000  # S·n [mm/min]
-    if power_kw is None:
-        bore = usual.bore_mm
-        if speed_rpm is not None:
-            bore = metres / speed_rpm / usual.stroke_bore
-    elif speed_rpm is None:  # N_e = p_e·F·c_m·i/τ
-        area = power_kw * 1000 * strokes / (
-            usual.effective_mpa * usual.piston_speed * cylinders
-        )  # fmt: skip
-        bore = math.sqrt(4 * area / math.pi)
-    else:  # N_e = p_e·V·n/(30τ)
-        swept = power_kw * 30e6 * strokes / (usual.effective_mpa * speed_rpm * cylinders)
-        bore = (4 * swept / math.pi / usual.stroke_bore) ** (1 / 3)
-    bore = round(bore, 1)
-    if not BORES_MM[0] <= bore <= BORES_MM[1]:
-        raise _no_such_bore(bore, power_kw)
-    stroke = round(bore * usual.stroke_bore, 1)
-    if speed_rpm is None:
-        step = 50 if metres / stroke > 1000 else 5
-        speed_rpm = step * round(metres / stroke / step)
-        if power_kw is not None:  # the rounded speed gives the same power
-            swept = power_kw * 30e6 * strokes / (usual.effective_mpa * speed_rpm * cylinders)
-            bore = round((4 * swept / math.pi / usual.stroke_bore) ** (1 / 3), 1)
-            stroke = round(bore * usual.stroke_bore, 1)
-    return bore, stroke, speed_rpm
-
-
-def _no_such_bore(bore: float, power_kw: float | None) -> InputError:
-    what = f"получается диаметр цилиндра {number_text(bore)} мм"
-    low, high = (number_text(value) for value in BORES_MM)
-    where = "--speed" if power_kw is None else "--power"
-    hint = f"возможно от {low} до {high} мм: задайте другую мощность, частоту или число цилиндров"
-    return InputError(Problem(where, what, hint))
+def _rod(task: Task, stroke: float, lam: float) -> dict[str, float]:
+    if task.lambda_ is not None:
+        return {"lambda": task.lambda_}
+    return {"rod_length_mm": task.rod_mm or round(stroke / 2 / lam, 1)}
 
 
 def _engine(cylinders: int, layout: str, strokes: int, name: str) -> dict[str, Any]:

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
 
 from lxml import etree
 
-from reports.recalculation.formulas import Formula, formula_of
+from reports.recalculation.formulas import formula_of
 from reports.recalculation.grid import Grid
-from reports.recalculation.language import Token, UnknownFormula, pattern, ref_of
+from reports.recalculation.language import Token, UnknownFormula, pattern, ref_of, unquoted
 
 _MOST = 60  # tokens of a name: nobody calls more than that by one word
 
 Meanings = Mapping[str, tuple[Token, ...]]
+Local = Mapping[str, Meanings]  # of a sheet by its title
 
 
 def meanings(grid: Grid, root: etree._Element) -> Meanings:
@@ -50,20 +52,83 @@ def _is_fixed(tokens: tuple[Token, ...], grid: Grid) -> bool:
     return True
 
 
-def put_in(grid: Grid, known: Meanings) -> None:
+def local_names(grid: Grid, root: etree._Element) -> Local:
+    """Names that a sheet has of its own: there they hide those of the book.
+
+    What stands for something else in every cell, or names a name, is a name that nobody knows.
+    """
+    titles = [str(sheet.get("name")) for sheet in root.iter("{*}sheet")]
+    found: dict[str, dict[str, tuple[Token, ...]]] = {}
+    for name in root.iter("{*}definedName"):
+        sheet = str(name.get("localSheetId") or "")
+        if not (sheet.isdecimal() and int(sheet) < len(titles)):
+            continue
+        title, own = titles[int(sheet)], str(name.get("name")).casefold()
+        tokens: tuple[Token, ...] = ()
+        with suppress(UnknownFormula):
+            tokens = pattern(str(name.text or "").strip(), 1, 1)
+        fixed = 0 < len(tokens) <= _MOST and _is_fixed(tokens, grid) and not _names(tokens)
+        found.setdefault(title, {})[own] = tokens if fixed else _unknown(title, own)
+    return found
+
+
+def _unknown(title: str, name: str) -> tuple[Token, ...]:
+    return (("name", f"{title}!{name}"),)
+
+
+def put_local(grid: Grid, local: Local) -> None:
+    """The formulas of a grid with the names of single sheets replaced by what they stand for."""
+    folded = {title.casefold(): known for title, known in local.items()}
+    nobody = {title.casefold(): {name: _unknown(title, name) for name in known}
+              for title, known in local.items()}  # fmt: skip
+    for run in grid.runs():
+        if run.formula is None:
+            continue
+        made = _localized(run.formula.pattern, run.sheet, folded)
+        if made != run.formula.pattern:
+            refers = any(formula_of(made).references)
+            made = made if refers else _localized(run.formula.pattern, run.sheet, nobody)
+            run.formula = formula_of(made)
+
+
+def _localized(tokens: tuple[Token, ...], sheet: str, local: Local) -> tuple[Token, ...]:
+    made: list[Token] = []
+    for token, after in zip(tokens, (*tokens[1:], ("", "")), strict=True):
+        before = made[-1] if made else ("", "")
+        where = unquoted(before[1]) if before[0] == "sheet" else sheet
+        known = local.get(where.casefold(), {})
+        inner = known.get(token[1].casefold()) if token[0] == "name" else None
+        if inner is None or after == ("op", "("):
+            made.append(token)
+            continue
+        if before[0] == "sheet":
+            made.pop()
+        cells = all(kind in ("sheet", "ref", "name") or value == ":" for kind, value in inner)
+        made += inner if cells else [("op", "("), *inner, ("op", ")")]
+    return tuple(made)
+
+
+def put_in(grid: Grid, known: Meanings, local: Local) -> None:
     """The formulas of a grid with names replaced by what they stand for.
 
     A formula that then refers to no cell is left: a number by a name is for a person to see.
     """
     for run in grid.runs():
-        if run.formula is not None and not known.keys().isdisjoint(_names(run.formula)):
-            made = formula_of(_replaced(run.formula.pattern, known))
+        hidden = local.get(run.sheet, {}).keys()
+        here = {name: inner for name, inner in known.items() if hidden.isdisjoint(_names(inner))}
+        if run.formula is not None and not here.keys().isdisjoint(_names(run.formula.pattern)):
+            made = formula_of(_replaced(run.formula.pattern, here))
             if any(made.references):
                 run.formula = made
 
 
-def _names(formula: Formula) -> set[str]:
-    return {value.casefold() for kind, value in formula.pattern if kind == "name"}
+def _names(tokens: tuple[Token, ...]) -> set[str]:
+    return {value.casefold() for at, (kind, value) in enumerate(tokens)
+            if kind == "name" and not _is_called(tokens, at)}  # fmt: skip
+
+
+def _is_called(tokens: Sequence[Token], at: int) -> bool:
+    return tuple(tokens[at + 1 : at + 2]) == (("op", "("),)
 
 
 def _replaced(tokens: tuple[Token, ...], known: Meanings) -> tuple[Token, ...]:

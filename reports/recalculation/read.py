@@ -13,7 +13,7 @@ from reports.recalculation.crossing import cross
 from reports.recalculation.forms import Forms
 from reports.recalculation.grid import MAX_SHEETS, Area, BadBook, Grid
 from reports.recalculation.language import column_number
-from reports.recalculation.meanings import meanings, put_in
+from reports.recalculation.meanings import local_names, meanings, put_in, put_local
 from reports.recalculation.picked import pick
 from reports.recalculation.sheets import MAIN, parse_xml, read_sheet, rich_text
 from reports.workbook.package import Package
@@ -55,8 +55,10 @@ def _read(package: Package, forms: Forms | None) -> Grid:
     for title, part in _worksheets(sheets, targets):
         grid.sheets[title] = {}
         read_sheet(grid, title, package.read(part), strings, forms)
+    if local := local_names(grid, root):
+        put_local(grid, local)
     if known := meanings(grid, root):
-        put_in(grid, known)
+        put_in(grid, known, local)
     pick(grid)
     cross(grid)
     return grid

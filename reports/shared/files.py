@@ -11,6 +11,8 @@ import secrets
 import shutil
 import signal
 import stat
+import sys
+import tempfile
 import zipfile
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -32,8 +34,13 @@ _REASONS = {
     errno.EFBIG: "файл больше, чем разрешено",
     errno.ENAMETOOLONG: "слишком длинное имя",
     errno.ENOENT: "нет такого файла или папки",
+    errno.ELOOP: "ссылки указывают друг на друга",
+    errno.EPIPE: "читать с другой стороны некому",
+    errno.ENXIO: "на другой стороне никого нет",
+    errno.EBADF: "такого потока нет или он только для чтения",
     errno.EADDRINUSE: "порт занят",
 }
+_LINKS = 40  # as many as Linux follows
 _ADVICE = "укажите другое место"
 
 
@@ -84,32 +91,59 @@ def write_zip(path: Path, files: Mapping[str, Path], more: Path | None = None) -
 def atomic_path(path: Path) -> Iterator[Path]:
     """Yield a temporary file beside `path` that replaces it when the block succeeds.
 
+    A link stays and its target is replaced.  What is no regular file, as a pipe or a device, stays
+    too: it is written when the block has succeeded.
+
     Raises:
         OutputError: The place cannot be written; the old file is untouched.
     """
-    make_dir(path.parent)
-    if path.is_dir():
-        raise _failure(path, IsADirectoryError(errno.EISDIR, ""))
+    target = None if is_stream(path) else _target(path)
+    folder = Path(tempfile.gettempdir()) if target is None else target.parent
+    if target is not None:
+        make_dir(folder)
+        if target.is_dir():
+            raise _failure(path, IsADirectoryError(errno.EISDIR, ""))
     # The name's suffix is kept: some writers choose the format by it.
-    temporary = _fresh_name(path.parent, path.suffix)
+    temporary = _fresh_name(folder, path.suffix)
     _unfinished.add(temporary)
     try:
         with _reported(path):
-            _create(temporary, path)
+            _create(temporary, target)
             yield temporary
             check()
-            _replace(temporary, path)
+            if target is None:
+                _copy(temporary, path)
+            else:
+                _replace(temporary, target)
     finally:
         _remove(temporary)
 
 
+def is_stream(path: Path) -> bool:
+    """Whether a place takes what it is given as it comes: a pipe, a device, an open stream."""
+    with contextlib.suppress(OSError):
+        if _descriptor(path) is not None:
+            return True
+        mode = path.stat().st_mode
+        return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
+    return False
+
+
+def is_output(path: Path) -> bool:
+    """Whether a place is what the program prints to, by whatever name: no word may follow there."""
+    with contextlib.suppress(OSError, ValueError):
+        return os.path.samestat(path.stat(), os.fstat(1))
+    return False
+
+
 @contextmanager
 def atomic_dir(path: Path) -> Iterator[Path]:
-    """Yield a temporary folder beside `path` that replaces it when the block succeeds.
+    """Yield a temporary folder beside `path`, or a link's target, that replaces it in the end.
 
     Raises:
         OutputError: The place cannot be written; the old folder is untouched.
     """
+    path = _target(path)
     make_dir(path.parent)
     if path.exists() and not path.is_dir():
         raise _failure(path, FileExistsError(errno.EEXIST, ""))
@@ -143,7 +177,7 @@ def refuse_own(outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
 
 def _places(path: Path) -> set[object]:
     """What tells a file from another: its path without links, its place on the disk."""
-    places: set[object] = {path.resolve()}
+    places: set[object] = {os.path.realpath(path)}
     with contextlib.suppress(OSError):
         found = path.stat()
         places.add((found.st_dev, found.st_ino))
@@ -188,6 +222,28 @@ def make_dir(path: Path) -> None:
         raise _failure(path, OSError(errno.EROFS if reading_only else errno.EACCES, ""))
 
 
+def private_dir(path: Path, own: str) -> None:
+    """Make a folder that nobody else may enter, from its first moment.
+
+    One that stands open is closed if it is empty or holds a file called ``own``.
+
+    Raises:
+        OutputError: it cannot be made or written, or is open and holds what is not ours.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with contextlib.suppress(FileExistsError):
+            path.mkdir(mode=0o700)
+        if os.name != "nt" and path.is_dir() and path.stat().st_mode & 0o077:
+            if any(path.iterdir()) and not (path / own).exists():
+                what = "папка открыта другим, и в ней чужие файлы"
+                raise OutputError(Problem(str(path), what, "укажите новую папку или закройте эту"))
+            path.chmod(0o700)
+    except OSError as error:
+        raise _failure(path, error) from None
+    make_dir(path)
+
+
 def reason(error: OSError) -> str:
     """Return in Russian why the system refused."""
     return _REASONS.get(error.errno or 0, "ошибка ввода-вывода")
@@ -210,12 +266,51 @@ def _fresh_name(folder: Path, suffix: str) -> Path:
     return folder / f".kshm-{secrets.token_hex(8)}{suffix}"
 
 
-def _create(temporary: Path, path: Path) -> None:
-    # As readable as any other file, or as the file that it replaces.
-    handle = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
+def _target(path: Path) -> Path:
+    """Where a chain of links ends; a path without links as it is given."""
+    with _reported(path):
+        if not path.is_symlink():
+            return path
+        with contextlib.suppress(FileNotFoundError):  # the target is still to be made
+            path.stat()
+        return Path(os.path.realpath(path))
+
+
+def _descriptor(path: Path) -> int | None:
+    """The number of this process's open stream that a path names, as /dev/stdout does.
+
+    Opened by its name a stream that is a regular file would be written from its beginning, over
+    what others have written into it.
+    """
+    names = {Path(name).resolve() for name in ("/dev/fd", "/proc/self/fd")}
+    for _ in range(_LINKS):
+        folder = path.parent.resolve()
+        if folder in names and path.name.isdecimal():
+            return int(path.name)
+        if not path.is_symlink():
+            break
+        path = folder / path.readlink()
+    return None
+
+
+def _copy(temporary: Path, path: Path) -> None:
+    """Write a finished file into what is no regular file."""
+    number = _descriptor(path)
+    if number == 1:
+        sys.stdout.flush()
+    # Neither created nor cut: what was there a moment ago stays what it is.
+    handle = os.open(path, os.O_WRONLY) if number is None else os.dup(number)
+    with os.fdopen(handle, "wb") as stream, temporary.open("rb") as source:
+        shutil.copyfileobj(source, stream)
+
+
+def _create(temporary: Path, like: Path | None) -> None:
+    # As readable as any other file, or as the file that it replaces; what only passes, by none.
+    mode = 0o600 if like is None else 0o666
+    handle = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode)
     os.close(handle)
-    if path.exists():
-        temporary.chmod(path.stat().st_mode & 0o777)
+    if like is not None and like.exists():
+        temporary.chmod(like.stat().st_mode & 0o777)
 
 
 def _remove(place: Path) -> None:
@@ -258,6 +353,8 @@ def _reported(path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
+        if isinstance(error, BrokenPipeError) and is_output(path):
+            raise  # output as long as it was wanted
         raise _failure(path, error) from None
 
 

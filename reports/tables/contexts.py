@@ -13,6 +13,7 @@ from kshm.cycle.processes import N1_PASSES, N1_START, N2_PASSES, N2_START
 from kshm.cycle.speed_characteristic import IDLE_SHARE, LEIDERMAN
 from kshm.mechanics.pin_bearing import PLANES
 from kshm.mechanics.rod_masses import BORES, PISTON, ROD, STROKE_BORE, THROW
+from reports.inputs.checks.power import MOST
 from reports.inputs.sections.cycle import PUMPING, ROUNDINGS
 from reports.inputs.sections.gas import RoundedGasSection
 from reports.inputs.sections.input_file import METHODS
@@ -102,7 +103,12 @@ def _cycle(scope: Scope) -> dict[str, Any]:
 
 
 def _summary(scope: Scope) -> dict[str, Any]:
-    return {"usual_share": USUAL_SHARE, "is_usual_share": is_usual_share, **_surfaces(scope)}
+    return {
+        "usual_share": USUAL_SHARE,
+        "is_usual_share": is_usual_share,
+        "power_gap": MOST,
+        **_surfaces(scope),
+    }
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,6 +10,7 @@ import numpy as np
 from kshm.arrays import Array
 from kshm.mechanics import oil_film
 from kshm.mechanics.oil_balance import BearingArrays
+from kshm.mechanics.oil_map import squeeze_force
 from kshm.nomenclature.quantity import UNITS
 from reports.validation.gots_text import Number
 
@@ -24,6 +25,14 @@ def _degrees(eccentricity: Array, width: Array) -> Array:
     return np.degrees(oil_film.attitude(eccentricity, width))
 
 
+def _squeeze(eccentricity: Array, width: Array) -> Array:
+    """So_V at ε signed as ε̇ is: a journal that comes near its shell or leaves it."""
+    direction = np.where(eccentricity < 0, np.pi, 0.0)
+    force = squeeze_force(np.abs(eccentricity)[None], direction[None], float(width))
+    size: Array = np.abs(force[0])
+    return size
+
+
 def _pressure() -> float:
     """Mean pressure of the tractor diesel's crankpin 68 × 38 mm under 11,745 N [MPa]."""
     sizes = (0.068, 0.038, 1.0, 0.057e-3, 230.0, 0.005)
@@ -35,6 +44,6 @@ FILM: dict[str, Number] = {
     **{f"so_d_{e}": partial(_at, oil_film.rotation_number, e / 100)
        for e in (10, 30, 50, 70, 80, 90, 95, 99)},
     **{f"beta_{e}": partial(_at, _degrees, e / 100) for e in (10, 50, 90, 95, 99)},
-    **{f"so_v_{e}": partial(_at, oil_film.squeeze_number, e / 100) for e in (-90, -50, 0, 50, 90)},
+    **{f"so_v_{e}": partial(_at, _squeeze, e / 100) for e in (-90, -50, 0, 50, 90)},
 }  # fmt: skip
 PRESSURE: dict[str, Number] = {"k": _pressure}

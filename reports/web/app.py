@@ -27,7 +27,7 @@ from reports.inputs.sections.input_file import LAYOUTS, STROKES
 from reports.inputs.template import list_samples
 from reports.shared.aside import processors
 from reports.shared.errors import KshmError
-from reports.shared.files import make_dir
+from reports.shared.files import private_dir
 from reports.shared.resources import resource_dir
 from reports.shared.workers import Workers
 from reports.web import engine
@@ -55,9 +55,7 @@ async def choices(_: Request) -> Data:
 
 def create_app(settings: Settings) -> Guard:
     """The whole application, the guard before it."""
-    if not settings.data.exists():
-        make_dir(settings.data)
-        settings.data.chmod(0o700)
+    private_dir(settings.data, SECRET)
     # What makes links unguessable, kept beside the files.
     secret, count = kept_secret(settings.data / SECRET), settings.workers or processors()
     jobs = Jobs(settings.data / "jobs", secret, settings.dask, count)

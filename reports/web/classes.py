@@ -23,6 +23,7 @@ from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.files import make_dir, read_json, write_bytes, write_json, write_zip
 from reports.web import engine
 from reports.web.doors import Rate, Shown, ask, body, caller, get, post, shown
+from reports.web.history import earlier
 from reports.web.jobs import Queue
 
 _TEXTS, _ROSTER = ("base.toml", "rubric.toml"), "Список"
@@ -108,7 +109,12 @@ class Classes(Queue):
             decision = [str(data.get(key, ""))[:500] for key in ("who", "what", "points", "remark")]
             command += ["--decide", *decision, "--author", "преподаватель"]
         else:
-            works = {f"страница/{path.name}": path for path in folder.glob("works/*.xlsx")}
+            # An earlier one counts where a later one turns out to be somebody else's.
+            works = {
+                f"страница/{each.stem}/{path.name}": path
+                for each in folder.glob("works/*.xlsx")
+                for path in (*earlier(each)[-1:], each)
+            }
             write_zip(folder / "submitted.zip", works, folder / "moodle.zip")
         if (folder / "worksheet.csv").exists():
             command += ["--moodle", "worksheet.csv"]
@@ -126,7 +132,7 @@ class Classes(Queue):
         students = [
             {"name": book.student.full, "group": book.student.group,
              "link": self.signer.dumps([folder.name, book.number]),
-             "handed": (folder / "works" / book.file).exists()}
+             **_handed(folder / "works" / book.file)}
             for book in (load_register(issued).books if (issued / FILE).exists() else ())
         ]  # fmt: skip
         return Shown(
@@ -152,7 +158,16 @@ class Classes(Queue):
                  "page": folder / "results" / row.get("page", "")}  # fmt: skip
         told = {
             "title": about["title"], "student": book.student.full, "file": book.file,
-            "handed": work.exists() or bool(row.get("file")), "open": bool(row.get("page")),
+            **_handed(work), "open": bool(row.get("page")),
             "points": row.get("points"), "status": row.get("status", ""),
         }  # fmt: skip
+        told["handed"] = told["handed"] or bool(row.get("file"))
         return Shown(told, files, {"work": work})
+
+
+def _handed(work: Path) -> Data:
+    """Whether a work was handed in here, when, and when others were before it."""
+    if not work.exists():
+        return {"handed": False, "when": None, "earlier": []}
+    times = [path.stat().st_mtime for path in (*earlier(work), work)]
+    return {"handed": True, "when": times[-1], "earlier": times[:-1]}

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import socket
+from collections.abc import Iterator
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -13,7 +15,7 @@ from reports.commands.common import DONE, HELP, dask_option, path_option, verbos
 from reports.commands.words import RussianCommand
 from reports.shared.doctor import need_packages
 from reports.shared.errors import KshmError
-from reports.shared.files import make_dir, reason
+from reports.shared.files import private_dir, reason
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)
@@ -34,11 +36,28 @@ def serve(port: int, host: str, folder: Path, public: str, dask: str | None) -> 
     address = urlsplit(public)
     if public and (address.scheme not in ("http", "https") or not address.hostname):
         raise KshmError(f"--public {public}: нужен адрес вида https://kafedra.example/kshm")
-    make_dir(folder)
+    with _private():
+        return _served(port, host, folder, public, dask)
+
+
+@contextlib.contextmanager
+def _private() -> Iterator[None]:
+    """All that the server and its commands write is for its own account: rosters and works."""
+    before = os.umask(0o077)
+    try:
+        yield
+    finally:
+        os.umask(before)
+
+
+def _served(port: int, host: str, folder: Path, public: str, dask: str | None) -> int:
+    """Serve until somebody ends it."""
+    from reports.grading.issuing.ticket import SECRET, kept_secret
+
+    private_dir(folder, SECRET)
     bound = _bound(host, port)
     import uvicorn
 
-    from reports.grading.issuing.ticket import SECRET, kept_secret
     from reports.web.app import create_app
     from reports.web.classes import token_of
     from reports.web.doors import Settings

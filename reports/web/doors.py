@@ -25,11 +25,12 @@ from starlette.routing import Route
 from starlette.types import ASGIApp
 
 from reports.grading.pages.moodle import check_upload
-from reports.grading.reading.selfcheck import remarks
+from reports.grading.reading.selfcheck import refuse_foreign, remarks
 from reports.inputs.described import Data
 from reports.shared.errors import InputError, KshmError, Problem
 from reports.shared.workers import Died, NeverStarted
 from reports.web import engine
+from reports.web.history import keep_earlier
 
 Door = Callable[..., Awaitable[Response | Data | None]]
 MOST_JSON, MOST_BOOK, MOST_ARCHIVE = 2_000_000, 30 * 2**20, 100_000_000
@@ -256,7 +257,10 @@ def shown(path: str, find: Callable[[Request], Shown], files: str = "/{file}") -
         async with uploaded(request, MOST_BOOK if is_book else MOST_ARCHIVE, place.name) as file:
             if is_book:
                 with contextlib.suppress(HTTPException):  # a busy server turns no work away
-                    told = await ask(request, remarks, str(file), str(found.gives["book"]))
+                    own = str(found.gives["book"])
+                    await ask(request, refuse_foreign, str(file), own)
+                    told = await ask(request, remarks, str(file), own)
+                keep_earlier(place, file)
             else:
                 check_upload(file, place.suffix)
             file.replace(place)

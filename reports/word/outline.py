@@ -65,7 +65,8 @@ def _path_of(text: ET.Element, above: dict[str, str]) -> str:
 def _line(text: str, looks: dict[str, str]) -> str:
     """Outlines of letters on one line, each at its own place where places are given."""
     size = float(looks["font-size"])
-    face = tuple(looks.get(name, "normal") for name in ("font-family", "font-style", "font-weight"))
+    family = looks["font-family"].partition(",")[0]
+    face = (family, *(looks.get(name, "normal") for name in ("font-style", "font-weight")))
     xs, ys = (list(map(float, looks.get(axis, "0").split())) for axis in "xy")
     glyphs = [_glyph(*face, char) for char in text]
     shift = {"middle": 0.5, "end": 1.0}.get(looks.get("text-anchor", ""), 0.0)
@@ -98,7 +99,9 @@ def _glyph(family: str, style: str, weight: str, char: str) -> tuple[Outline, fl
 
     font = fonts.face(family, style, weight)
     if ord(char) not in font.get_charmap():
-        font = fonts.face(fonts.FAMILY, "normal", "normal")
+        second = fonts.face(fonts.SECOND, style, weight)
+        lacking = ord(char) not in second.get_charmap()
+        font = fonts.face(fonts.FAMILY, "normal", "normal") if lacking else second
     units = float(font.units_per_EM)
     glyph = font.load_char(ord(char), flags=LoadFlags.NO_SCALE)
     vertices, codes = font.get_path()

@@ -18,7 +18,6 @@ from openpyxl import Workbook
 from openpyxl.utils import coordinate_to_tuple, get_column_letter
 from openpyxl.writer.excel import ExcelWriter
 
-from reports.formula.excel import is_array
 from reports.workbook import shared_form
 from reports.workbook.sheets import CacheValues, FilledColumn
 from reports.workbook.styles import FONT
@@ -31,7 +30,8 @@ _CHARTS, _DRAWINGS = "xl/charts/chart", "xl/drawings/drawing"
 _VALUE = f"{{{_MAIN}}}v"
 _DCTERMS = "http://purl.org/dc/terms/"
 _LEVEL = 7  # of compression: 1.5 % smaller than the usual one in the same time
-_DIGITS = ".15g"  # as many as a spreadsheet shows; what follows is noise that takes room
+_DIGITS = ".14g"  # a spreadsheet shows hardly one more; what follows is noise that takes room
+_NOTHING = 1e-13  # what is left of a zero
 
 
 class CacheError(ValueError):
@@ -122,8 +122,6 @@ def _fill(data: bytes, title: str, caches: CacheValues) -> bytes:
     for formula in root.iter(f"{{{_MAIN}}}f"):
         cell = formula.getparent()
         where = cell.get("r")
-        if is_array(formula.text):
-            formula.attrib.update({"t": "array", "ref": where})
         value = _checked(values.get(where), f"{title}!{where}")
         element = cell.find(_VALUE)
         if element is None:
@@ -133,7 +131,7 @@ def _fill(data: bytes, title: str, caches: CacheValues) -> bytes:
             element.text = value
         else:
             cell.attrib.pop("t", None)
-            element.text = f"{value:{_DIGITS}}"
+            element.text = _number(value)
     _add_columns(root, title, caches.columns.get(title, []))
     return _written(root)
 
@@ -142,6 +140,10 @@ def _checked(value: float | str | None, where: str) -> float | str:
     if value is None or (isinstance(value, float) and not math.isfinite(value)):
         raise CacheError(f"formula without a finite value: {where}: {value!r}")
     return value
+
+
+def _number(value: float) -> str:
+    return f"{value:{_DIGITS}}" if value > _NOTHING or value < -_NOTHING else "0"
 
 
 def _add_columns(root: etree._Element, title: str, columns: list[FilledColumn]) -> None:
@@ -155,14 +157,12 @@ def _add_columns(root: etree._Element, title: str, columns: list[FilledColumn]) 
     for column in sorted(columns, key=lambda c: c.index):
         letter = get_column_letter(column.index)
         style = looks[f"{letter}{column.first_row - 1}"]
-        arrays = bool(column.cells) and is_array(column.cells[0][0])
         begin, middle = f'<c r="{letter}', f'" s="{style}">'
         for row, (formula, value) in enumerate(column.cells, column.first_row):
             if not math.isfinite(value):
                 _checked(value, f"{title}!{letter}{row}")
-            kind = f' t="array" ref="{letter}{row}"' if arrays else ""
-            text = f"<f{kind}>{_escaped(formula[1:])}</f>" if formula else ""
-            cell = f"{begin}{row}{middle}{text}<v>{value:{_DIGITS}}</v></c>"
+            text = f"<f>{_escaped(formula[1:])}</f>" if formula else ""
+            cell = f"{begin}{row}{middle}{text}<v>{_number(value)}</v></c>"
             texts.setdefault(row, []).append(cell)
     made = "".join(f'<row r="{row}">{"".join(cells)}</row>' for row, cells in texts.items())
     for row in etree.fromstring(f'<sheetData xmlns="{_MAIN}">{made}</sheetData>'):

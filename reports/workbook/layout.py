@@ -7,17 +7,22 @@ defined names; cells of grids are absolute addresses.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from openpyxl.utils import get_column_letter
 
 from reports.formula.excel import number
 from reports.inputs.fields import Field
 from reports.spec.blocks import Grid, Model, ScalarTable, TableSpec
+from reports.workbook.orders import Grid as AngleGrid
+from reports.workbook.orders import Waves, grid_of, place_of, runs_of, waves_of
 
 INPUT_SHEET = "Исходные данные"
 CONTENTS_SHEET = "Содержание"
+WAVES_SHEET = "Синусы и косинусы"
 
 TITLE_ROW = 1
 NOTE_ROW = 2
@@ -32,6 +37,9 @@ KEY_COLUMN = 6
 _ROW = "\x01"  # stands for the row number in a formula compiled once for a whole column
 _NEXT = "\x02"
 _ABOVE = "\x03"
+# The column of the first row's order; that of the next row stands beside it.
+_BELOW = re.compile("\x05(\\d+)\x05")  # the same for rows
+_WAVE = re.compile("\x04(\\d+)\x04")
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +90,8 @@ class Layout:
     next_row: dict[str, int] = field(default_factory=dict)
     next_column: dict[str, int] = field(default_factory=dict)
     beside: dict[str, int] = field(default_factory=dict)  # row of the next list beside a table
+    waves: dict[AngleGrid, int] = field(default_factory=dict)  # column of the angles
+    run_waves: dict[str, int] = field(default_factory=dict)  # row of a run's angles
 
     @classmethod
     def of(cls, model: Model) -> Layout:
@@ -98,7 +108,20 @@ class Layout:
                 layout._list(block, beside_table=beside_table)
             elif isinstance(block, Grid):
                 layout._grid(block, below_table=beside_table)
+        column = 1
+        for grid, waves in layout.orders.items():
+            layout.waves[grid] = column
+            column += 1 + sum(map(len, waves.orders.values())) + 1
+        row = max((FIRST_ROW + len(rows) for rows, _ in layout.orders), default=HEADER_ROW)
+        for run, waves in layout.run_orders.items():
+            layout.run_waves[run] = row + 2
+            row += 3 + sum(map(len, waves.orders.values()))
         return layout
+
+    @cached_property
+    def orders(self) -> Mapping[AngleGrid, Waves]:
+        """Orders of the sines and cosines by the grid of their angles."""
+        return waves_of(self.model)
 
     # --- assignment -------------------------------------------------------------------
 
@@ -186,6 +209,19 @@ class Layout:
         ends = f"${get_column_letter(last_cell.column)}${last_cell.row}"
         return f"{first.absolute}:{ends}"
 
+    @cached_property
+    def run_orders(self) -> Mapping[str, Waves]:
+        """Orders of the sines and cosines by the run of their angles."""
+        return runs_of(self.model)
+
+    def wave_row(self, turn: str, run: str, orders: tuple[float, ...]) -> int:
+        """Sheet row of a function of the first of some orders times the angles of a run."""
+        return self.run_waves[run] + 1 + _place(self.run_orders[run], turn, orders)
+
+    def wave_column(self, turn: str, grid: AngleGrid, orders: tuple[float, ...]) -> int:
+        """Sheet column of a function of the first of some orders times the angles of a grid."""
+        return self.waves[grid] + 1 + _place(self.orders[grid], turn, orders)
+
     def cells_of_run(self, key: str) -> list[Cell]:
         """Cells of a grid's row or of input points, see ``keys_of_run``."""
         return [self.cells[name] for name in self.keys_of_run(key)]
@@ -208,6 +244,15 @@ class Layout:
     def defined_names(self) -> Mapping[str, str]:
         """Defined name → absolute address."""
         return {name: self.cells[name].absolute for name in sorted(self.named)}
+
+
+def _place(waves: Waves, turn: str, orders: tuple[float, ...]) -> int:
+    """Number of the waves that stand before some orders."""
+    names = tuple(waves.orders)
+    before = sum(len(waves.orders[name]) for name in names[: names.index(turn)])
+    found = place_of(waves.orders[turn], orders)
+    assert found is not None
+    return before + found
 
 
 class RowReferences:
@@ -261,6 +306,40 @@ class RowReferences:
         prefix, separator, last = here.rpartition("!")
         return f"{prefix}{separator}${letter}${FIRST_ROW}:{last}"
 
+    def each(self, key: str) -> list[str]:
+        """Cells of a run."""
+        full = self._qualified(key)
+        if full in self._layout.columns:
+            table, column = self._layout.columns[full]
+            cells = [Cell(table.sheet, row, column) for row in self._layout.rows_of(table)]
+        else:
+            cells = self._layout.cells_of_run(full)
+        return [cell.absolute.removeprefix(self._own) for cell in cells]
+
+    def wave(self, turn: str, angle: str, order: float | str) -> str:
+        """Sines or cosines of an order; of each row's own where it is a column."""
+        grid = grid_of(self._layout.columns[self._qualified(angle)][0])
+        last = FIRST_ROW + len(grid[0]) - 2
+        column = self._layout.wave_column(turn, grid, self._orders(order))
+        if isinstance(order, float):
+            return column_range(WAVES_SHEET, column, FIRST_ROW, last)
+        letter = f"\x04{column}\x04"
+        return f"{quoted(WAVES_SHEET)}!${letter}${FIRST_ROW}:${letter}${last}"
+
+    def run_wave(self, turn: str, angles: str, order: float | str) -> str:
+        """Sines or cosines of a run's angles; of each row's own order where it is a column."""
+        row = str(self._layout.wave_row(turn, angles, self._orders(order)))
+        mark = row if isinstance(order, float) else f"\x05{row}\x05"
+        last = get_column_letter(1 + len(self._layout.keys_of_run(angles)))
+        return f"{quoted(WAVES_SHEET)}!$B${mark}:${last}${mark}"
+
+    def _orders(self, order: float | str) -> tuple[float, ...]:
+        """An order, or those of the table's rows."""
+        if isinstance(order, float):
+            return (order,)
+        assert self._table is not None
+        return self._table.rows
+
     def _qualified(self, key: str) -> str:
         local = f"{self._table.id}.{key}" if self._table is not None else key
         return local if local in self._layout.columns else key
@@ -279,6 +358,12 @@ class RowReferences:
 def at_row(formula: str, row: int, *, last: bool = False) -> str:
     """A column's formula in one row; in the last row the following row is the row itself."""
     below = str(row if last else row + 1)
+    if "\x05" in formula:
+        formula = _BELOW.sub(lambda found: str(int(found[1]) + row - FIRST_ROW), formula)
+    if "\x04" in formula:
+        formula = _WAVE.sub(
+            lambda found: get_column_letter(int(found[1]) + row - FIRST_ROW), formula
+        )
     return formula.replace(_ROW, str(row)).replace(_NEXT, below).replace(_ABOVE, str(row - 1))
 
 

@@ -29,6 +29,7 @@ from reports.workbook.layout import (
     NOTE_ROW,
     SOURCE_COLUMN,
     TITLE_ROW,
+    WAVES_SHEET,
     Cell,
     Layout,
     check_names,
@@ -51,6 +52,7 @@ from reports.workbook.places import (
 )
 from reports.workbook.sheets import CacheValues, Writer
 from reports.workbook.verdict import colour_verdicts, write_verdict
+from reports.workbook.waves import write_waves
 
 _MOST_CHECKS = 40
 NOTE_COLUMN, _NOTE_PX = 3, 560  # where a sheet's note begins, and how wide it is at least
@@ -87,6 +89,10 @@ def assemble(
         notes = [block.note for block in model.blocks if block.sheet == title and block.note]
         if notes:
             _note(book[title], " ".join(dict.fromkeys(notes)))
+    if layout.orders or layout.run_orders:
+        waves = book.create_sheet(WAVES_SHEET, _index(book, WAVES_SHEET))
+        _heading(waves, heading(WAVES_SHEET))
+        write_waves(waves, writer)
     boxes = _charts(book, model, writer)
     if motion.can_move(writer):
         for title in (what_if.SHEET, motion.SHEET):

@@ -49,7 +49,7 @@ def test_font_files_are_a_closed_list():
 
 def test_css_names_every_face_and_embeds_on_demand():
     css = fonts.fonts_css()
-    assert css.count("@font-face") == 15 and "kshm-font:STIXGeneralItalic.ttf" in css
+    assert css.count("@font-face") == 19 and "kshm-font:STIXGeneralItalic.ttf" in css
     assert "/" not in css.replace("kshm-font", "")
     embedded = fonts.fonts_css(embedded=True)
     assert "kshm-font" not in embedded and "data:font/ttf;base64," in embedded

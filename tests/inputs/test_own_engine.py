@@ -16,9 +16,10 @@ from kshm.mechanics.rod_masses import THROW
 from reports.cli import main
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_text, load_toml
-from reports.inputs.own_engine import USUAL, own_engine, table_masses
+from reports.inputs.own_engine import own_engine, table_masses
 from reports.inputs.own_file import LINE, file_text
 from reports.inputs.own_similar import alternative
+from reports.inputs.own_sizes import USUAL
 from reports.inputs.to_si.engine import engine_and_cycle, to_engine
 from reports.inputs.units import number_text
 from reports.shared.errors import InputError

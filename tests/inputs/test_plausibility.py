@@ -190,7 +190,7 @@ def test_poor_use_of_heat_is_named():
 
 @pytest.mark.parametrize("factor", [10, 100, 0.1])
 def test_a_lone_point_of_a_diagram_is_named(raw, factor):
-    near = {240: 0.17, 270: 0.3, 300: 0.8, 330: 2.7, 360: 8.6, 390: 5.5, 420: 2.4, 450: 1.1,
+    near = {240: 0.17, 270: 0.32, 300: 0.7, 330: 2.7, 360: 8.6, 390: 5.5, 420: 2.4, 450: 1.1,
             480: 0.7, 510: 0.45, 540: 0.28}  # fmt: skip
     points = [[float(angle), near.get(angle, 0.11)] for angle in range(0, 721, 30)]
     raw["gas"] = {"source": "table", "points": points}

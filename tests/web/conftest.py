@@ -75,15 +75,16 @@ class Served:
 
 
 @contextmanager
-def serving(data: Path) -> Iterator[Served]:
-    """The command ``serve`` until the block ends, or is ended within."""
+def serving(place: Path, folder: str = ".") -> Iterator[Served]:
+    """The command ``serve`` until the block ends, or is ended within; ``folder`` is within."""
+    data = place / folder
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
     command = [sys.executable, "-m", "reports", "serve", "--port", str(port), "--data", str(data)]
     home = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path])}
     process = subprocess.Popen(
-        command, cwd=data, env=home, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+        command, cwd=place, env=home, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
     )
     assert process.stdout is not None
     page, teacher = (process.stdout.readline().partition(": ")[2].strip() for _ in range(2))

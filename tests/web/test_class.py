@@ -162,6 +162,24 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     until(student, "!document.querySelector('#remarks li')")
     until(student, "/работа сдана \\d/.test(document.getElementById('state').textContent)")
     assert not student.is_visible("#page")
+    # What was handed in before is kept, and told; somebody else's book takes nobody's place.
+    place = stored(served) / "works" / register.books[2].file
+    (before,) = (place.parent / "earlier" / place.stem).iterdir()
+    assert before.read_bytes() == half
+    until(student, "document.querySelector('#earlier')?.textContent.includes('хранятся')")
+    counted, told = place.read_bytes(), student.inner_text("#state")
+    for foreign in (next(iter({*issued.values()} - {own})), b"PK\x03\x04 broken"):
+        student.set_input_files("#work", {"name": "ч.xlsx", "mimeType": "", "buffer": foreign})
+        student.wait_for_selector("#errors li")
+        assert place.read_bytes() == counted and student.inner_text("#state") == told
+        assert len(list(before.parent.iterdir())) == 1
+    student.set_input_files("#work", {"name": "р.xlsx", "mimeType": "", "buffer": counted})
+    until(student, "!document.querySelector('#errors li')")
+    assert len(list(before.parent.iterdir())) == 1  # the same once more is no other one
+    student.reload()
+    student.wait_for_selector("#earlier")
+    teacher.reload()
+    until(teacher, "/сдал здесь \\d.*раньше ещё 1/.test(document.body.textContent)")
     name = stored(served).name
     ask = student.context.request
     assert ask.get(f"{served.page}api/teacher/{name}").status == 403

@@ -171,10 +171,12 @@ def formula_problems(cell: etree._Element) -> list[str]:
     found += [f"{name} is not shared by all engines" for name in sorted(used - ALLOWED - VOLATILE)]
     if "_xlfn" in text:
         found.append("newer than Excel 2007")
-    # Gnumeric reckons with whole ranges in array formulas alone; no other formula is one.
-    wanted = {"t": "array", "ref": cell.get("r")} if "SUMPRODUCT(" in text else {}
-    if dict(formula.attrib) != wanted:
-        found.append(f"array or shared formula {dict(formula.attrib)}, not {wanted}")
+    # LibreOffice loads array formulas dirty, and the first edit stops there.
+    if formula.attrib:
+        found.append(f"array or shared formula {dict(formula.attrib)}")
+    # Gnumeric lifts a function over a range in array formulas alone.
+    if re.search(r"\b(?:SIN|COS)\([^()]*:", text):
+        found.append("a function over a range")
     if re.search(r"\dE[+-]?\d", text) or re.search(r"(^=?|[(,*/+^<>=-])-\(", text):
         found.append("an exponent or a sign before a bracket")
     if len(formula.text or "") > LONGEST:

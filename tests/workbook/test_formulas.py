@@ -10,7 +10,7 @@ import pytest
 from lxml import etree
 from openpyxl import load_workbook
 
-from reports.formula.excel import compile_formula, is_array
+from reports.formula.excel import compile_formula
 from reports.formula.numeric import evaluate
 from reports.formula.parse import FormulaError, names, parse
 from reports.inputs.fields import to_mapping
@@ -29,8 +29,6 @@ def cell(formula: str, value: str = "1") -> etree._Element:
     root = etree.Element(f"{MAIN}c", r="A9")
     made = etree.SubElement(root, f"{MAIN}f")
     made.text = formula
-    if is_array(formula):
-        made.attrib.update({"t": "array", "ref": "A9"})
     etree.SubElement(root, f"{MAIN}v").text = value
     return root
 
@@ -55,7 +53,7 @@ def test_the_lint_sees_each_defect(formula: str, said: str) -> None:
 
 @pytest.mark.parametrize(
     "formula",
-    ["2*SUMPRODUCT('П4.2'!$B$6:$B$77,COS('П4.2'!$A$6:$A$77*(0.5*PI()/180)))/COUNT(B6:B77)",
+    ["2*SUMPRODUCT('П4.2'!$B$6:$B$77,'Синусы и косинусы'!$C$6:$C$77)/COUNT(B6:B77)",
      'IF(A6<=0.000001,"RAND()",MAX($B$6:$B$78,1))', "INDEX('Лист (2)'!A1:A9,MATCH(x,B1:B8,1)+1)",
      "SUMPRODUCT(A1:A9*B1:B9)"],
 )  # fmt: skip
@@ -68,9 +66,7 @@ def test_a_formula_without_its_value_or_of_an_array_is_a_defect() -> None:
     array = cell("A1+1")
     array.find(f"{MAIN}f").set("t", "array")
     assert "array" in formula_problems(array)[0]
-    ranges = cell("SUMPRODUCT(A1:A3,B1:B3)")
-    ranges.find(f"{MAIN}f").attrib.clear()
-    assert "array" in formula_problems(ranges)[0]
+    assert "over a range" in formula_problems(cell("SUMPRODUCT(A1:A3,COS(B1:B3*2))"))[0]
 
 
 def test_literals_of_a_formula() -> None:

@@ -7,6 +7,7 @@ import pytest
 
 from reports.formula.excel import compile_formula
 from reports.formula.numeric import evaluate
+from reports.spec.shape import FIRING
 from reports.workbook.layout import Layout, RowReferences, at_row
 from tests.workbook.made import model
 
@@ -31,8 +32,26 @@ def test_a_running_sum_takes_the_rows_down_to_its_own() -> None:
 
 def test_formulas_leave_the_repeated_last_row_out() -> None:
     made = model()
-    references = RowReferences(Layout.of(made), made.tables["P4_2"])
-    text = compile_formula("fourier_cos(M1_Nm, phi_deg, 0.5)", references)
-    assert text == ("=2*SUMPRODUCT($B$6:$B$77,COS($A$6:$A$77*(0.5*PI()/180)))/COUNT($B$6:$B$77)")
-    running = compile_formula("running_sum(M1_Nm)", references)
+    references = RowReferences(Layout.of(made), made.tables["torque_orders"])
+    text = compile_formula("fourier_cos(tangential.t_gas_MPa, tangential.phi_deg, 1.5)", references)
+    waves = "'Синусы и косинусы'!$D$6:$D$77"
+    assert text == f"=2*SUMPRODUCT($B$6:$B$77,{waves})/COUNT($B$6:$B$77)"
+    running = compile_formula("running_sum(tangential.t_gas_MPa)", references)
     assert at_row(running, 9) == "=SUM($B$6:B9)"
+
+
+def test_each_row_sums_over_the_waves_of_its_order() -> None:
+    made = model()
+    references = RowReferences(Layout.of(made), made.tables["torque_orders"])
+    sines = "fourier_sin(tangential.t_gas_MPa, tangential.phi_deg, order)"
+    text = compile_formula(sines, references)
+    assert "'Синусы и косинусы'!$R$6:$R$77)" in at_row(text, 6)
+    assert "'Синусы и косинусы'!$AG$6:$AG$77)" in at_row(text, 21)
+
+
+def test_sums_over_cylinders_take_the_waves_of_each_order() -> None:
+    made = model()
+    references = RowReferences(Layout.of(made), made.tables["torque_orders"])
+    text = compile_formula(f"wave_sin({FIRING}, order)", references)
+    first, second = at_row(text, 6), at_row(text, 7)
+    assert first.startswith("=SUM('Синусы и косинусы'!$B$") and first != second

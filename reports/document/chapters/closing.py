@@ -59,6 +59,10 @@ SOURCES = {
         "Butenschön, H.-J. Das hydrodynamische, zylindrische Gleitlager endlicher Breite unter "
         "instationärer Belastung : Dissertation / H.-J. Butenschön. — Karlsruhe, 1976. "
         f"{_TEXT}. — На немецком языке.",
+    "booker":
+        "Booker, J. F. Dynamically loaded journal bearings : mobility method of solution / "
+        "J. F. Booker // Transactions of the ASME. Journal of Basic Engineering. — 1965. — "
+        f"Vol. 87. — P. 537–546. {_TEXT}. — На английском языке.",
     "serensen":
         "Серенсен, С. В. Несущая способность и расчет деталей машин на прочность / "
         "С. В. Серенсен, В. П. Когаев, Р. М. Шнейдерович. — 3-е изд. — Москва : "

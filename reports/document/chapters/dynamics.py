@@ -16,7 +16,10 @@ from reports.document.page.writer import TablePlan
 from reports.document.text.terms import Terms
 from reports.document.text.texcases import cases
 from reports.document.text.texts import rich
+from reports.inputs.checks.indicated import indicated_of
 from reports.inputs.sections.gas import RoundedGasSection, TableGasSection
+from reports.inputs.sections.input_file import InputFile
+from reports.inputs.to_si.geometry import sizes_of
 from reports.shared.russian import fixed
 from reports.spec.blocks import Grid, ScalarTable
 from reports.spec.context import diagram_kind
@@ -40,6 +43,7 @@ def dynamics(chapter: Chapter) -> Markup:
         polytropic=polytropic,
         rounded=partial(_rounded_text, chapter),
         smooth=diagram_kind(chapter.input.gas) == "smooth",
+        indicated=_indicated(chapter.input),
         pressure=_pressure_tex(terms) if polytropic else "",
         pressure_at=partial(_pressure_at, terms),
         masses=[key for key in ("m_1", "m_2", "m_j") if _is_computed(chapter, key)],
@@ -86,6 +90,21 @@ def _outside(terms: Terms, verdict: str, limits: str) -> Markup:
     name = verdict.removesuffix("_fits")
     said = limits.partition(": ")[2] or limits.rpartition(" ")[2]
     return Markup("{} {} ({})").format(terms.title(name), terms.val(name), rich(said))
+
+
+def _indicated(model: InputFile) -> dict[str, str]:
+    """Figures of a diagram by points as they are printed; nothing of another one."""
+    if not isinstance(model.gas, TableGasSection):
+        return {}
+    found = indicated_of(model, model.gas, sizes_of(model))
+    printed = {
+        "peak": (found.peak, 3), "peak_at": (found.peak_at, 1), "intake": (found.intake, 3),
+        "compression": (found.compression, 2), "expansion": (found.expansion, 2),
+    }  # fmt: skip
+    return {
+        key: "" if value is None else fixed(value, digits)
+        for key, (value, digits) in printed.items()
+    }
 
 
 def _rounded_text(chapter: Chapter) -> Markup:

@@ -6,8 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 
+import numpy as np
 from markupsafe import Markup
 
+from kshm.arrays import Array
 from reports.document.chapters.chapter import Chapter
 from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
 from reports.document.page.writer import TablePlan
@@ -19,15 +21,17 @@ from reports.spec.blocks import Grid
 from reports.spec.parts import Scope
 from reports.tables.oil_members import FilmCase, film_cases
 
-_FILM = (
-    r"F\cos(\gamma_F - \delta_F) = F_D\cos\beta_F + F_V, \quad "
-    r"F\sin(\gamma_F - \delta_F) = -F_D\sin\beta_F\,\mathrm{sgn}\,\bar\omega"
+_REYNOLDS = (
+    r"\dfrac{\partial}{\partial\theta}\left(H^3\dfrac{\partial P}{\partial\theta}\right) + "
+    r"\dfrac{1}{\beta_{\mathrm{п}}^2}H^3\dfrac{\partial^2 P}{\partial\zeta^2} = "
+    r"-12\cos(\theta - \gamma_v), \quad H = 1 - \chi\cos\theta, \quad P \ge 0"
 )
-_NUMBERS = (
-    r"So_D = \dfrac{F_D\,\psi_{\Delta}^2}"
-    r"{b_{\mathrm{п}}\,d_{\mathrm{п}}\,\mu\,|\bar\omega|}, \qquad "
-    r"So_V = \dfrac{F_V\,\psi_{\Delta}^2}{b_{\mathrm{п}}\,d_{\mathrm{п}}\,\mu\,\chi'}, \qquad "
-    r"\bar\omega = \omega_{\mathrm{ш}} + \omega_{\mathrm{в}} - 2\delta_F'"
+_MOTION = (
+    r"\chi' = M\cos\gamma_v\dfrac{F\,\psi_{\Delta}^2}"
+    r"{b_{\mathrm{п}}\,d_{\mathrm{п}}\,\mu}, \quad "
+    r"\chi\,\delta_F' = M\sin\gamma_v\dfrac{F\,\psi_{\Delta}^2}"
+    r"{b_{\mathrm{п}}\,d_{\mathrm{п}}\,\mu} + "
+    r"\chi\dfrac{\omega_{\mathrm{ш}} + \omega_{\mathrm{в}}}{2}"
 )
 _SAFETY = (
     r"n_{\sigma} = "
@@ -57,6 +61,7 @@ def oil(chapter: Chapter) -> Markup:
         key=lambda each: each.value,
     )
     gaps = terms.column("oil_orbits.oil_orb_h_um")
+    mean = [terms.value(f"oil_hmin{case.number}_um") for case in cases]
     place = int(gaps.argmin())
     thin = _worst(cases[place], float(gaps[place]))
     under = float(terms.column("oil_orbits.oil_under")[place])
@@ -71,7 +76,7 @@ def oil(chapter: Chapter) -> Markup:
             for of in ("pin", "main") for end in ("min", "max")
         ),
         material=MATERIALS[section.material].label,
-        film=_FILM, numbers=_NUMBERS, safety_tex=_SAFETY,
+        reynolds=_REYNOLDS, motion=_MOTION, safety_tex=_SAFETY,
         steady=TablePlan(partial(_steady, terms, cases), "Плёнка при средней нагрузке", keep=True),
         orbits=TablePlan(partial(_orbits, terms, cases), "Плёнка за цикл по орбитам", keep=True),
         mains=_safety(chapter, "safe_main", _SAFE_MAINS, "Запасы прочности коренных шеек"),
@@ -79,6 +84,7 @@ def oil(chapter: Chapter) -> Markup:
         several=chapter.shape.throws > 1,
         worst=steady,
         enough=steady.value >= section.reserve_allowed,
+        thicker=_times(mean, gaps),
         thin=thin, under=fixed(under, 1), touches=thin.value < critical,
         angle=fixed(float(terms.column("oil_orbits.oil_orb_phi_deg")[place]), 0),
         open=float(terms.column("oil_orbits.oil_open").max()) > _CLOSED,
@@ -115,6 +121,13 @@ def concluded(chapter: Chapter) -> Markup:
     )  # fmt: skip
 
 
+def _times(mean: Sequence[float], gaps: Array) -> str:
+    """How many times the mean load's film is thicker than the cycle's, empty if it is not."""
+    times = float((np.array(mean) / gaps).max())
+    return fixed(times, 1) if times >= _TOLD else ""
+
+
+_TOLD = 1.05
 _CLOSED = 1e-3
 _SAFE_MAINS = ("safe_tau_a2_MPa", "safe_tau_m2_MPa", "safe_fillet2", "safe_hole2", "safe_n2")
 _SAFE_PINS = (

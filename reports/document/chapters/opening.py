@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from functools import partial
 
+import numpy as np
 from markupsafe import Markup
 
 from reports.document.chapters.chapter import Chapter
@@ -26,6 +27,7 @@ from reports.spec.context import diagram_kind
 from reports.spec.shape import Shape
 from reports.tables.unused import unused
 
+POINTS_FILE = "диаграмма.csv"  # all points of a diagram, attached to the PDF
 _LISTS = ("firing_offset_", "throw_angle_", "force_offset_", "web_", "gas_point_")
 _ARMS = ("l1", "l2", "l3", "l4", "l5", "l6", "left_web", "right_web")
 _OTHERS = {"report", "regimes", "checks"}  # sections that are told elsewhere
@@ -106,6 +108,7 @@ def input_data(chapter: Chapter) -> Markup:
     """Tables of the input data."""
     model = chapter.input
     fields = chapter.model.inputs
+    shown, step = printed(model, chapter.printed_step or model.calculation.step_deg)
     plans = {
         "inputs": TablePlan(
             partial(_general, fields, unused(model)), "Исходные данные для расчёта", size="dense"
@@ -113,7 +116,7 @@ def input_data(chapter: Chapter) -> Markup:
         "phases": TablePlan(partial(_phases, fields, model), "Фазы работы цилиндров и углы колен"),
         "webs": TablePlan(partial(_webs, fields), "Щёки и их противовесы", keep=True),
         "arms": TablePlan(partial(_arms, fields), "Размеры колен, мм", size="dense", keep=True),
-        "points": TablePlan(partial(_points, model), "Точки индикаторной диаграммы"),
+        "points": TablePlan(partial(_points, shown), "Точки индикаторной диаграммы"),
     }
     return chapter.page(
         "inputs",
@@ -125,6 +128,8 @@ def input_data(chapter: Chapter) -> Markup:
         ),
         by_points=isinstance(model.gas, TableGasSection),
         smooth=diagram_kind(model.gas) == "smooth",
+        points_step=step,
+        points_file=POINTS_FILE,
     )
 
 
@@ -211,12 +216,30 @@ def _arms(fields: Sequence[Field]) -> TableBlock:
     return table_block(columns, _numbered(fields, [f"throw_{{}}_{key}_mm" for key in _ARMS], count))
 
 
-def _points(model: InputFile) -> TableBlock:
-    """Points in three pairs of columns, read down each pair."""
+Points = Sequence[tuple[float, float]]
+
+
+def printed(model: InputFile, step: float) -> tuple[Points, float]:
+    """Points to print, and the step by which they were taken, 0 for all of them.
+
+    Of more points than rows of a table with that step the nearest to each row stand there,
+    and the highest.
+    """
     if not isinstance(model.gas, TableGasSection):
-        msg = "no table of points"
-        raise TypeError(msg)
-    texts = [(plain_number(angle), plain_number(p)) for angle, p in model.gas.points]
+        return (), 0.0
+    points = model.gas.points
+    angles = np.array(points)[:, 0]
+    rows = np.arange(0, angles[-1] + step / 2, step)
+    if len(points) <= len(rows) + 1:
+        return points, 0.0
+    nearest = np.abs(angles[:, None] - rows).argmin(axis=0)
+    top = max(range(len(points)), key=lambda i: points[i][1])
+    return [points[i] for i in np.union1d(nearest, [top])], step
+
+
+def _points(points: Points) -> TableBlock:
+    """Points in three pairs of columns, read down each pair."""
+    texts = [(plain_number(angle), plain_number(p)) for angle, p in points]
     groups = 3 if len(texts) > 12 else 1
     rows = -(-len(texts) // groups)
     cells = [

@@ -16,7 +16,7 @@ from reports.document.text.symbols import inline_html
 from reports.document.text.terms import input_text
 from reports.formula.tex import input_symbol_tex
 from reports.shared.russian import BREAK, capital
-from reports.shared.signs import printable
+from reports.shared.signs import cleaned
 from reports.tables.regimes import regime_titles
 
 _PARTS = (
@@ -49,7 +49,7 @@ def concluded(chapter: Chapter) -> Markup:
         by_regime.setdefault(name, []).append(part)
     # Between a quotation mark and a bracket no line ends by itself, not even at a space.
     told = [
-        Markup("«{}» {}({})").format(printable(name), BREAK, "; ".join(parts))
+        Markup("«{}» {}({})").format(cleaned(name), BREAK, "; ".join(parts))
         for name, parts in by_regime.items()
     ]
     count = len(chapter.input.regimes) + 1

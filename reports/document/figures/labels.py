@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.document.text.fonts import FAMILY, face
+from reports.document.text.fonts import FAMILY, face, text_em
 from reports.document.text.texts import raised
 from reports.document.text.texwords import for_mathtext
 
@@ -46,6 +46,8 @@ def _measured(words: str) -> tuple[float, float, float]:
     from matplotlib.ft2font import LoadFlags
 
     font = face(FAMILY)
+    if not font.get_charmap().keys() >= set(map(ord, words)):
+        return text_em(words), _ASCENT + _DESCENT, _DESCENT
     font.set_size(_SCALE, 72)
     font.set_text(words, 0.0, flags=LoadFlags.NO_HINTING)
     width, height = font.get_width_height()

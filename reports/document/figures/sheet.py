@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from reports.document.figures.labels import line_box, shown
 from reports.document.figures.style import FONT_SIZE, HALO, MM, Look
-from reports.document.text.fonts import FAMILY
+from reports.document.text.fonts import FAMILY, OF_DRAWINGS
 from reports.document.text.mathsvg import texts_of
 
 _CURVE = 0.5522847498  # of the radius: handles of a quarter of a circle
@@ -116,7 +116,7 @@ class Sheet:
             f'<svg class="fig" xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {box}" '
             f'style="width:{self.width / MM:.1f}mm" '
             f'data-size="{self.width:.4g}/{self.height:.4g}" '
-            f'font-family="{FAMILY}" stroke-linejoin="round">'
+            f'font-family="{OF_DRAWINGS}" stroke-linejoin="round">'
             f"{body}</svg>"
         )
 

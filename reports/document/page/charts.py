@@ -16,7 +16,7 @@ from reports.document.figures.polar import Loop, Pole, polar_path
 from reports.document.figures.wear import wear_diagram
 from reports.document.page.writer import Figure
 from reports.document.text import numbers
-from reports.document.text.mathsvg import plain
+from reports.document.text.spoken import spoken
 from reports.document.text.terms import Terms
 from reports.document.text.tex import GREEK
 from reports.formula.numeric import evaluate
@@ -220,11 +220,11 @@ def _spoken(terms: Terms, caption: str, charts: Sequence[ChartSpec]) -> str:
         for series in chart.drawn_by("report") if chart.x_is_angle else ():
             x, y = terms.column(series.x), terms.column(series.y)
             y = np.where(np.abs(y) < _NOISE * np.abs(y).max(), 0.0, y)
-            unit, angle = terms.unit(series.y), plain(terms.tex(series.x))
+            unit, angle = terms.unit(series.y), spoken(terms.tex(series.x))
             parts = (
                 f"{word} {numbers.significant(float(y[row]), 4)}{' ' if unit else ''}{unit}"
                 f" при {angle} = {fixed(x[row], 0)}°"
                 for word, row in (("наибольшее", y.argmax()), ("наименьшее", y.argmin()))
             )
-            said.append(f"{plain(terms.tex(series.y))}: {', '.join(parts)}")
+            said.append(f"{spoken(terms.tex(series.y))}: {', '.join(parts)}")
     return f"{caption}. {'; '.join(said)}" if said else caption

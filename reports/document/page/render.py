@@ -24,6 +24,7 @@ from reports.document.text.symbols import inline_html
 from reports.shared.doctor import need_pango
 from reports.shared.garbage import uncollected
 from reports.shared.russian import NBSP, joined
+from reports.shared.signs import boxed
 
 if TYPE_CHECKING:
     import weasyprint
@@ -76,7 +77,7 @@ def render_pdf(
         RenderError: WeasyPrint logged a warning; the message holds all of them.
         SystemPartMissing: pango is not on this machine.
     """
-    result = render(html, attachments=attachments, variant=variant, identifier=identifier)
+    result = render(boxed(html), attachments=attachments, variant=variant, identifier=identifier)
     if result.warnings:
         msg = "Вёрстка отчёта с замечаниями: " + "; ".join(result.warnings)
         raise RenderError(msg)
@@ -142,7 +143,7 @@ def environment(
 ) -> Environment:
     """Jinja environment of the templates: autoescape on, unknown names refused.
 
-    Every text put in is made printable first (no control characters, nothing that STIX
+    Every text put in is cleaned first (no control characters, no sign but letters that STIX
     cannot show) and «мин⁻¹» gets a superscript; ``Markup`` passes as it is.  Texts inside of
     attributes take the filter ``plain``.
 

@@ -13,7 +13,7 @@ from reports.document.text import numbers
 from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms
 from reports.shared.russian import capital
-from reports.shared.signs import printable
+from reports.shared.signs import cleaned
 from reports.spec.blocks import Grid
 
 _NO_ANGLE = 1e-6  # deg
@@ -81,7 +81,7 @@ def list_block(rows: Sequence[Sequence[str]]) -> TableBlock:
 
 def _printed(value: str) -> str:
     """A value as text that the font has: a name from the input may hold anything."""
-    return value if isinstance(value, Markup) else printable(value)
+    return value if isinstance(value, Markup) else cleaned(value)
 
 
 def unit_cell(unit: str) -> str:

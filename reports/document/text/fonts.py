@@ -1,4 +1,4 @@
-"""The STIX fonts that matplotlib carries: where they lie, what they cover, CSS for them."""
+"""The fonts that matplotlib carries, STIX and a second face: where they lie, CSS for them."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import base64
 import functools
 from typing import TYPE_CHECKING
 
-from reports.shared.signs import fonts_dir
+from reports.shared.signs import SECOND_FILE, fonts_dir
 
 if TYPE_CHECKING:
     from matplotlib.ft2font import FT2Font
@@ -14,7 +14,9 @@ if TYPE_CHECKING:
 SCHEME = "kshm-font"
 FAMILY = "STIXGeneral"
 UPRIGHT = "STIXGeneralUpright"
-STACK = f"{FAMILY}, {UPRIGHT}"
+SECOND = "DejaVuSecond"
+STACK = f"{FAMILY}, {UPRIGHT}, {SECOND}"
+OF_DRAWINGS = f"{FAMILY}, {SECOND}"
 
 # family, style, weight, file.  UPRIGHT serves the signs that the slanted and bold
 # faces lack (≈ ≤ √ ∑ …) from the regular face, so that no system font is ever asked.
@@ -37,12 +39,20 @@ _MATHS_FACES = (
     ("STIXSizeFourSym", "normal", "normal", "STIXSizFourSymReg.ttf"),
     ("STIXSizeFiveSym", "normal", "normal", "STIXSizFiveSymReg.ttf"),
 )
-_FILES = frozenset(face[3] for face in _TEXT_FACES + _MATHS_FACES)
+# Letters of names that STIX lacks; a browser and Word take them from the system's fonts.
+_SECOND_FACES = (
+    (SECOND, "normal", "normal", SECOND_FILE),
+    (SECOND, "italic", "normal", "DejaVuSerif-Italic.ttf"),
+    (SECOND, "normal", "bold", "DejaVuSerif-Bold.ttf"),
+    (SECOND, "italic", "bold", "DejaVuSerif-BoldItalic.ttf"),
+)
+_FACES = _TEXT_FACES + _MATHS_FACES + _SECOND_FACES
+_FILES = frozenset(face[3] for face in _FACES)
 
 
 @functools.cache
 def font_bytes(name: str) -> bytes:
-    """Read one of the shipped STIX files.
+    """Read one of the shipped files.
 
     Raises:
         ValueError: The name is not one of the files used here.
@@ -62,11 +72,10 @@ def fonts_css(*, embedded: bool = False) -> str:
             that the HTML is the same on every machine.  True embeds the text faces as
             ``data:`` for a page that a browser opens.
     """
-    faces = _TEXT_FACES + _MATHS_FACES
     rules = []
-    for family, style, weight, name in faces:
+    for family, style, weight, name in _FACES:
         if embedded:
-            if family == UPRIGHT:
+            if family in (UPRIGHT, SECOND):
                 continue
             data = base64.b64encode(font_bytes(name)).decode("ascii")
             source = f"data:font/ttf;base64,{data}"
@@ -84,17 +93,19 @@ def face(family: str, style: str = "normal", weight: str = "normal") -> FT2Font:
     """The font of a family, style and weight; the regular one where the family lacks it."""
     from matplotlib.ft2font import FT2Font
 
-    files = {(name, *looks): file for name, *looks, file in _TEXT_FACES + _MATHS_FACES}
+    files = {(name, *looks): file for name, *looks, file in _FACES}
     file = files.get((family, style, weight)) or files.get((family, "normal", "normal"))
     return FT2Font(str(fonts_dir() / (file or "STIXGeneral.ttf")))
 
 
 @functools.cache
 def advance(char: str, style: str = "normal", weight: str = "normal") -> float:
-    """Width of a character of a face [em]; half an em where it lacks it."""
+    """Width of a character of a face or of the second one [em]; half an em where both lack it."""
     from matplotlib.ft2font import LoadFlags
 
     font = face(FAMILY, style, weight)
+    if ord(char) not in font.get_charmap():
+        font = face(SECOND, style, weight)
     if ord(char) not in font.get_charmap():
         return 0.5
     glyph = font.load_char(ord(char), flags=LoadFlags.NO_SCALE)

@@ -23,6 +23,7 @@ from markupsafe import Markup
 
 from reports.document.text import texcases
 from reports.document.text.complaints import complaints
+from reports.document.text.spoken import spoken
 from reports.document.text.symbols import SIGNS
 from reports.document.text.tex import (
     FRACTIONS,
@@ -82,7 +83,7 @@ class Formula:
     @property
     def image(self) -> Markup:
         """The formula as a picture with its words, for paper."""
-        return pictured(self.svg, plain(self.tex))
+        return pictured(self.svg, spoken(self.tex))
 
 
 @functools.lru_cache(maxsize=4096)
@@ -112,7 +113,7 @@ def _svg(
     svg = (
         f'<svg class="tex" role="img" style="{style}" '
         f'viewBox="{-pad:g} 0 {width + 2 * pad:g} {height:g}">'
-        f"<title>{escape_html(plain(tex), quote=False)}</title>{''.join(body)}</svg>"
+        f"<title>{escape_html(spoken(tex), quote=False)}</title>{''.join(body)}</svg>"
     )
     return svg, width_em, height_em, depth_em
 
@@ -339,7 +340,7 @@ def _number(value: float) -> str:
 
 
 def plain(tex: str) -> str:
-    """A readable text of a formula for people who hear the page or copy it."""
+    """A formula on one line of signs."""
     if texcases.is_cases(tex):
         tex = texcases.apart(tex)
     tex = _INVISIBLE.sub("", tex.replace("{,}", ",").replace(r" \\", ";"))

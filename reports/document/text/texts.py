@@ -9,7 +9,7 @@ import re
 from markupsafe import Markup, escape
 
 from reports.shared.russian import MINUS, NBSP
-from reports.shared.signs import printable
+from reports.shared.signs import boxed, cleaned
 
 _RAISED = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079\u207a\u207b"
 _LEVEL = f"0123456789+{MINUS}"
@@ -32,8 +32,8 @@ def rich(text: str) -> str | Markup:
     """
     text = _RELATION.sub(f"{NBSP}={NBSP}", text)
     if not (_RUN.search(text) or _WHOLE.search(text)):
-        return printable(text)
-    pieces = [_unparted(escape(printable(piece))) for piece in _RUN.split(text)]
+        return cleaned(text)
+    pieces = [_unparted(escape(cleaned(piece))) for piece in _RUN.split(text)]
     raised_signs = [run.translate(_LOWER) for run in _RUN.findall(text)]
     powers_html = [Markup("<sup>{}</sup>").format(run) for run in raised_signs]
     return Markup("").join(a + b for a, b in zip(pieces, [*powers_html, ""], strict=True))
@@ -45,7 +45,7 @@ def _unparted(text: Markup) -> Markup:
 
 def plain(text: object) -> Markup:
     """Clean and escape a text for an attribute or a title, where no markup can stand."""
-    return escape(printable(Markup(text).striptags() if isinstance(text, Markup) else str(text)))
+    return escape(cleaned(Markup(text).striptags() if isinstance(text, Markup) else str(text)))
 
 
 def titled(svg: str, title: object) -> Markup:
@@ -73,7 +73,7 @@ def pictured(svg: str, title: object) -> Markup:
         return titled(svg, title)
     kind, before, style, after = match.groups()
     rest = _OF_PAGE.sub("", before + after)
-    whole = f"<svg{_SVG_NAMESPACE}{rest}>{svg[match.end() :]}"
+    whole = f"<svg{_SVG_NAMESPACE}{rest}>{boxed(svg[match.end() :])}"
     size = "".join(_SIZE.findall(rest))
     data = base64.b64encode(whole.encode("utf-8")).decode("ascii")
     picture = '<img class="{}" style="{}"{} alt="{}" src="data:image/svg+xml;base64,{}">'

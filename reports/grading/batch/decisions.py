@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from datetime import datetime
 from pathlib import Path
@@ -72,6 +72,52 @@ def save_decisions(folder: Path, decisions: Sequence[Decision]) -> None:
     write_text(folder / FILE, json.dumps(data, ensure_ascii=False, indent=1) + "\n")
 
 
+def refuse_too_many(decisions: Sequence[Decision], register: Register) -> None:
+    """Refuse to go on with points that are more than a work can get now.
+
+    Raises:
+        InputError: there are such decisions.
+    """
+    maximum = register.rubric.maximum
+    names = {book.number: book.student.full for book in register.books}
+    problems = [
+        Problem(
+            names.get(entry.number, str(entry.number)),
+            f"решение преподавателя — {entry.points:g} при наибольшем балле {maximum:g}",
+            f"решите заново с прежней рубрикой: --decide {entry.number} {entry.item or 'всё'} …",
+        )
+        for entry in decisions
+        if entry.points is not None and entry.points > maximum
+    ]
+    if problems:
+        raise InputError(problems)
+
+
+def refuse_wrong_words(
+    words: Sequence[tuple[str, str, str, str]], register: Register, files: Collection[str],
+    items: Collection[str],
+) -> None:  # fmt: skip
+    """Refuse what no work makes a decision: before hours of grading, and before a file is written.
+
+    Raises:
+        InputError: no such student, file or item, or points that are none.
+    """
+    for who, what, points, _ in words:
+        if who not in files:
+            _student(register, (), who)
+        _item(what, items)
+        if points.strip() not in (ACCEPT, WITHDRAW):
+            _points(points, register.rubric.maximum)
+
+
+def _item(what: str, known: Collection[str]) -> str:
+    item = WHOLE if what.strip().casefold() in _WHOLE_WORDS else what.strip()
+    if item and item not in known:
+        hint = "имена столбцов — на странице студента в results/*.json: P3_1.s_mm"
+        raise InputError(Problem(item, "в работе нет такого столбца", hint))
+    return item
+
+
 def decided(
     kept: Sequence[Decision], register: Register, works: Sequence[Work],
     counted: Mapping[int, Work], words: Sequence[tuple[str, str, str, str]], author: str,
@@ -86,11 +132,8 @@ def decided(
     made = {entry.key: entry for entry in kept}
     for who, what, points, remark in words:
         book = _student(register, works, who)
-        item = WHOLE if what.strip().casefold() in _WHOLE_WORDS else what.strip()
         known = {line.id for work in works if work.number == book.number for line in work.items}
-        if item and item not in known:
-            hint = "имена столбцов — на странице студента в results/*.json: P3_1.s_mm"
-            raise InputError(Problem(item, "в работе нет такого столбца", hint))
+        item = _item(what, known)
         if points.strip() == WITHDRAW:
             made = {key: entry for key, entry in made.items() if key[:2] != (book.number, item)}
             continue

@@ -6,7 +6,7 @@ import hashlib
 import json
 import re
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -18,15 +18,18 @@ from reports.grading.batch.decisions import (
     decided,
     from_gradebook,
     load_decisions,
+    refuse_too_many,
+    refuse_wrong_words,
     save_decisions,
     waiting,
 )
+from reports.grading.batch.places import RESULTS, refuse_another_class, refuse_overlap
 from reports.grading.batch.pool import TIMEOUT_S, Outcome, grade_all
 from reports.grading.issuing.issue import latin
 from reports.grading.issuing.register import FILE, Register, checked_register, load_register
 from reports.grading.issuing.rubric import load_rubric
 from reports.grading.judging.judgement import UNKNOWN
-from reports.grading.judging.marking import Marker, blank_result
+from reports.grading.judging.marking import FORMAT, Marker, blank_result
 from reports.grading.judging.works import Shared, Work, work_of
 from reports.grading.pages.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
 from reports.grading.pages.moodle import feedback_zip, filled, read_worksheet
@@ -35,11 +38,11 @@ from reports.grading.pages.summary import choose, summarise, table_rows
 from reports.grading.reading.submissions import Submission, collect
 from reports.shared.aside import processors
 from reports.shared.errors import InputError, Problem
-from reports.shared.files import make_dir, write_bytes, write_text
+from reports.shared.files import make_dir, read_json, write_bytes, write_text
 from reports.shared.program import program
 from reports.shared.progress import Progress
 
-RESULTS, PAGES = "results", "pages"
+PAGES = "pages"
 _EVERY_S = 5.0  # how often the gradebook is written anew while the batch runs
 
 
@@ -95,10 +98,11 @@ def grade(
     if options.worksheet is not None:
         read_worksheet(options.worksheet)  # a wrong one is told before the work
     submissions = collect(submitted)
-    _refuse_overlap(submitted, folder, issued)
-    _refuse_another_class(folder, register)
-    make_dir(folder)
+    refuse_overlap(submitted, folder, issued)
+    refuse_another_class(folder, register)
     batch = _Batch(register, folder)
+    batch.check(options, submissions)
+    make_dir(folder)
     batch.start(submissions)
     workers = options.workers or processors()
     outcomes = (
@@ -114,8 +118,10 @@ def grade(
         for outcome in outcomes:
             batch.take(outcome)
             progress.step(_progress(len(batch.works), len(submissions), batch.reused, started))
-        batch.decide(options)
+        refused = batch.decide(options)
         summary = batch.finish()
+    if refused is not None:
+        raise refused
     if options.worksheet is not None:
         batch.fill_worksheet(options.worksheet)
     if options.pdf:
@@ -144,7 +150,9 @@ def decide(folder: Path, options: Options) -> Graded:
     started = time.monotonic()
     batch = _Batch(load_register(folder / RESULTS / FILE), folder)
     batch.take_over()
-    batch.decide(options)
+    batch.check(options)
+    if (refused := batch.decide(options)) is not None:
+        raise refused
     return Graded(folder, batch.finish(), len(batch.works), time.monotonic() - started)
 
 
@@ -165,6 +173,8 @@ class _Batch:
         self._hashes: dict[str, str] = {}
         self._sha256: dict[str, str] = {}
         self._taken_over = 0
+        self._kept: list[Decision] = []  # decisions of before, and of the gradebook
+        self._stands = (folder / "gradebook.xlsx").exists()  # of an earlier run, to the end
 
     @property
     def reused(self) -> int:
@@ -177,25 +187,45 @@ class _Batch:
         Raises:
             InputError: there are none.
         """
-        for path in sorted((self.folder / RESULTS).glob("*.json")):
-            if path.name != FILE:
-                self._keep(json.loads(path.read_text(encoding="utf-8")))
+        for _, result in self._results():
+            self._keep(result)
         if not self.works:
             hint = "укажите папку, в которую проверены работы"
             raise InputError(Problem(str(self.folder), "здесь нет проверенных работ", hint))
 
-    def decide(self, options: Options) -> None:
-        """Decisions kept, written into the gradebook and given with the command."""
+    def check(self, options: Options, submissions: Sequence[Submission] = ()) -> None:
+        """Read what people have decided, before anything is written.
+
+        Raises:
+            InputError: some of it is no decision, or none under the rubric of today.
+        """
         kept = load_decisions(self.folder)
-        counted = self._decided(kept)  # what was seen before the new words
         rubric, book = self.register.rubric, self.folder / "gradebook.xlsx"
-        found = from_gradebook(book, kept, counted, rubric.maximum)
-        works = list(self.works.values())
-        found = decided(found, self.register, works, counted, options.decisions, options.author)
-        if found or kept:
+        seen = [work_of(applied(result, kept), self._shared) for _, result in self._results()]
+        counted = choose(seen, rubric.attempts.count)
+        self._kept = from_gradebook(book, kept, counted, rubric.maximum)
+        refuse_too_many(self._kept, self.register)
+        if submissions and options.decisions:
+            items = Marker(self.register).assignment(self.register.books[0])[0].items
+            files = {name for one in submissions for name in (one.key, one.label)}
+            known = {item.id for item in items}
+            refuse_wrong_words(options.decisions, self.register, files, known)
+
+    def decide(self, options: Options) -> InputError | None:
+        """Take in what people have decided, and what the command says; why not, if it cannot be."""
+        kept, refused = self._kept, None
+        before = load_decisions(self.folder)
+        counted = self._decided(kept, also=before)  # what was seen before the new words
+        works, found = list(self.works.values()), kept
+        try:
+            found = decided(kept, self.register, works, counted, options.decisions, options.author)
+        except InputError as error:
+            refused = error
+        if found or before:
             save_decisions(self.folder, found)
         if found != kept:
             self._decided(found, also=kept)
+        return refused
 
     def _decided(
         self, decisions: Sequence[Decision], also: Sequence[Decision] = ()
@@ -245,17 +275,17 @@ class _Batch:
     def _keep(self, result: dict[str, Any]) -> None:
         self.works[result["key"]] = work_of(result, self._shared)
 
+    def _results(self) -> Iterator[tuple[Path, dict[str, Any]]]:
+        """The results of an earlier run that can be read."""
+        for path in sorted((self.folder / RESULTS).glob("*.json")):
+            result = read_json(path) if path.name != FILE else {}
+            if result.get("format") == FORMAT and result.get("fingerprint"):
+                yield path, result
+
     def _earlier(self, keys: set[str]) -> dict[str, Work]:
         found = {}
-        for path in sorted((self.folder / RESULTS).glob("*.json")):
-            if path.name == FILE:
-                continue
-            try:
-                result = json.loads(path.read_text(encoding="utf-8"))
-                key, page = result["key"], self.folder / result["page"]
-                assert result["fingerprint"]
-            except (OSError, ValueError, KeyError, TypeError, AssertionError):
-                continue
+        for path, result in self._results():
+            key, page = result["key"], self.folder / result["page"]
             if key in keys and page.exists():
                 found[key] = work_of(result, self._shared)
             else:  # of a file that is no longer there
@@ -289,33 +319,36 @@ class _Batch:
         text = json.dumps(result, ensure_ascii=False, allow_nan=False, sort_keys=True) + "\n"
         write_text(self.folder / RESULTS / f"{stem}.json", text)
         self._keep(result)
-        if time.monotonic() - self._written > _EVERY_S:
-            self._tables()
+        if not self._stands and time.monotonic() - self._written > _EVERY_S:
+            table = gradebook_csv(self._rows(), self.register.rubric.maximum)
+            write_text(self.folder / "gradebook.csv", table)
+            self._written = time.monotonic()
 
     @property
     def ordered(self) -> list[Work]:
         """Works in the order of their keys, whatever the order in which they came."""
         return [self.works[key] for key in sorted(self.works)]
 
-    def _tables(self) -> list[dict[str, Any]]:
-        rows = table_rows(self.register, self.ordered)
-        write_text(self.folder / "gradebook.csv", gradebook_csv(rows, self.register.rubric.maximum))
-        self._written = time.monotonic()
-        return rows
+    def _rows(self) -> list[dict[str, Any]]:
+        return table_rows(self.register, self.ordered)
 
     def finish(self) -> dict[str, Any]:
-        """All tables, the page of the class and its JSON."""
-        rows = self._tables()
-        summary = summarise(self.register, self.ordered)
+        """All tables, the page of the class and its JSON: made first, then written together."""
+        rows, summary = self._rows(), summarise(self.register, self.ordered)
         maximum = self.register.rubric.maximum
-        write_bytes(self.folder / "gradebook.xlsx", gradebook_xlsx(rows, maximum))
-        write_text(self.folder / "moodle.csv", moodle_csv(rows))
-        if any(work.moodle_id for work in self.ordered):
-            write_bytes(self.folder / "moodle-feedback.zip", feedback_zip(rows, self.folder))
-        write_text(self.folder / "summary.html", class_page(summary))
         data = {**summary, "rows": [_row(row) for row in rows]}
         text = json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1)
-        write_text(self.folder / "summary.json", text + "\n")
+        files: dict[str, str | bytes] = {
+            "gradebook.csv": gradebook_csv(rows, maximum),
+            "gradebook.xlsx": gradebook_xlsx(rows, maximum),
+            "moodle.csv": moodle_csv(rows),
+            "summary.html": class_page(summary),
+            "summary.json": text + "\n",
+        }
+        if any(work.moodle_id for work in self.ordered):
+            files["moodle-feedback.zip"] = feedback_zip(rows, self.folder)
+        for name, made in files.items():
+            write_bytes(self.folder / name, made if isinstance(made, bytes) else made.encode())
         return summary
 
     def fill_worksheet(self, path: Path) -> None:
@@ -356,24 +389,3 @@ def _stem(result: dict[str, Any]) -> str:
     mark = hashlib.sha256(result["key"].encode()).hexdigest()[:6]
     name = result["folder"] or re.sub(r"[^a-z0-9]+", "-", latin(Path(result["key"]).stem))[:40]
     return f"{name.strip('-') or 'file'}-{mark}"
-
-
-def _refuse_overlap(submitted: Path, folder: Path, issued: Path) -> None:
-    """Results must not land among the files that are read."""
-    target = folder.resolve()
-    for place in (submitted, issued):
-        source = place.resolve()
-        if source.is_dir() and (target == source or source in target.parents):
-            what = f"результаты легли бы в папку {place}"
-            raise InputError(Problem(str(folder), what, "укажите другую папку ключом -o"))
-
-
-def _refuse_another_class(folder: Path, register: Register) -> None:
-    """Decisions on one class are not those on the students with the same numbers of another."""
-    try:
-        earlier = load_register(folder / RESULTS / FILE)
-    except InputError:
-        return
-    if {book.ticket for book in earlier.books}.isdisjoint(book.ticket for book in register.books):
-        what = "здесь результаты и решения другой группы или другой выдачи"
-        raise InputError(Problem(str(folder), what, "укажите другую папку ключом -o"))

@@ -56,7 +56,7 @@ def load_base(path: Path, beside: Path | None = None) -> Base:
     text = read_text(path)
     loaded = load_text(text, source=path.name, folder=path.parent)
     raw, section = split_ranges(tables_of(text, source=path.name))
-    raw = with_points(raw, path.parent, path.name)
+    raw = with_points(raw, path.parent, path.name).raw
     source = path.name
     if beside is not None:
         if section is not None:

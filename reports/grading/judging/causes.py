@@ -17,7 +17,7 @@ from reports.grading.judging.judgement import Array, Judgement
 from reports.grading.judging.mistakes import mistakes, symbol_of
 from reports.grading.judging.response import Response
 from reports.grading.judging.rows import moved, row_indices, slips, told
-from reports.grading.judging.tolerances import close, tolerance
+from reports.grading.judging.tolerances import apart, close, tolerance
 from reports.grading.reading.student import Student, known_values
 from reports.inputs.sections.input_file import METHODS
 from reports.shared.russian import fixed, short
@@ -121,7 +121,10 @@ class Causes:
         right = self.student.expected.value(node)
         if isinstance(right, str):
             return False
-        return not np.allclose(np.asarray(value, dtype=float), right, rtol=1e-9, equal_nan=True)
+        own, wanted = (np.ravel(np.asarray(one, dtype=float)) for one in (value, right))
+        away = apart([node], own, wanted, self.student.expected)
+        near = away <= 1e-8 + 1e-9 * np.abs(wanted)
+        return not (near | (np.isnan(own) & np.isnan(wanted))).all()
 
     def _fits(
         self, item: Item, values: Array, attempt: Array, right: Array, rows: Sequence[int]

@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from decimal import Decimal
 from functools import lru_cache
 from itertools import pairwise
+from math import isfinite, nan
+
+import numpy as np
+from numpy.typing import NDArray
 
 from reports.grading.reading.student import Student
 from reports.recalculation.formulas import PLACES, Formula
@@ -17,6 +22,7 @@ _CASES = 5  # numbers among which a formula chooses, or cases that it tells apar
 _SHORT = 3  # digits of a number that may be chosen so
 _DIGITS = 20  # of a text that is a list
 _LONG = 5  # digits of a number that nobody knows by heart
+_EXACT = 9  # decimals that a calculation keeps
 _TYPED = 4  # digits, the comma with them, of a number in a list that is read; angles have fewer
 
 
@@ -31,6 +37,75 @@ def reads_a_list(student: Student, node: str) -> bool:
     # A long number may be cut up into short ones; angles and counts go by equal steps.
     steps = {float(f"{b - a:.9g}") for a, b in pairwise(read)}
     return 1 < length <= len(read) and len(steps) >= max(_CASES, length // 2)
+
+
+def is_of_angles(student: Student, node: str) -> bool:
+    """Whether the numbers that a column is made of are no more than its angles and their sines.
+
+    Who has looked them up, to whatever digits, has calculated all the same.
+    """
+    angles = angles_of(student, node)
+    runs = (*student.runs(node), *student.helpers(node))
+    told = {*student.own_numbers(node), *_changing(runs)}
+    return bool(angles) and all(of_angles(value, angles) is not None for value in told)
+
+
+def angles_of(student: Student, node: str) -> tuple[float, ...]:
+    """The angles of a column's rows in degrees, none where it stands beside something else."""
+    table = student.assignment.model.tables.get(node.partition(".")[0])
+    if table is None or table.columns[0].quantity.unit != "deg":
+        return ()
+    return tuple(table.rows)
+
+
+def of_angles(value: float, angles: tuple[float, ...]) -> float | None:
+    """An angle, its sine or cosine with all digits, of which a number has the first ones."""
+    if not isfinite(value):
+        return None
+    known = _functions(angles)
+    at = int(np.searchsorted(known, value))
+    near = known[max(at - 1, 0) : at + 1]
+    exact = float(near[np.abs(near - value).argmin()])
+    half = 0.5000001 * 10.0 ** -min(_decimals(value), _EXACT)
+    return exact if abs(exact - value) <= half else None
+
+
+@lru_cache(maxsize=32)
+def _functions(angles: tuple[float, ...]) -> NDArray[np.float64]:
+    """Angles, also doubled and in radians, with their sines and cosines, in order."""
+    turns = np.radians(np.outer((1, 2), angles)).ravel()
+    made = (np.degrees(turns), turns, np.sin(turns), np.cos(turns), 1 - np.cos(turns))
+    return np.unique(np.concatenate([np.array([0.0, 1.0, 2.0]), *made]))
+
+
+def _decimals(value: float) -> int:
+    return max(0, -int(Decimal(repr(value)).as_tuple().exponent))
+
+
+def _changing(runs: Sequence[Run]) -> set[float]:
+    """Numbers by which formulas differ that are alike but for them, and all those of a list."""
+    found: set[float] = set()
+    alike: dict[tuple[str, ...], list[tuple[str, ...]]] = {}
+    for run in runs:
+        if run.formula is None:
+            continue
+        skeleton, numbers = _parts(run.formula, cells=False)
+        alike.setdefault(skeleton, []).append(numbers)
+        if _long_numbers(run.formula) >= _MANY or _chooses(run.formula):
+            found.update(map(_number, numbers))
+    for group in alike.values():
+        for column in zip(*group, strict=True):
+            if len(set(column)) > 1:
+                found.update(map(_number, column))
+    return found
+
+
+def _number(text: str) -> float:
+    """A number as a formula tells it, NaN where it is a text or a cell."""
+    try:
+        return float(text)
+    except ValueError:
+        return nan
 
 
 def listed(runs: Sequence[Run], *, cells: bool = False) -> set[int]:

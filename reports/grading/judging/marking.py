@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from datetime import datetime, timedelta
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -15,7 +17,7 @@ from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.causes import Causes, OtherVariant
-from reports.grading.judging.judgement import EMPTY, UNKNOWN
+from reports.grading.judging.judgement import EMPTY, GROUNDLESS, UNKNOWN
 from reports.grading.judging.lines import feedback_line
 from reports.grading.judging.marks import formula_marks, own_marks
 from reports.grading.judging.response import Proofs, Response
@@ -35,6 +37,7 @@ from reports.recalculation.language import UnknownFormula
 from reports.recalculation.read import read_grid
 from reports.shared.errors import InputError
 from reports.shared.russian import short
+from reports.spec.blocks import TURN
 from reports.spec.evaluation import Evaluation
 from reports.workbook.intake import check_data
 from reports.workbook.layout import Layout
@@ -66,6 +69,26 @@ def blank_result(submission: Submission) -> Result:
 
 
 @dataclass
+class _Tables:
+    """What the students with the same tables share; ``assignment`` is one of theirs."""
+
+    assignment: Assignment
+    layout: Layout
+    register: Register
+    variants: dict[int, Evaluation] = field(default_factory=dict)  # others, as far as calculated
+
+    @cached_property
+    def proofs(self) -> Proofs:
+        """The engines on which formulas are tried, and what is proven."""
+        return Proofs(trials_of(self.assignment, self.register.books, self.register.trial_seed))
+
+    @cached_property
+    def own(self) -> dict[str, str]:
+        """Item → the mark of the program's own formula."""
+        return own_marks(self.assignment, self.layout)
+
+
+@dataclass
 class Marker:
     """Grades submissions against a register; keeps what all students share."""
 
@@ -73,11 +96,7 @@ class Marker:
 
     def __post_init__(self) -> None:
         self._assignments: dict[int, tuple[Assignment, Layout]] = {}
-        self._first: tuple[Assignment, Layout] | None = None  # the others are mostly alike
-        self._variants: dict[int, dict[int, Evaluation]] = {}
         self._forms = Forms()
-        self._proofs: dict[int, Proofs] = {}  # by the tables that they are of
-        self._own: dict[int, dict[str, str]] = {}  # the same
 
     def mark(self, submission: Submission, data: bytes) -> Result:
         """The result of one file; whatever is wrong with it is part of the result."""
@@ -107,11 +126,10 @@ class Marker:
         """The tables of a student's work-book and where they were issued."""
         found = self._assignments.get(book.number)
         if found is None:
-            like, layout = self._first or (None, None)
-            assignment = assignment_for(book, self.register.rubric, like)
-            if layout is None or like is None or assignment.fill is not like.fill:
-                layout = Layout.of(assignment.model)
-            self._first = self._first or (assignment, layout)
+            first = self._first
+            assignment = assignment_for(book, self.register.rubric, first.assignment)
+            alike = assignment.fill is first.assignment.fill
+            layout = first.layout if alike else Layout.of(assignment.model)
             if len(self._assignments) > 8:  # a class must not fill the memory
                 self._assignments.clear()
             found = self._assignments[book.number] = (
@@ -119,6 +137,18 @@ class Marker:
                 replace(layout, model=assignment.model),
             )
         return found
+
+    @cached_property
+    def _first(self) -> _Tables:
+        """Those of the first work-book, whichever is graded first: the others are mostly alike."""
+        assignment = assignment_for(self.register.books[0], self.register.rubric)
+        return _Tables(assignment, Layout.of(assignment.model), self.register)
+
+    def _tables(self, assignment: Assignment) -> _Tables:
+        """What is known of a student's tables."""
+        if assignment.fill is self._first.assignment.fill:
+            return self._first
+        return _Tables(assignment, Layout.of(assignment.model), self.register)
 
     def refused(self, result: Result, submission: Submission, why: str) -> Result:
         """The result of a file that cannot be graded."""
@@ -129,14 +159,7 @@ class Marker:
 
     def response(self, student: Student) -> Response:
         """How a student's formulas respond to other input data."""
-        assignment = student.assignment
-        key = id(assignment.fill)  # kept by the first assignment with these tables
-        proofs = self._proofs.get(key)
-        if proofs is None:
-            seed = self.register.trial_seed
-            proofs = Proofs(trials_of(assignment, self.register.books, seed))
-            self._proofs[key] = proofs
-        return Response(student, proofs)
+        return Response(student, self._tables(student.assignment).proofs)
 
     def student(self, book: Issued, grid: Grid, package: Package | None = None) -> Student:
         """The workbook under its assignment."""
@@ -161,7 +184,8 @@ class Marker:
             result["doubts"].append(text)
             result["manual"].append(text)
         others, titles = self.others(book.number), self.titles(assignment)
-        causes = Causes(student, others, titles, self._whole(assignment), response)
+        tables = self._tables(assignment)
+        causes = Causes(student, others, titles, tables.variants, response)
         items = [feedback_line(student, judgement, causes, assignment) for judgement in judgements]
         result |= {
             "status": "graded",
@@ -180,21 +204,15 @@ class Marker:
             text = f"исходные данные заменены данными другого варианта: {theirs}"
             result["doubts"].append(text)
             result["manual"].append(text)
-        result["formulas"] = formula_marks(student, self._own_marks(book))
+        result["formulas"] = formula_marks(student, tables.own)
         if student.changed:
             notes.append(f"изменены исходные или защищённые данные: ячеек {len(student.changed)}")
         if result["altered"]:
             notes.append("сохранённые значения не соответствуют формулам: " + result["altered"][0])
+        result["manual"] += asked_of_blanks(items)
         unknown = [line["label"] for line in items if line["verdict"] == UNKNOWN]
         if unknown:
             result["manual"].append("не удалось проверить: " + ", ".join(unknown[:8]))
-
-    def _own_marks(self, book: Issued) -> dict[str, str]:
-        assignment, layout = self.assignment(book)
-        key = id(assignment.fill)
-        if key not in self._own:
-            self._own[key] = own_marks(assignment, layout)
-        return self._own[key]
 
     def _variant_of(self, student: Student, book: Issued) -> str:
         """Whose variant the input data are that were typed over those issued."""
@@ -211,10 +229,6 @@ class Marker:
             and all(_equal(drawn[key], value) for key, value in other.drawn.items())
         ]
         return ", ".join(found[:4])
-
-    def _whole(self, assignment: Assignment) -> dict[int, Evaluation]:
-        """Other variants as far as they are calculated, for all books of the same tables."""
-        return self._variants.setdefault(id(assignment.fill), {})
 
     def others(self, number: int) -> list[OtherVariant]:
         """What the other students' variants have different."""
@@ -264,6 +278,12 @@ def altered(student: Student, original: Grid | None) -> list[str]:
     found = []
     places = [student.placement.places.get(node) for node in student.answers]
     columns = {(place.sheet, place.column): place for place in places if place is not None}
+    turning = {
+        (place.sheet, place.column)
+        for node in student.answers
+        if (place := student.placement.places.get(node)) is not None
+        and student.assignment.model.nodes[node].quantity.unit == "deg"
+    }
     for place in columns.values():
         column = grid.column(place.sheet, place.column)
         for run in engine.grid.column(place.sheet, place.column).runs:
@@ -275,6 +295,8 @@ def altered(student: Student, original: Grid | None) -> list[str]:
             except UnknownFormula:
                 continue
             away = np.abs(claims - values)
+            if (place.sheet, place.column) in turning:  # −180° and 180° are one direction
+                away = np.abs(away - float(TURN) * np.round(away / float(TURN)))
             if not (away > 1e-6).any():
                 continue
             known = np.abs(values[np.isfinite(values)])
@@ -286,6 +308,21 @@ def altered(student: Student, original: Grid | None) -> list[str]:
                 if now != was:  # a program that saves few digits has changed nothing
                     found.append(f"{place.sheet}!{where}: сохранено {was}, формула даёт {now}")
     return found
+
+
+def asked_of_blanks(lines: Sequence[Mapping[str, Any]]) -> list[str]:
+    """What a person is asked where blanks take more points with them than they are worth."""
+    taken = [line for line in lines if line["verdict"] == GROUNDLESS]
+    roots = {origin for line in taken for origin in line["origins"]}
+    own = [line for line in lines if line["id"] in roots]
+    lost = sum(line["of"] for line in taken)
+    if lost <= sum(line["of"] for line in own) + 1e-6:
+        return []
+    names = ", ".join(line["label"] for line in own[:4])
+    return [
+        f"верные формулы остались без баллов, потому что опираются на пустое или круговое "
+        f"({names}): величин {len(taken)}, баллов {short(lost, 4)}; засчитать их?"
+    ]
 
 
 def score(result: Result, rubric: Rubric, time: datetime | None) -> None:

@@ -7,7 +7,7 @@ it costs it nothing, and a number in the guise of a formula does not follow.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -15,12 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Item
-from reports.grading.judging.lists import listed, reads_a_list
+from reports.grading.judging.lists import is_of_angles, listed, reads_a_list
 from reports.grading.judging.settled import EXACT, settled
 from reports.grading.judging.shaking import Shaking
-from reports.grading.judging.tolerances import close, tolerance
+from reports.grading.judging.tolerances import apart, close, tolerance
 from reports.grading.judging.trials import Trial, fixed, turned
 from reports.grading.judging.tryout import Tryout
+from reports.grading.reading.signatures import Signatures
 from reports.grading.reading.student import Student
 from reports.recalculation.bench import cuts, pinned, rounded_to, unrounded_grid
 
@@ -36,14 +37,14 @@ _INSIDE = 2e-3  # share of a column that roundings inside a formula may cost
 
 @dataclass
 class Proofs:
-    """What is known of formulas that refer to nothing but cells of the work-book.
+    """Formulas that are right for every trial, and refer to nothing but cells of the work-book.
 
-    Many students write the same formulas: they are tried once for a class.
+    Many students write the same formulas: they are tried once for a class.  What else is said of
+    a formula may rest on the engine of its student, and is said of nobody else's.
     """
 
     trials: tuple[Trial, ...]
-    known: dict[tuple[object, ...], str] = field(default_factory=dict)
-    exact: set[tuple[object, ...]] = field(default_factory=set)  # that follow to the last digit
+    known: dict[tuple[object, ...], bool] = field(default_factory=dict)  # to the last digit or not
 
 
 @dataclass
@@ -71,9 +72,22 @@ class Response:
     @cached_property
     def _keys(self) -> dict[str, tuple[object, ...]]:
         """What the response of a node follows from, where it may be known of another book."""
+        signatures = Signatures(self.student)
         return {
-            node: key for node in self._nodes if (key := self.student.signature(node)) is not None
+            node: (*key, *self._not_tried(node))
+            for node in self._nodes
+            if (key := signatures.of(node)) is not None
         }
+
+    def _not_tried(self, node: str) -> Iterator[tuple[str, object]]:
+        """The input data that a node refers to and that the trials leave as its student has them.
+
+        Among them is the number of the variant.
+        """
+        fields = self.student.assignment.model.fields
+        for name in sorted(self.student.refers(node) & fields.keys()):
+            if not all(name in trial.inputs for trial in self.trials):
+                yield name, fields[name].value
 
     @cached_property
     def _tried(self) -> list[str]:
@@ -81,8 +95,13 @@ class Response:
 
     @cached_property
     def _values(self) -> dict[str, list[Array] | str]:
-        """Values of the tried nodes for every trial, or why they are unknown."""
-        return self.tryout.run(self._tried, self.trials)
+        """Values of the tried nodes for every trial, or why they are unknown.
+
+        What others may rely on is tried apart from what only this student has.
+        """
+        shared = [node for node in self._tried if node in self._keys]
+        own = [node for node in self._tried if node not in self._keys]
+        return self.tryout.run(shared, self.trials) | self.tryout.run(own, self.trials)
 
     @cached_property
     def _unrounded(self) -> dict[str, list[Array] | str]:
@@ -163,26 +182,50 @@ class Response:
         count = self.student.assignment.length(node)
         if node not in self._nodes:
             return NOTHING * count
-        key = self._keys.get(node)
-        if key is not None and key in self.proofs.known:
-            return self.proofs.known[key]
+        if node not in self._tried:
+            return RIGHT * count
         found = self._judged(item, node, count)
-        if key is not None:
-            self.proofs.known[key] = found
-            if set(found) == {RIGHT} and self._is_exact(item, node):
-                self.proofs.exact.add(key)
+        key = self._keys.get(node)
+        if key is not None and set(found) == {RIGHT}:
+            self._exact[node] = self._is_exact(node)
+            if self._is_proven(item, node):
+                self.proofs.known[key] = self._exact[node]
         return found
+
+    @cached_property
+    def _exact(self) -> dict[str, bool]:
+        """Whether right formulas follow to the last digit, of those that are tried."""
+        return {}
 
     @cached_property
     def settled(self) -> frozenset[str]:
         """Nodes that need not be calculated anew."""
-        exact = {node: key in self.proofs.exact for node, key in self._keys.items()}
-        return settled(self.student, exact)
+        for item in self.student.assignment.items:
+            if not self._keys.keys().isdisjoint(item.nodes) and item.quantity.digits.kind != "text":
+                self.letters(item)  # nobody before must have shown that they are right
+        known = {node: self.proofs.known.get(key, False) for node, key in self._keys.items()}
+        return settled(self.student, known | self._exact)
 
-    def _is_exact(self, item: Item, node: str) -> bool:
-        """Whether a node's formulas have given the very values of every trial."""
+    def _is_proven(self, item: Item, node: str) -> bool:
+        """Whether a node's formulas are right for every trial, whoever writes them.
+
+        Where the trials are alike it takes that the formulas react to something.
+        """
         values = self._values[node]
         if isinstance(values, str) or not values:
+            return False
+        first, *others = self.trials
+        decide = [trial for trial in others if trial.decides]
+        told = not fixed(node, first.expected, decide).all()
+        reacts = node in self._idle and not self._idle[node].any()
+        good = self._good(item, values, _right(node, self.trials))
+        listless = not listed(self.student.runs(node)) and not reads_a_list(self.student, node)
+        return (told or reacts) and listless and bool(good[0].all() and good[1].all())
+
+    def _is_exact(self, node: str) -> bool:
+        """Whether a node's formulas have given the very values of every trial."""
+        values = self._values[node]
+        if isinstance(values, str):
             return False
         return all(
             bool((np.abs(own - right) <= EXACT * np.abs(right).max()).all())
@@ -197,7 +240,10 @@ class Response:
         index = {row: i for i, row in enumerate(place.rows) if row is not None}
         letters = [NOTHING] * count
         lists = listed(self.student.runs(node))
-        pasted: bool | None = None
+        reads = reads_a_list(self.student, node)
+        of_angles = bool(lists or reads) and is_of_angles(self.student, node)
+        refers = bool(self.student.refers(node))  # to nothing: numbers, whatever they follow
+        made_up = bool(lists or reads) and refers and not of_angles  # a friend's fit exactly, too
         right = _right(node, self.trials)
         good = self._good(item, values, right)
         roughly = self._rounded_good(item, node, values, right)
@@ -223,17 +269,17 @@ class Response:
             few = (~good[0])[at].sum() <= _FEW and (good[0] & ~same)[at].mean() >= _MOST
             for i in at:
                 word = whole or (RIGHT if few and good[0][i] else "")
-                still = (bool(stands[i]) and not moves) or id(run) in lists
+                still = (bool(stands[i]) and not moves) or (id(run) in lists and not of_angles)
                 # What all variants have in common is a number or a list of numbers only where
                 # nothing follows from anything.
                 still &= not word or not (others[i] or same[i])
                 letter = STILL if still else word or PARTLY
                 letter = letter if word or np.isfinite(values[0][i]) else WRONG
                 letter = COARSE if coarse and letter == PARTLY else letter
-                if letter in (PARTLY, COARSE) or (letter == word and not others[i]):
-                    if pasted is None:
-                        turn = turn or self._turned(item, node)
-                        pasted = turn[0].mean() >= _MOST or reads_a_list(self.student, node)
+                unsure = letter in (PARTLY, COARSE) or (letter == word and not others[i])
+                if unsure or (made_up and letter == word):
+                    turn = turn or self._turned(item, node)
+                    pasted = turn[0].mean() >= _MOST or (unsure and reads)
                     letter = PASTED if pasted else letter
                 letters[i] = IDLE if idle[i] and same[i] and letter in (RIGHT, ROUNDED) else letter
         return "".join(letters)
@@ -290,7 +336,8 @@ class Response:
                 continue
             wanted = np.ravel(np.asarray(right, dtype=float))
             scale = float(np.nanmax(np.abs(wanted))) if wanted.size else 1.0
-            if not np.allclose(own, wanted, rtol=0, atol=1e-6 * max(scale, 1e-12), equal_nan=True):
+            near = apart([node], own, wanted, trial.expected) <= 1e-6 * max(scale, 1e-12)
+            if not (near | (np.isnan(own) & np.isnan(wanted))).all():
                 return False
         return True
 

@@ -201,6 +201,6 @@ def _earlier(judgement: Judgement, owner: Mapping[str, str], student: Student) -
     """Items that a formula reads, by way of given formulas too."""
     names, graph = _names(judgement, student), student.assignment.graph
     near = sorted({owner[n] for n in names if n in owner} - {judgement.item.id})
-    for name in (n for n in names if n in student.assignment.live_nodes):
+    for name in sorted(names & student.assignment.live_nodes):
         near += sorted({owner[n] for n in graph.ancestors(name) if n in owner} - set(near))
     return near

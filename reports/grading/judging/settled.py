@@ -11,6 +11,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from reports.grading.reading.signatures import rows_as_issued
 from reports.grading.reading.student import Student
 
 EXACT = 1e-9  # of the largest value of a column
@@ -19,7 +20,7 @@ EXACT = 1e-9  # of the largest value of a column
 def settled(student: Student, exact: Mapping[str, bool]) -> frozenset[str]:
     """Nodes that hold what they should; ``exact`` tells whose formulas have followed exactly."""
     assignment = student.assignment
-    given = assignment.model.fields.keys() | assignment.given_nodes | _rows_as_issued(student)
+    given = assignment.model.fields.keys() | assignment.given_nodes | rows_as_issued(student)
     found = {node for node, follows in exact.items() if follows and _is_right(student, node)}
     found |= {node for node in assignment.live_nodes - student.rewritten if student.runs(node)}
     found = {node for node in found if not isinstance(student.expected.value(node), str)}
@@ -27,20 +28,6 @@ def settled(student: Student, exact: Mapping[str, bool]) -> frozenset[str]:
     while ready := {node for node in found - done if student.refers(node) <= given | done}:
         done |= ready  # from the input data on: a ring of right numbers rests on nothing
     return frozenset(done)
-
-
-def _rows_as_issued(student: Student) -> set[str]:
-    """Columns of angles and the like that hold what the tables begin with."""
-    found = set()
-    for node, place in student.placement.places.items():
-        table = student.assignment.model.tables.get(node.partition(".")[0])
-        asked = node in student.assignment.fill_nodes
-        if table is None or asked or node not in student.layout.columns:
-            continue
-        constants = student.grid.column(place.sheet, place.column).constants
-        if [constants.get(row) for row in place.rows if row is not None] == list(table.rows):
-            found.add(node)
-    return found
 
 
 def _is_right(student: Student, node: str) -> bool:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Item
 from reports.grading.judging.copied import known_numbers, stepping
+from reports.grading.judging.lists import angles_of, of_angles
 from reports.grading.judging.trials import Trial
 from reports.grading.reading.student import Student
 from reports.recalculation.bench import Bench, Cells, full, pinned, rounds, unrounded_grid
@@ -18,6 +19,7 @@ from reports.recalculation.formulas import Formula
 from reports.recalculation.language import UnknownFormula
 
 Array = NDArray[np.float64]
+_FOUR = 0.5e-4  # what a table of sines with four digits leaves out
 
 
 @dataclass(frozen=True)
@@ -134,9 +136,11 @@ class Tryout:
         return found
 
     def rounds(self, node: str) -> bool:
-        """Whether something of a node's formulas is rounded: a result, or π."""
+        """Whether something of a node's formulas is rounded: a result, π, or a sine."""
         own = self.student.own_numbers(node) if self._full_constants else ()
-        return any(map(rounds, self.formulas(node))) or any(full(value) != value for value in own)
+        return any(map(rounds, self.formulas(node))) or any(
+            self._full(value) != value for value in own
+        )
 
     def formulas(self, node: str) -> list[Formula]:
         """Formulas of a node and of the student's own cells that they refer to."""
@@ -145,9 +149,22 @@ class Tryout:
 
     @cached_property
     def _full_constants(self) -> list[Cells]:
-        """Cells of the student's own with π of some digits, with all of them."""
+        """Cells of the student's own with some digits of π or of a sine, with all of them."""
+        copies = {cell[:3] for cells in self._copies.values() for cell in cells}
         return [
-            Cells(sheet, column, (row,), (full(value),))
+            Cells(sheet, column, (row,), (self._full(value),))
             for sheet, column, row, value in self.student.own_constants
-            if full(value) != value
+            if self._full(value) != value and (sheet, column, row) not in copies
         ]
+
+    def _full(self, value: float) -> float:
+        """A number with all digits of what it has the first ones of."""
+        exact = of_angles(value, self._all_angles)
+        near = exact is not None and abs(exact - value) <= _FOUR
+        return exact if near and exact is not None else full(value)
+
+    @cached_property
+    def _all_angles(self) -> tuple[float, ...]:
+        student = self.student
+        nodes = (f"{name}." for name in student.assignment.model.tables)
+        return tuple(sorted({angle for node in nodes for angle in angles_of(student, node)}))

@@ -116,6 +116,19 @@ def remarks(path: str, issued: str) -> dict[str, list[str]]:
     return {"remarks": lines[:_TOLD] + more}
 
 
+def refuse_foreign(path: str, issued: str) -> dict[str, object]:
+    """Refuse a book that was issued to another student; ``issued`` is the own empty one.
+
+    Raises:
+        InputError: it was, or no program reads it.
+    """
+    ticket, own = _ticket(Path(path)), _ticket(Path(issued))
+    if ticket and ticket != own:
+        what = "эта книга выдана не вам и не принята; сданное раньше осталось"
+        raise InputError(Problem("", what, "скачайте свою книгу и сдайте её"))
+    return {}
+
+
 def _ticket(book: Path) -> str:
     return own_properties(Package(check_package(book))).get(TICKET_NAME, "")
 

@@ -220,11 +220,11 @@ class Student:
                     taken.setdefault(number, []).append((first, last, place))
         for number in self.grid.columns_of(area):
             known = taken.get(number, [])
-            if _covered(area.first_row, area.last_row, known):
+            if covered(area.first_row, area.last_row, known):
                 continue
             for run in self.grid.column(area.sheet, number).runs_in(area.first_row, area.last_row):
                 low, high = max(run.first, area.first_row), min(run.last, area.last_row)
-                if not _covered(low, high, known):
+                if not covered(low, high, known):
                     helpers.append(run)
         return nodes, helpers
 
@@ -309,22 +309,6 @@ class Student:
         """Formulas of one's own, outside the tables, that a node refers to."""
         return [run for run in self._seen_from(node)[1] if run not in self.runs(node)]
 
-    def signature(self, node: str) -> tuple[object, ...] | None:
-        """What a node's formulas are, where they refer to nothing but cells as issued."""
-        if not self.as_laid_out:
-            return None
-        place = self.placement.places[node]
-        if place.span is None:
-            return None
-        parts: list[object] = [node]
-        for run in self.runs(node):
-            if run.formula is None or run.problem or run.array is not None:
-                return None
-            if not all(self._is_known(area) for area in self.grid.precedents(run)):
-                return None
-            parts.append((run.first, run.count, run.formula))
-        return tuple(parts)
-
     @cached_property
     def as_laid_out(self) -> bool:
         """Whether every cell of the tables stands where it was issued."""
@@ -346,27 +330,8 @@ class Student:
                     return False
         return True
 
-    def _is_known(self, area: Area) -> bool:
-        """Whether all cells of a rectangle belong to the tables or the input."""
-        key = (area.sheet, area.first_row, area.last_row, area.first_column, area.last_column)
-        found = self._areas_known.get(key)
-        if found is None:
-            found = self._areas_known[key] = all(
-                _covered(
-                    area.first_row,
-                    area.last_row,
-                    [entry[1:] for entry in self._columns_at.get(area.sheet, {}).get(number, [])],
-                )
-                for number in range(area.first_column, min(area.last_column, 200) + 1)
-            )
-        return found
 
-    @cached_property
-    def _areas_known(self) -> dict[tuple[object, ...], bool]:
-        return {}
-
-
-def _covered(low: int, high: int, taken: list[tuple[int, int, Place]]) -> bool:
+def covered(low: int, high: int, taken: list[tuple[int, int, Place]]) -> bool:
     """Whether all rows belong to nodes."""
     for first, last, place in taken:
         if first <= low and high <= last and place.span is not None and place.span.whole:

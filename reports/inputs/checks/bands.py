@@ -39,6 +39,11 @@ class Band:
     zero: bool = False
     kind: str = ""
 
+    @property
+    def span(self) -> tuple[float, float]:
+        """Both bounds."""
+        return self.low, self.high
+
     def scaled(self, times: float) -> Band:
         """The band with bounds so many times as large."""
         source = f"{self.source}, для такого D" if times > 1 else self.source
@@ -214,9 +219,16 @@ MEAN_PRESSURE = Band("gas.max_pressure_mpa", "", "p_i диаграммы", 0.2, 
 MEAN_PRESSURE_OF_POWER = Band("regime.indicated_power_kw", "", "p_i по N_i", 0.3, 2.9, unit="МПа")
 POINTS = Band("gas.points", "", "наибольшее давление", *usual.PEAK_PRESSURE, unit="МПа")
 LEAST_POINT = Band("gas.points", "", "наименьшее давление", 0.02, 0.4, unit="МПа")
+TRACE_COMPRESSION = Band("gas.points", "", "показатель сжатия по точкам", 1.2, 1.45)
+TRACE_EXPANSION = Band("gas.points", "", "показатель расширения по точкам", 1.0, 1.6)
 THROW_INERTIA = Band("torsion.throws_kg_m2", "", "J/(F_п r²) на шатун", 200, 1950, unit="кг/м²")
 THROW_STIFFNESS = Band("torsion.throws_nm_rad", "", "c к гладкому валу коренных шеек", 0.26, 2.5)
 DAMPING = Band("torsion.damping_nms_rad", "", "b/(F_п r²)", 12, 118, unit="кН·с/м³")
 # A point of the diagram stands out from both its neighbours by these factors: from near
 # ones and from those further than so many degrees.
 LONE_POINT, LONE_POINT_FAR, NEAR_DEG = 2.5, 4.0, 30.0
+
+
+def band_of(key: str) -> Band:
+    """The first band of a key."""
+    return next(band for band in BANDS if band.key == key)

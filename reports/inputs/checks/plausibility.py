@@ -16,10 +16,10 @@ from kshm.engine.arrangement import rods_beside
 from reports.inputs.checks import bands
 from reports.inputs.checks.accepted import Keys, apart
 from reports.inputs.checks.bands import BANDS, Band
+from reports.inputs.checks.indicated import check_indicated, indicated_of
 from reports.inputs.checks.kind import diesel_rho, stated_kind
 from reports.inputs.checks.room import check_neighbours, check_one_rod, check_room
 from reports.inputs.checks.train import train_values
-from reports.inputs.checks.volume import volume_ratio
 from reports.inputs.fields import key_text
 from reports.inputs.findings import Finding, Path
 from reports.inputs.firing import arrangement_of
@@ -59,6 +59,7 @@ def check_plausibility(
     yield from check_room(model, accepted)
     yield from _efficiency(model)
     yield from _gas(model, model.gas, ())
+    yield from check_indicated(model, sizes)
     if not wrong_bore:
         yield from check_neighbours(model, sizes.bore)
         yield from _power(model, model.gas, model.regime, sizes, ())
@@ -253,7 +254,7 @@ def _power(
     if power is None or isinstance(gas, CycleGasSection):
         return
     if isinstance(gas, TableGasSection):
-        work = _area_of(gas, sizes, _ratio(model))
+        work = indicated_of(model, gas, sizes).work
     else:
         work = mean_pressure(gas, _ratio(model))
     where = (*(path or ("regime",)), "indicated_power_kw")
@@ -289,18 +290,6 @@ def mean_pressure(gas: Any, ratio: float) -> float:  # noqa: ANN401
     top = float(gas.max_pressure_mpa)
     gained = top * (rho - 1) + top * rho * expanded(n_2, rho / ratio)
     return float((gained - end * expanded(n_1, 1 / ratio)) / (ratio - 1))
-
-
-def _area_of(gas: TableGasSection, sizes: Sizes, ratio: float) -> float:
-    """p_i [MPa] of a diagram by points."""
-    lam = sizes.radius / sizes.rod
-    volumes = [volume_ratio(angle, lam, ratio) for angle, _ in gas.points]
-    pressures = [pressure for _, pressure in gas.points]
-    work = sum(
-        (pressures[i] + pressures[i - 1]) / 2 * (volumes[i] - volumes[i - 1])
-        for i in range(1, len(volumes))
-    )
-    return float(work / (ratio - 1))
 
 
 def _points(gas: TableGasSection, path: Path) -> Iterator[Finding]:

@@ -57,5 +57,7 @@ export function printed(value, digits = 4) {
   return (value || 0).toLocaleString("ru", how).replace(/E(.+)/, (_, power) => `·10${raised(power)}`).replace("-", "−");
 }
 
+export const moment = seconds => seconds ? new Date(1000 * seconds).toLocaleString("ru") : "";
+
 // «p_z»: what follows the underscore, to a space that breaks, is a subscript.
 export const symbol = text => text.split(/_(\(\d+\)|[^ _,;=(/]+)/).map((part, i) => i % 2 ? html`<sub>${part}</sub>` : part);

@@ -2,19 +2,32 @@
 import {alerts, ask, choice, given, html, list, picker, printed, row, send, set, state, symbol, table} from "./common.js";
 import {between, figure, mechanism, star} from "./drawn.js";
 import {put, section} from "./fields.js";
+import {engines, keep, last, remove, seen, text} from "./own.js";
 
 // --- what is asked of the server ---
 // An input that comes from somewhere takes the page; its fields and charts are asked for.
-async function fresh(coming, keep = true) {
+// What comes anew has no `own` place among the engines yet; `stands` tells that it is kept there.
+async function fresh(coming, isNew = true, own = isNew ? {} : state.own, stands = false) {
   const came = await coming, {errors, ...shape} = came.raw ? await ask("api/start", came) : came;
   if (!shape.groups) { // what is wrong is said below the form, on a phone below its window
     set({errors: errors ?? []});
     return document.querySelector("#errors")?.scrollIntoView({block: "center"});
   }
-  if (keep && state.raw) Object.assign(state, {past: remembered(), isNew: false});
+  if (isNew && state.raw) Object.assign(state, {past: remembered(), isNew: false});
   if (shape.sheets?.every(([id]) => id !== state.sheet)) [[shape.sheet]] = shape.sheets;
   document.title = `${shape.raw.engine?.name || "Двигатель"} — КШМ`;
+  if (own !== state.own) Object.assign(state, {own: seen(own), kept: null});
+  if (own.raw) Object.assign(state, {other: own.other, past: [], news: "", isNew: false}); // not what was beside it
+  if (stands) state.kept = text({...state, ...shape});
   await solve({...shape, typed: {}, touched: null, errors: []});
+}
+
+function store() { // what has changed, in its place among the own engines
+  const now = text(state);
+  if (now === state.kept) return;
+  const {news, ...own} = keep(state.own, JSON.parse(now));
+  Object.assign(state, {own, kept: now, news, linked: false, engines: engines()});
+  if (location.hash) history.replaceState(null, "", location.pathname); // its numbers are no more those
 }
 
 async function solve(changes) {
@@ -22,7 +35,7 @@ async function solve(changes) {
   clearTimeout(state.later);
   set({...changes, running: true, again: false});
   const {raw, other, sheet, cylinder} = state, answer = raw => raw && ask("api/solve", {raw, sheet, cylinder});
-  try { localStorage.kshm = JSON.stringify({raw, other}); } catch { /* private window */ }
+  store();
   const [last, second] = await Promise.all([answer(raw), answer(other)]);
   const phi = last.errors ? 0 : Math.min(state.phi, last.moves.phi.at(-1)); // of a cycle that may be shorter
   set({running: false, ...last.errors ? {wrong: last.errors} : {wrong: [], last, second, phi}});
@@ -41,8 +54,35 @@ async function order(kind, title) {
 }
 
 // --- what a person does ---
-const remembered = () => [...state.past, JSON.stringify(state.raw)].slice(-200);
-const back = () => fresh({raw: JSON.parse(state.past.pop())}, false);
+const remembered = () => [...state.past, JSON.stringify([state.raw, state.own])].slice(-200);
+function back() {
+  const [raw, own] = JSON.parse(state.past.pop());
+  fresh({raw}, false, own.id === state.own.id ? state.own : own);
+}
+
+// An own engine from the list, or what is there when there is none.
+const open = engine => engine ? fresh({raw: engine.raw}, false, engine, true)
+  : fresh(ask("api/new", {sample: "gots-diesel"}), false, {}, true);
+
+async function away() {
+  if (!confirm(`Убрать «${named(state)}» из этого браузера? Вернуть его будет нельзя.`)) return;
+  remove(state.own.id);
+  set({engines: engines()});
+  await open(last());
+}
+
+const named = ({raw}) => raw.engine?.name || "Двигатель";
+const listed = () => state.engines.map(each =>
+  [each.id, `${named(each)}, ${new Date(each.date).toLocaleString("ru", {dateStyle: "short", timeStyle: "short"})}`]);
+
+async function read(hash) { // once: the address is free again, and the engine stands beside the own ones
+  history.replaceState(null, "", location.pathname);
+  let raw = null;
+  try { raw = JSON.parse(LZString.decompressFromEncodedURIComponent(hash)); } catch { /* told below */ }
+  if (!raw) return set({news: "ссылка повреждена: попросите её ещё раз"});
+  const known = engines().find(each => JSON.stringify(each.raw) === JSON.stringify(raw));
+  await (known ? open(known) : fresh({raw}, false, {link: true, raw}));
+}
 
 // A value at a place; other fields may come and go with it.
 async function change(key, path, value, reshapes) {
@@ -68,8 +108,9 @@ async function save() {
 
 async function link() {
   location.hash = LZString.compressToEncodedURIComponent(JSON.stringify(state.raw));
+  state.linked = location.hash.slice(1);
   try { await navigator.clipboard.writeText(location.href); } catch { /* the address shows it */ }
-  set({linked: true});
+  set({});
 }
 
 const upload = async file => fresh(/\.xlsx$/i.test(file.name)
@@ -88,6 +129,10 @@ function begun(id) { // a further regime begins as the main one
 
 const data = ({fields} = state.choices) => html`
   <section id="data" aria-label="Исходные данные">
+    <p class="tool-bar" hidden=${!state.engines.length}>${choice("Мои двигатели", "own",
+      [...state.own.id ? [] : [["", "—"]], ...listed()], state.own.id ?? "", id => id && open(engines().find(each => each.id === id)))}
+      <button id="away" hidden=${!state.own.id} onClick=${away}>Убрать из списка</button></p>
+    <p id="news" role="status">${state.news}</p>
     <details id="new" open=${state.isNew} onToggle=${e => { state.isNew = e.target.open; }}>
       <summary>Новый двигатель</summary>
       <form onSubmit=${e => fresh(ask("api/new", given(e)))}>
@@ -176,16 +221,18 @@ const page = () => html`
 
 set({
   past: [], groups: [], sheets: [], absent: {}, sheet: "П4.1", cylinder: 0, phi: 0, typed: {}, wrong: [],
-  checks: [], remarks: [], jobs: [], find: "", isNew: true, choices: await ask("api/choices"),
+  checks: [], remarks: [], jobs: [], find: "", isNew: true, own: {}, kept: null, news: "", engines: engines(), choices: await ask("api/choices"),
   open: new Set(innerWidth > 900 ? ["engine", "geometry", "regime"] : []),
 }, page);
 for (const media of ["(prefers-color-scheme: dark)", "print"]) // colours are drawn in
   matchMedia(media).addEventListener("change", () => set({}));
 Object.assign(window, {kshm: state, ask, fresh, turn}); // for a person's console and for the tests
-try {
-  const hash = location.hash.slice(1), text = hash && LZString.decompressFromEncodedURIComponent(hash);
-  const {raw, other} = text ? {raw: JSON.parse(text)} : JSON.parse(localStorage.kshm);
-  set({other, isNew: false});
-  await fresh({raw}, false);
-} catch { /* a damaged link or store is none */ }
-if (!state.raw) await fresh(ask("api/new", {sample: "gots-diesel"}));
+addEventListener("hashchange", () => { // a link put into the address of this very page
+  const hash = location.hash.slice(1);
+  if (hash && hash !== state.linked) read(hash);
+});
+addEventListener("storage", () => set({engines: engines()})); // of another tab
+const hash = location.hash.slice(1);
+if (hash) await read(hash);
+if (!state.raw) await open(last());
+if (!state.raw) await open(); // what was kept is no engine of today

@@ -1,15 +1,16 @@
 // A student's page: the own book taken and handed in, and its page once it is open.
-import {alerts, ask, html, list, picker, printed, send, set, state} from "./common.js";
+import {alerts, ask, html, list, moment, picker, printed, send, set, state} from "./common.js";
 
 const door = `../../api/student/${location.pathname.split("/").filter(Boolean).at(-1)}`;
-const taken = async told => told && set({remarks: [], ...told, ...await ask(door), when: new Date().toLocaleString("ru")});
+const taken = async told => told && set({remarks: [], ...told, ...await ask(door)});
 const hand = async file => taken(await send(`${door}/work`, file));
 
-function own({student, title, handed, when, status, points, file, open}) {
-  const words = [handed ? `работа сдана ${when || ""}`.trim() : "работа ещё не сдана", status, points !== null && `баллы: ${printed(points)}`];
+function own({student, title, handed, when, earlier, status, points, file, open}) {
+  const words = [handed ? `работа сдана ${moment(when)}`.trim() : "работа ещё не сдана", status, points !== null && `баллы: ${printed(points)}`];
   return html`
     <h1>${student} — ${title}</h1>
     <p id="state" aria-live="polite">${words.filter(Boolean).join("; ")}</p>
+    ${earlier.length > 0 && html`<p id="earlier">Считается последняя; раньше сданы и хранятся: ${earlier.map(moment).join("; ")}</p>`}
     ${list(state.remarks || [], "warn", {id: "remarks", "aria-label": "Что стоит поправить перед сроком"})}
     <p class="tool-bar">
       <a id="book" class="<button>" href=${`${door}/book`} download=${file}>Скачать рабочую книгу</a>

@@ -1,5 +1,5 @@
 // The instructor's page: a class issued, handed in, graded, decided, taken to Moodle.
-import {alerts, ask, choice, given, html, list, options, picker, printed, row, send, set, state, table} from "./common.js";
+import {alerts, ask, choice, given, html, list, moment, options, picker, printed, row, send, set, state, table} from "./common.js";
 
 const door = path => `api/teacher/${state.chosen}/${path}`;
 const isBusy = () => ["waiting", "running"].includes(state.own.state);
@@ -70,7 +70,7 @@ const issued = ({open, students, rows, files}) => html`
   ${rows.length > 0 && gradebook(rows)}
   <details id="links" open><summary>Ссылки студентов</summary>
     <ol>${students.map(each => html`<li><a href=${`s/${each.link}/`}>${each.name}</a>
-      ${each.group && `, ${each.group}`}${each.handed && " — сдал здесь"}</li>`)}</ol></details>`;
+      ${each.group && `, ${each.group}`}${each.handed && ` — сдал здесь ${moment(each.when)}${each.earlier.length ? `, раньше ещё ${each.earlier.length}` : ""}`}</li>`)}</ol></details>`;
 
 const asked = (title, name, more) => html`<label>${title} <input id=${name.split(".")[0]} name=${name} ...${more} /></label>`;
 

@@ -1,0 +1,59 @@
+// Own engines in this browser, each under a key of its own: no tab writes over what another has written.
+const KEY = "kshm:", OLD = "kshm";
+
+function read(id) {
+  try {
+    const {raw, ...more} = JSON.parse(localStorage[KEY + id]);
+    return raw && {...more, id, raw};
+  } catch { /* removed, damaged, or a window that stores nothing */ }
+}
+
+export const text = ({raw, other}) => JSON.stringify({raw, other: other || undefined});
+
+export function engines() { // the last one first
+  try {
+    return Object.keys(localStorage).filter(key => key.startsWith(KEY)).map(key => read(key.slice(KEY.length)))
+      .filter(Boolean).sort((a, b) => b.date - a.date);
+  } catch { return []; }
+}
+
+export function last() { // of this tab, else of this browser; what only came by a link comes behind
+  try { adopt(); } catch { /* a private window, or a damaged store */ }
+  try {
+    if (sessionStorage[OLD] && read(sessionStorage[OLD])) return read(sessionStorage[OLD]);
+  } catch { /* the same */ }
+  const all = engines();
+  return all.find(each => !each.link) ?? all[0];
+}
+
+function adopt() { // what an earlier version of the page has left
+  const {[OLD]: left} = localStorage;
+  if (!left) return;
+  localStorage[`${KEY}${fresh()}`] = JSON.stringify({...JSON.parse(left), date: Date.now(), stamp: fresh()});
+  delete localStorage[OLD];
+}
+
+const fresh = () => Date.now().toString(36) + Math.random().toString(36).slice(2, 10);
+
+// Keeps an engine in its place, beside it where another tab has changed what stands there.
+export function keep({id, stamp, link}, engine) {
+  const there = id && read(id), alike = !id && engines().find(each => text(each) === text(engine));
+  if (alike) return {...seen(alike), news: ""};
+  const moved = Boolean(there && there.stamp !== stamp);
+  const own = {id: !id || moved ? fresh() : id, stamp: fresh(), link: Boolean(link && !id)};
+  try {
+    localStorage[KEY + own.id] = JSON.stringify({...engine, date: Date.now(), stamp: own.stamp, link: own.link});
+  } catch {
+    return {id, stamp, link, news: "браузер этого двигателя не сохранил: скачайте .toml или уберите лишние"};
+  }
+  return {...seen(own), news: moved ? "двигатель изменён и в другой вкладке: этот записан рядом" : ""};
+}
+
+export function seen({id, stamp, link}) { // the place of this tab, also after it is loaded again
+  try { sessionStorage[OLD] = id ?? ""; } catch { /* a private window */ }
+  return {id, stamp, link};
+}
+
+export function remove(id) {
+  try { delete localStorage[KEY + id]; } catch { /* nothing was there */ }
+}

@@ -1,0 +1,112 @@
+"""The first edit after opening a book in LibreOffice reaches every cell that depends on it.
+
+The book keeps its saved values, as a person's does: LibreOffice believes them on loading, and a
+cell that it loads dirty stops what is edited before it from reaching what stands behind it.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+import subprocess
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from reports.inputs.fields import iter_fields
+from reports.tables.registry import build_model
+from reports.workbook.caches import sheet_parts
+from reports.workbook.layout import Layout
+from reports.workbook.what_if import SHEET as WHAT_IF
+from reports.workbook.write import workbook_bytes
+from tests.referee.changes import Change, type_into, with_values
+from tests.referee.compare import close
+from tests.workbook.made import coarse, coarse_book, coarse_model
+from tools.referees.by_formualizer import Formualizer
+from tools.referees.by_libreoffice import LibreOffice
+from tools.referees.cells import Book, cached_values
+
+PYTHON = "/usr/bin/python3"
+ENGINES = ("gots-diesel", "yamz-238", "two-stroke", "ecoboost-10")
+COMPUTED = "mwm-6"  # with values that the program computes: they do not follow an open book
+INPUTS = {"geometry_rod_length_mm": 1.08, "regime_speed_rpm": 0.95, "geometry_bore_mm": 1.03}
+
+
+def changes_of(name: str) -> list[Change]:
+    fields = {field.name: field for field in iter_fields(coarse(name))}
+    return [
+        Change(fields[key], round(float(fields[key].value) * factor, 3))
+        for key, factor in INPUTS.items()
+    ]
+
+
+def built(name: str, change: Change) -> Book:
+    """The values of the book that is built from the changed input."""
+    changed = with_values(coarse(name), [change])
+    assert changed is not None
+    cells = cached_values(workbook_bytes(build_model(changed)))
+    del cells[WHAT_IF]  # compares with what the book was built from
+    return cells
+
+
+def recalculated(name: str, change: Change) -> Book:
+    """The values of the changed book, calculated anew from its formulas."""
+    return Formualizer().recalculate([type_into(coarse_book(name), coarse(name), [change])])[0]
+
+
+@pytest.fixture(scope="module")
+def edited(tmp_path_factory: pytest.TempPathFactory, libreoffice: LibreOffice) -> dict:
+    """Books after their first edit by engine and input, as LibreOffice saves them."""
+    folder = tmp_path_factory.mktemp("edited")
+    jobs, files = [], {}
+    for name in (*ENGINES, COMPUTED):
+        source = folder / f"{name}.xlsx"
+        source.write_bytes(coarse_book(name))
+        layout = Layout.of(coarse_model(name))
+        for change in changes_of(name):
+            cell = layout.cells[change.field.name]
+            target = files[name, change.field.name] = folder / f"{name}-{change.field.name}.xlsx"
+            jobs.append((str(source), cell.sheet, cell.coordinate, change.value, str(target)))
+    script = Path(__file__).with_name("edited.py")
+    done = subprocess.run(
+        [PYTHON, str(script), str(folder / "profile")],
+        input=json.dumps(jobs), capture_output=True, text=True, timeout=600, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr[-2000:]
+    return {key: cached_values(path.read_bytes()) for key, path in files.items()}
+
+
+def stale(wanted: Book, found: Book) -> tuple[int, list[str]]:
+    """Number of cells compared and those that differ."""
+    compared, wrong = 0, []
+    for sheet, cells in wanted.items():
+        for at, value in cells.items():
+            compared += 1
+            other = found[sheet][at]
+            same = (
+                close(value, other, 1 + abs(value))
+                if isinstance(value, float) and isinstance(other, float)
+                else value == other
+            )
+            if not same:
+                wrong.append(f"{sheet}!{at}: {value!r}, LibreOffice {other!r}")
+    return compared, wrong
+
+
+@pytest.mark.libreoffice
+@pytest.mark.parametrize("name", [*ENGINES, COMPUTED])
+def test_the_first_edit_reaches_every_cell(name: str, edited: dict) -> None:
+    for change in changes_of(name):
+        wanted = (recalculated if name == COMPUTED else built)(name, change)
+        compared, wrong = stale(wanted, edited[name, change.field.name])
+        assert wrong == [], (change.field.name, compared, len(wrong))
+        assert compared > 5000
+
+
+def test_no_cell_is_an_array_formula() -> None:
+    for name in (*ENGINES, COMPUTED):
+        with zipfile.ZipFile(io.BytesIO(coarse_book(name))) as archive:
+            for part in sheet_parts(archive).values():
+                assert not re.search(rb'<f [^>]*t="array"', archive.read(part)), (name, part)

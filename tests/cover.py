@@ -17,7 +17,7 @@ from functools import cache
 from reports.document.chapters.profiles import chosen
 from reports.formula.parse import parse
 from reports.inputs.fields import to_mapping
-from reports.spec.blocks import Model
+from reports.model.blocks import Model
 from reports.tables.registry import build_model
 from tests.conftest import sample, sample_names
 from tests.layouts import MAKERS, made

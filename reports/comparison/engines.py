@@ -12,10 +12,10 @@ from kshm.nomenclature.quantity import Quantity, quantity
 from reports.inputs.fields import Field, iter_fields
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import smallness_of
+from reports.model.charts import PHI
+from reports.model.shape import pin_name, pin_table
 from reports.shared.errors import InputError, Problem
 from reports.shared.russian import capital, joined, short, uncapital
-from reports.spec.charts import PHI
-from reports.spec.shape import pin_name, pin_table
 from reports.tables.unused import given_by_cycle
 
 if TYPE_CHECKING:

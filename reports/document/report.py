@@ -50,8 +50,8 @@ from reports.inputs.checks.grid import fine_columns
 from reports.inputs.sections.gas import TableGasSection
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.report import ReportSection
-from reports.spec.blocks import Model
-from reports.spec.evaluation import Values
+from reports.model.blocks import Model
+from reports.model.evaluation import Values
 
 if TYPE_CHECKING:
     from jinja2 import Environment

@@ -18,8 +18,8 @@ from reports.shared.progress import Progress
 
 if TYPE_CHECKING:
     from reports.document.report import Report
-    from reports.spec.blocks import Model
-    from reports.spec.evaluation import Values
+    from reports.model.blocks import Model
+    from reports.model.evaluation import Values
 
 Kind = Format
 Further = Sequence[Callable[[Any], Any]]  # chapters, see `reports.document.report`
@@ -102,7 +102,7 @@ def build(
         InputError: the input gives no finite result.
     """
     from reports.inputs.checks.flywheel import solution_remarks
-    from reports.spec.evaluation import evaluate_model
+    from reports.model.evaluation import evaluate_model
     from reports.tables.registry import build_model
     from reports.tables.verdicts import failed_checks
 

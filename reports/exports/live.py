@@ -17,11 +17,10 @@ from reports.document.figures.pen import by_direction
 from reports.document.text.symbols import indexed
 from reports.inputs.checks.flywheel import solution_remarks
 from reports.inputs.units import MM
+from reports.model.blocks import NO, Model, ScalarTable
+from reports.model.charts import ChartSpec
+from reports.model.evaluation import Evaluation
 from reports.shared.russian import written
-from reports.spec.blocks import Model, ScalarTable
-from reports.spec.charts import ChartSpec
-from reports.spec.evaluation import Evaluation
-from reports.spec.judged import NO
 from reports.tables.verdicts import check_value, reasons_of
 
 Data = dict[str, Any]

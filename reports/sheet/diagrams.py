@@ -33,9 +33,9 @@ from reports.drawing.primitives import (
 )
 from reports.drawing.scales import STEP, Scale, round_scale, unit_text
 from reports.formula.numeric import evaluate
+from reports.model.charts import ChartSpec, Series
 from reports.shared.russian import fixed
 from reports.sheet.cell import TEXT, Name, Room, headed, legend
-from reports.spec.charts import ChartSpec, Series
 
 _DASHES: tuple[Dash, ...] = ((), DASHED, CENTRE, DOTTED, (8.0, 2.0, 3.0, 2.0))
 _ANGLES = (15.0, 30.0, 45.0, 60.0, 90.0, 120.0, 180.0)

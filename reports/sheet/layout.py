@@ -11,10 +11,10 @@ from reports.document.chapters import facts
 from reports.document.text.terms import Terms
 from reports.drawing.primitives import Canvas
 from reports.inputs.sections.sheet import USUAL, SheetSection
+from reports.model.shape import pin_figure
 from reports.shared.errors import InputError, Problem
 from reports.sheet import diagrams, parts, schemes, stamp, tables
 from reports.sheet.cell import Room
-from reports.spec.shape import pin_figure
 
 SIZES = {"A1": (841.0, 594.0), "A2": (594.0, 420.0)}
 _GAP = 6.0

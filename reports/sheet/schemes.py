@@ -9,8 +9,8 @@ from reports.document.text.terms import Terms, plain_number
 from reports.drawing.lettering import fitted
 from reports.drawing.primitives import AXES, CONTOUR, SIZES, THIN, Canvas, Point, polar
 from reports.inputs.firing import order_text
+from reports.model.shape import Shape
 from reports.sheet.cell import TEXT, Room, headed
-from reports.spec.shape import Shape
 
 _BEARING = 5.0  # half a bearing on the scheme
 _BEYOND = 3.0  # of an axis beyond the throws, before their numbers

@@ -11,9 +11,9 @@ from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms
 from reports.drawing.lettering import width_of
 from reports.drawing.primitives import TABLES, THIN, Canvas
+from reports.model.shape import Shape
 from reports.shared.russian import capital, fixed
 from reports.sheet.cell import TEXT, Room, headed
-from reports.spec.shape import Shape
 
 ROW = 6.0  # mm
 _PADDING = 1.0  # on each side of the words in a cell [mm]

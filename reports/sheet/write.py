@@ -14,10 +14,10 @@ from reports.drawing.parts import Mechanism, Throw, mechanism_drawing, throw_dra
 from reports.drawing.primitives import Item, Words, bounds, moved
 from reports.drawing.svg import svg_of
 from reports.inputs.checks.grid import fine_columns
+from reports.model.blocks import Model
+from reports.model.evaluation import Values
 from reports.shared.signs import printable
 from reports.sheet.layout import sheet_items
-from reports.spec.blocks import Model
-from reports.spec.evaluation import Values
 
 _LETTERS = 0.02  # height of the letters of a drawing true to size, of its extent
 _PRINTED = 3.5  # mm: the height of letters on paper that the dashes of lines go with

@@ -20,10 +20,9 @@ from reports.inputs.sections.input_file import METHODS
 from reports.inputs.to_si.gas import places
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, to_estimate
 from reports.inputs.units import MM
-from reports.spec.books import read_book
-from reports.spec.context import names_of
-from reports.spec.parts import Part, Scope
-from reports.spec.shape import pin_figure, pin_name, pin_table, rays_table
+from reports.model.books import read_book
+from reports.model.context import names_of
+from reports.model.shape import Part, Scope, pin_figure, pin_name, pin_table, rays_table
 from reports.tables.cycle_names import section_of, sizes_are_found
 from reports.tables.cycle_ranges import ranges_of
 from reports.tables.oil_members import oil_names, safety_names

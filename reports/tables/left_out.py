@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import GeometrySection, InputFile
-from reports.spec.blocks import Block
-from reports.spec.parts import Scope
-from reports.spec.shape import Shape
+from reports.model.blocks import Block
+from reports.model.shape import Scope, Shape
 from reports.tables.contexts import books
 
 _BY_ORDERS = ("piston_motion", "balance", "balance_orders", "firing", "inertia", "torque_orders")

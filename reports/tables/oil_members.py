@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from kshm.defaults import CLEARANCE_SHARES, FILLET_SHARE
 from reports.inputs.sections.bearings import MATERIALS, MEMORY, OILS
-from reports.spec.parts import Scope
+from reports.model.shape import Scope
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,8 @@ from kshm.results.regimes import main_only, regime_key
 from reports.formula.parse import names
 from reports.inputs.fields import Field, iter_fields
 from reports.inputs.sections.input_file import InputFile, Regime
-from reports.spec.blocks import (
+from reports.model.blocks import (
+    TIE,
     Block,
     Grid,
     GridRow,
@@ -25,10 +26,9 @@ from reports.spec.blocks import (
     nodes_in,
     scalars_of,
 )
-from reports.spec.charts import ChartSpec, Series, over_phi
-from reports.spec.extremes import TIE
-from reports.spec.parts import Part
-from reports.spec.rename import copied, copied_chart
+from reports.model.charts import PHI, ChartSpec, Series
+from reports.model.rename import copied, copied_chart
+from reports.model.shape import Part
 
 _LEFT_OUT = frozenset({"checks"})
 _WHOLE = frozenset(
@@ -289,8 +289,12 @@ def _charts(model: InputFile) -> tuple[ChartSpec, ...]:
     """The forces of all regimes over the crank angle, figures 23-25 laid over each other."""
     tables = [(_key("P4_1", n), name) for n, name in enumerate(regime_titles(model), 1)]
     return tuple(
-        over_phi(f"fig{chart}", SHEET, title, y,
-                 *(Series(f"{table}.phi_deg", f"{table}.{column}", name) for table, name in tables),
-                 figure="23–25")
+        ChartSpec(
+            f"fig{chart}", SHEET, title, "line",
+            tuple(
+                Series(f"{table}.phi_deg", f"{table}.{column}", name) for table, name in tables
+            ),
+            PHI, y, figure="23–25", x_is_angle=True,
+        )
         for chart, column, title, y in _CHARTS
     )  # fmt: skip

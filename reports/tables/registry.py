@@ -8,9 +8,9 @@ from functools import lru_cache
 from reports.inputs.fields import Value, iter_fields, tables_shape
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import smallness_of
-from reports.spec.blocks import Model
-from reports.spec.parts import Part, Scope
-from reports.spec.rename import sized, substituted
+from reports.model.blocks import Model
+from reports.model.rename import sized, substituted
+from reports.model.shape import Part, Scope
 from reports.tables.contexts import books
 from reports.tables.cycle_names import cycle_stand_ins
 from reports.tables.left_out import left_out_note

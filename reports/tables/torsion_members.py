@@ -18,7 +18,7 @@ from kshm.defaults import (
     STARS,
 )
 from reports.inputs.sections.torsion import FORMULAS, TorsionSection
-from reports.spec.parts import Scope
+from reports.model.shape import Scope
 
 Kind = Literal["given", "pulley", "throw", "flywheel", "driven"]
 _MODES = 3

@@ -6,10 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from reports.inputs.sections.input_file import InputFile
+from reports.model.blocks import NO, Block, Model, scalars_of
+from reports.model.evaluation import Values
 from reports.shared.russian import fixed
-from reports.spec.blocks import Block, Model, scalars_of
-from reports.spec.evaluation import Values
-from reports.spec.judged import NO
 
 _PREFIX = "check_"
 

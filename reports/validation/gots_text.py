@@ -17,8 +17,8 @@ from kshm.results.solution import Solution
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_toml
 from reports.inputs.to_si.engine import to_engine
+from reports.model.evaluation import evaluate_model
 from reports.shared.resources import samples_dir
-from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from reports.validation.checks import Lookup, Ours
 from reports.validation.runs import DINN_STEP, listing, solution

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from reports.spec.blocks import Block
+from reports.model.blocks import Block
 
 _REGIME = re.compile(r" р(\d+)$")
 _NUMBER = re.compile(r" \((?P<a>\d+)\)$|(?<=[а-я]) (?P<b>\d+)$")

@@ -26,9 +26,9 @@ from openpyxl.drawing.text import (
 )
 
 from kshm.nomenclature.quantity import quantity
-from reports.spec.charts import ChartSpec
-from reports.spec.charts import Series as SeriesSpec
-from reports.spec.evaluation import Values
+from reports.model.charts import ChartSpec
+from reports.model.charts import Series as SeriesSpec
+from reports.model.evaluation import Values
 from reports.workbook.chapters import chapter_of
 from reports.workbook.drawn import Curve, Drawn, limits, marks, rays
 from reports.workbook.layout import FIRST_ROW, Layout

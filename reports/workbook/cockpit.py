@@ -11,9 +11,9 @@ from openpyxl.styles import Alignment, PatternFill
 from openpyxl.styles import Font as CellFont
 from openpyxl.worksheet.worksheet import Worksheet
 
+from reports.model.blocks import Model
+from reports.model.shape import Shape, pin_figure, pin_name
 from reports.shared.russian import capital
-from reports.spec.blocks import Model
-from reports.spec.shape import Shape, pin_figure, pin_name
 from reports.tables.left_out import left_out_note
 from reports.workbook import styles
 from reports.workbook.chapters import chapter_of, heading

@@ -8,8 +8,8 @@ import numpy as np
 from openpyxl.utils import get_column_letter
 
 from kshm.nomenclature.quantity import roman
-from reports.spec.charts import ChartSpec
-from reports.spec.evaluation import Values
+from reports.model.charts import ChartSpec
+from reports.model.evaluation import Values
 from reports.workbook.layout import Layout, column_range, quoted
 
 _ANGLE, _MOST_NAMES = 30, 8  # degrees, and how many of a polar diagram's points have a name

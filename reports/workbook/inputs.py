@@ -10,8 +10,8 @@ from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.inputs.fields import Field
+from reports.model.blocks import Model
 from reports.shared.russian import capital, short
-from reports.spec.blocks import Model
 from reports.workbook import styles
 from reports.workbook.layout import (
     KEY_COLUMN,

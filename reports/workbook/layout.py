@@ -16,7 +16,7 @@ from openpyxl.utils import get_column_letter
 
 from reports.formula.excel import number
 from reports.inputs.fields import Field
-from reports.spec.blocks import Grid, Model, ScalarTable, TableSpec
+from reports.model.blocks import Grid, Model, ScalarTable, TableSpec
 from reports.workbook.orders import Grid as AngleGrid
 from reports.workbook.orders import Waves, grid_of, place_of, runs_of, waves_of
 

@@ -20,8 +20,8 @@ from kshm.nomenclature.quantity import quantity
 from reports.formula.excel import compile_formula
 from reports.formula.numeric import evaluate
 from reports.inputs.to_si.engine import smallness_of
-from reports.spec.blocks import Model
-from reports.spec.shape import Shape, cylinder_table_id
+from reports.model.blocks import Model
+from reports.model.shape import Shape, cylinder_table_id
 from reports.workbook import styles
 from reports.workbook.charts import HIGH, drawing
 from reports.workbook.drawn import Drawn

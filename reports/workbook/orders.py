@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from reports.formula.parse import parse
-from reports.spec.blocks import Model, TableSpec, nodes_in
+from reports.model.blocks import Model, TableSpec, nodes_in
 
 # Angles of a grid and the step that they follow, None the step of the calculation.
 Grid = tuple[tuple[float, ...], float | None]

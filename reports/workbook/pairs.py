@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from reports.formula.excel import number
 from reports.inputs.checks.pairs import PAIRS, Pair, Term, is_of, terms_of
 from reports.inputs.fields import Field, regime_suffix
-from reports.spec.blocks import Model
+from reports.model.blocks import Model
 from reports.workbook.layout import Layout, column_range
 
 _Fields = Mapping[str, Sequence[Field]]

@@ -13,9 +13,9 @@ from openpyxl.worksheet.pagebreak import Break
 from openpyxl.worksheet.worksheet import Worksheet
 
 from kshm.nomenclature.quantity import Quantity
+from reports.model.blocks import Block, Grid, Model, ScalarTable, TableSpec, scalars_of
+from reports.model.evaluation import Values
 from reports.shared.russian import written
-from reports.spec.blocks import Block, Grid, Model, ScalarTable, TableSpec, scalars_of
-from reports.spec.evaluation import Values
 from reports.workbook.layout import (
     FIRST_ROW,
     HEADER_ROW,

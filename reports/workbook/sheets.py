@@ -12,9 +12,9 @@ from openpyxl.worksheet.worksheet import Worksheet
 from kshm.nomenclature.quantity import Quantity
 from reports.formula.excel import compile_formula
 from reports.formula.plain import plain
+from reports.model.blocks import Grid, Scalar, ScalarTable, TableSpec
+from reports.model.evaluation import Values
 from reports.shared.russian import capital
-from reports.spec.blocks import Grid, Scalar, ScalarTable, TableSpec
-from reports.spec.evaluation import Values
 from reports.workbook import styles
 from reports.workbook.layout import (
     FIRST_ROW,

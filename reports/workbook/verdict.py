@@ -17,8 +17,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.formula.excel import number
 from reports.inputs.fields import Field
-from reports.spec.blocks import Model
-from reports.spec.judged import NO, YES
+from reports.model.blocks import NO, YES, Model
 from reports.workbook import styles
 from reports.workbook.inputs import options
 from reports.workbook.layout import (

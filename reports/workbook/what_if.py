@@ -11,7 +11,7 @@ from openpyxl.styles import PatternFill
 from openpyxl.workbook import Workbook
 from openpyxl.worksheet.worksheet import Worksheet
 
-from reports.spec.blocks import Model
+from reports.model.blocks import Model
 from reports.workbook import styles
 from reports.workbook.cockpit import RESULTS, known
 from reports.workbook.layout import HEADER_ROW, NOTE_ROW, Cell

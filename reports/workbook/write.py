@@ -10,11 +10,11 @@ from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.worksheet import Worksheet
 
+from reports.model.blocks import Grid, Model, ScalarTable, TableSpec
+from reports.model.charts import ChartSpec
+from reports.model.evaluation import Values, evaluate_model
 from reports.shared.files import temporary_failure
 from reports.shared.garbage import uncollected
-from reports.spec.blocks import Grid, Model, ScalarTable, TableSpec
-from reports.spec.charts import ChartSpec
-from reports.spec.evaluation import Values, evaluate_model
 from reports.workbook import motion, styles, what_if
 from reports.workbook.caches import finish
 from reports.workbook.chapters import chapter_of, diagrams_of, heading, ordered

@@ -15,8 +15,8 @@ from reports.document.report import Report
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.to_si.engine import engine_and_cycle
+from reports.model.evaluation import evaluate_model
 from reports.shared.errors import InputError
-from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from tests.bearings.files import tractor
 from tests.conftest import sample

@@ -13,8 +13,8 @@ from reports.inputs.load import load_mapping
 from reports.inputs.sections.crankshaft import CrankshaftSection
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import engine_and_cycle
-from reports.spec.blocks import TableSpec
-from reports.spec.evaluation import Evaluation
+from reports.model.blocks import TableSpec
+from reports.model.evaluation import Evaluation
 from reports.tables.registry import build_model
 from tests.bearings.files import laid_out, tractor
 from tests.cover import examples

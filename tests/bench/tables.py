@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from unittest import mock
 
 from reports.inputs.load import load_toml
+from reports.model import rename
 from reports.shared.resources import samples_dir
-from reports.spec import rename
 from reports.tables.registry import build_model
 from tests.bench._figure import Figure, interleaved, median, ratio
 

@@ -21,9 +21,9 @@ import xlsxwriter
 from openpyxl.worksheet.formula import ArrayFormula
 
 from reports.inputs.load import load_toml
+from reports.model.blocks import Model
+from reports.model.evaluation import Values, evaluate_model
 from reports.shared.resources import samples_dir
-from reports.spec.blocks import Model
-from reports.spec.evaluation import Values, evaluate_model
 from reports.tables.registry import build_model
 from reports.workbook.read import load_workbook_input
 from reports.workbook.write import workbook_bytes

@@ -10,7 +10,7 @@ import pytest
 
 from reports.document import report as report_module
 from reports.document.chapters import closing, cycle
-from reports.spec.evaluation import evaluate_model
+from reports.model.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from tests.cycle.cycle_files import loaded
 

@@ -10,7 +10,7 @@ from kshm.cycle.processes import N1_PASSES, N2_PASSES
 from reports.inputs.fields import iter_fields
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import engine_and_cycle
-from reports.spec.evaluation import Values, evaluate_model
+from reports.model.evaluation import Values, evaluate_model
 from reports.tables.registry import build_model
 from reports.workbook.layout import Layout
 from reports.workbook.write import workbook_bytes

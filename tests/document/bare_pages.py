@@ -12,8 +12,8 @@ from reports.document.chapters import chapter as chapters
 from reports.document.report import Report
 from reports.document.text.terms import Terms
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.charts import ChartSpec
-from reports.spec.evaluation import evaluate_model
+from reports.model.charts import ChartSpec
+from reports.model.evaluation import evaluate_model
 from reports.tables.registry import build_model
 
 Drawn = list[tuple[str, float]]

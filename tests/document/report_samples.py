@@ -10,8 +10,8 @@ from reports.document.page.render import render
 from reports.document.report import Report
 from reports.document.text.terms import Terms
 from reports.inputs.load import load_text
+from reports.model.evaluation import evaluate_model
 from reports.shared.resources import samples_dir
-from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from tests.conftest import sample
 from tests.kept import kept

@@ -16,7 +16,7 @@ from reports.document.figures.polar import polar_path
 from reports.document.figures.wear import wear_diagram
 from reports.document.page.redrawing import smaller
 from reports.document.report import Report
-from reports.spec.evaluation import evaluate_model
+from reports.model.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from tests.conftest import sample
 

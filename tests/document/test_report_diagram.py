@@ -12,7 +12,7 @@ from reports.document.report import Report, _files
 from reports.exports.build import remarks_of
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.spec.evaluation import evaluate_model
+from reports.model.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from tests.tables.test_diagram import DIESEL, made, points_of
 

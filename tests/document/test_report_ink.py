@@ -17,7 +17,7 @@ from reports.document.report import Report
 from reports.document.text.terms import Terms
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.spec.evaluation import evaluate_model
+from reports.model.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from tests.conftest import sample, sample_names
 from tests.cover import ALL, examples

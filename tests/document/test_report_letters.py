@@ -15,8 +15,8 @@ from reports.document.text.texts import pictured
 from reports.drawing.lettering import width_of
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
+from reports.model.evaluation import evaluate_model
 from reports.shared import signs
-from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from tests.conftest import sample
 from tests.document.pdftools import fonts_of, pages_of

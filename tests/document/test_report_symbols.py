@@ -14,8 +14,8 @@ from reports.document.report import Report
 from reports.document.text.terms import Terms
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.spec.evaluation import evaluate_model
-from reports.spec.shape import TIMING
+from reports.model.evaluation import evaluate_model
+from reports.model.shape import TIMING
 from reports.tables.registry import build_model
 from tests.conftest import sample
 from tests.cover import quantities, samples_with

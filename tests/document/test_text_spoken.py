@@ -12,7 +12,7 @@ from reports.document.text import mathsvg
 from reports.document.text.spoken import spoken
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.spec.evaluation import evaluate_model
+from reports.model.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from tests.conftest import sample
 from tests.cover import ALL

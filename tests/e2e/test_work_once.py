@@ -11,8 +11,8 @@ from reports.document import report
 from reports.exports.build import build, load_input
 from reports.inputs import solved
 from reports.inputs.sections.report import Format
+from reports.model import evaluation
 from reports.shared.resources import samples_dir
-from reports.spec import evaluation
 
 
 @pytest.fixture

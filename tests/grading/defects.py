@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from openpyxl import Workbook
 
 from reports.grading.issuing.assignment import Assignment
-from reports.spec.evaluation import Values
+from reports.model.evaluation import Values
 from reports.workbook.layout import Layout
 from tests.grading.fill import Formula
 from tests.grading.forms import insert

@@ -16,7 +16,7 @@ from openpyxl.worksheet.formula import ArrayFormula
 from reports.formula.excel import compile_formula
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.handout import fill_cells
-from reports.spec.blocks import TableSpec
+from reports.model.blocks import TableSpec
 from reports.workbook.caches import sheet_parts
 from reports.workbook.layout import Cell, Layout, RowReferences, at_row
 from tests.referee.changes import without_charts

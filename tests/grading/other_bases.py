@@ -27,7 +27,7 @@ from reports.grading.issuing.register import Register
 from reports.grading.judging.marking import Marker
 from reports.grading.reading.submissions import Submission
 from reports.inputs.fields import to_mapping
-from reports.spec.evaluation import evaluate_model
+from reports.model.evaluation import evaluate_model
 from reports.workbook.layout import Layout
 from tests.conftest import sample
 from tests.grading.classroom import roster_text

@@ -14,8 +14,8 @@ from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.judging.marking import Marker
 from reports.grading.reading.submissions import Submission
-from reports.spec.blocks import TableSpec
-from reports.spec.evaluation import Values
+from reports.model.blocks import TableSpec
+from reports.model.evaluation import Values
 from reports.workbook.layout import Cell, Layout
 from tests.cover import ALL
 from tests.grading.classroom import opened, registered

@@ -19,9 +19,9 @@ from reports.grading.issuing.register import load_register
 from reports.grading.issuing.roster import read_roster
 from reports.grading.issuing.rubric import Rubric, load_rubric, rubric_of
 from reports.grading.issuing.variants import draw_variants, load_base
+from reports.model.evaluation import evaluate_model
 from reports.shared.errors import InputError
 from reports.shared.resources import samples_dir
-from reports.spec.evaluation import evaluate_model
 from reports.workbook.layout import Cell, Layout
 from tests.grading import classroom
 

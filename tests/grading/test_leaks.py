@@ -20,8 +20,8 @@ from reports.grading.issuing.leaks import check_for_leaks, leaks_of
 from reports.grading.issuing.rubric import rubric_of
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
+from reports.model.evaluation import evaluate_model
 from reports.shared.errors import InputError
-from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from tests.conftest import sample
 from tests.grading import classroom

@@ -8,7 +8,7 @@ from functools import lru_cache
 import pytest
 from openpyxl import Workbook
 
-from reports.spec.evaluation import Values, evaluate_model
+from reports.model.evaluation import Values, evaluate_model
 from reports.workbook.layout import Layout
 from tests.grading import classroom
 from tests.grading.test_verdicts import graded, line

@@ -12,9 +12,9 @@ import pytest
 from reports.grading.judging.marking import Marker
 from reports.grading.reading.student import Student
 from reports.grading.reading.submissions import Submission
+from reports.model.evaluation import evaluate_model
 from reports.recalculation import evaluate
 from reports.recalculation.read import read_grid
-from reports.spec.evaluation import evaluate_model
 from tests.grading import classroom
 from tests.grading.fill import filled_book
 from tests.grading.forms import as_excel, rewritten, tampered

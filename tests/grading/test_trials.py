@@ -8,7 +8,7 @@ import pytest
 
 from reports.grading.judging.copied import known_numbers, stepping
 from reports.grading.judging.trials import Trial, fixed, trials_of
-from reports.spec.evaluation import Evaluation
+from reports.model.evaluation import Evaluation
 from tests.grading.classroom import assignment, register
 
 

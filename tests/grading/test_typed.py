@@ -13,7 +13,7 @@ from reports.grading.judging.marking import Marker
 from reports.grading.reading.selfcheck import findings
 from reports.grading.reading.submissions import Submission
 from reports.grading.reading.typed import carried, number_of
-from reports.spec.evaluation import evaluate_model
+from reports.model.evaluation import evaluate_model
 from tests.grading import classroom
 from tests.grading.fill import filled_book
 from tests.grading.test_verdicts import formulas, graded, line

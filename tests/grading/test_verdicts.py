@@ -17,7 +17,7 @@ from reports.grading.judging import marking
 from reports.grading.judging.trials import trials_of
 from reports.grading.judging.verdicts import tolerance
 from reports.grading.reading.submissions import Submission
-from reports.spec.evaluation import Evaluation, evaluate_model
+from reports.model.evaluation import Evaluation, evaluate_model
 from reports.workbook.layout import Layout
 from tests.grading import classroom
 from tests.grading.fill import filled_book, solved_formulas

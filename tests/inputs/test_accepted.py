@@ -5,7 +5,7 @@ import pytest
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.checks import CHECKS
-from reports.spec.evaluation import evaluate_model
+from reports.model.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from reports.tables.verdicts import failed_checks
 from tests.conftest import sample

@@ -6,8 +6,8 @@ import numpy as np
 
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.solved import solved
-from reports.spec.blocks import Model
-from reports.spec.graph import Graph
+from reports.model.blocks import Model
+from reports.model.evaluation import Graph
 from reports.tables.registry import build_model
 from reports.workbook.layout import FIRST_ROW, Layout
 from tools.referees.cells import Book, cached_values

@@ -10,7 +10,7 @@ from functools import cache, lru_cache
 
 import pytest
 
-from reports.spec.blocks import Model
+from reports.model.blocks import Model
 from reports.tables.registry import build_model
 from reports.workbook.caches import sheet_parts
 from reports.workbook.write import workbook_bytes

@@ -7,9 +7,9 @@ from functools import lru_cache
 from reports.document.text.terms import Terms
 from reports.inputs.checks.grid import fine_columns
 from reports.inputs.load import load_text
+from reports.model.evaluation import evaluate_model
 from reports.shared.resources import samples_dir
 from reports.sheet.layout import sheet_items
-from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
 
 _last: list[tuple] = []

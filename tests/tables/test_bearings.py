@@ -15,7 +15,7 @@ from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import engine_and_cycle, to_engine
-from reports.spec.evaluation import evaluate_model
+from reports.model.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample

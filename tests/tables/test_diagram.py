@@ -14,8 +14,8 @@ from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_toml
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import engine_and_cycle, to_engine
+from reports.model.evaluation import evaluate_model
 from reports.shared.errors import InputError
-from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from reports.workbook.read import load_workbook_input
 from reports.workbook.write import workbook_bytes

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from reports.inputs.fields import Field, to_mapping
 from reports.inputs.load import load_mapping
-from reports.spec.blocks import Model
-from reports.spec.graph import graph_of
+from reports.model.blocks import Model
+from reports.model.evaluation import graph_of
 from reports.tables.registry import build_model
 from tests.conftest import sample, sample_names
 from tests.cover import model_of

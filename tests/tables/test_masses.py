@@ -18,8 +18,8 @@ from kshm.mechanics.rod_masses import (
 )
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import Loaded, load_mapping
+from reports.model.evaluation import evaluate_model
 from reports.shared.errors import InputError
-from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample

@@ -6,7 +6,7 @@ import pytest
 from kshm.results.extremes import least_loaded
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.spec import extremes
+from reports.model import blocks
 from tests.conftest import sample
 from tests.tables.test_two_statements import assert_agree
 
@@ -33,7 +33,7 @@ def test_the_middle_of_the_widest_unloaded_arc_is_taken(unloaded, ray):
 
 @pytest.mark.parametrize("size", [0.0, 5e6, 5e9])
 def test_a_tie_is_the_same_in_both_statements_whatever_the_sums(size):
-    tie = float(extremes.TIE) * 1e6  # of the formula, which counts in MPa
+    tie = float(blocks.TIE) * 1e6  # of the formula, which counts in MPa
     for apart, ray in ((0.5 * tie, 4), (1.5 * tie, 3)):
         sums = np.full(12, size + 1e6)
         sums[[2, 3, 4]] = size, size + apart, size + apart

@@ -13,8 +13,8 @@ from reports.inputs.own_file import file_text
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.solved import solved
 from reports.inputs.to_si.engine import engine_and_cycle
-from reports.spec.blocks import Model, TableSpec
-from reports.spec.evaluation import Evaluation, evaluate_model
+from reports.model.blocks import Model, TableSpec
+from reports.model.evaluation import Evaluation, evaluate_model
 from reports.tables.registry import build_model
 from tests.conftest import sample, sample_names
 from tests.cover import ALL

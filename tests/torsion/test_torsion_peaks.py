@@ -14,7 +14,7 @@ from kshm.results.torsion import Study
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.to_si.engine import engine_and_cycle
-from reports.spec.evaluation import Evaluation
+from reports.model.evaluation import Evaluation
 from reports.tables.registry import build_model
 from reports.workbook.layout import Layout
 from reports.workbook.write import workbook_bytes

@@ -13,8 +13,8 @@ from reports.cli import main
 from reports.document.report import Report
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
+from reports.model.evaluation import evaluate_model
 from reports.shared.resources import samples_dir
-from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from tests.conftest import sample
 

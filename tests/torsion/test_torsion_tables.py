@@ -15,10 +15,10 @@ from kshm.mechanics.torsional_train import Train
 from reports.inputs.fields import iter_fields
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import engine_and_cycle
-from reports.spec.blocks import Model
-from reports.spec.evaluation import Evaluation, evaluate_model
-from reports.spec.parts import Scope
-from reports.spec.rename import substituted
+from reports.model.blocks import Model
+from reports.model.evaluation import Evaluation, evaluate_model
+from reports.model.rename import substituted
+from reports.model.shape import Scope
 from reports.tables.contexts import books
 from reports.tables.registry import build_model, stand_ins
 from reports.tables.torsion_members import main_orders

@@ -16,8 +16,8 @@ from reports.document.page import writer
 from reports.document.page.style import Style
 from reports.document.report import Report
 from reports.inputs.load import load_text
+from reports.model.evaluation import evaluate_model
 from reports.shared.resources import samples_dir
-from reports.spec.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from reports.word import pictures
 from reports.word.outline import picture

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from lxml import etree
 
 from reports.formula.parse import SCALES, parse
-from reports.spec.blocks import Model, TableSpec, scalars_of
+from reports.model.blocks import Model, TableSpec, scalars_of
 from reports.workbook.chapters import chapter_of
 from reports.workbook.charts import HIGH, WIDE
 from reports.workbook.inputs import options

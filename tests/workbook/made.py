@@ -12,9 +12,9 @@ from openpyxl.workbook import Workbook
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import Model
-from reports.spec.charts import ChartSpec
-from reports.spec.evaluation import Values, evaluate_model
+from reports.model.blocks import Model
+from reports.model.charts import ChartSpec
+from reports.model.evaluation import Values, evaluate_model
 from reports.tables.registry import build_model
 from reports.workbook.charts import is_blank
 from reports.workbook.cockpit import CHARTS

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from reports.formula.plain import plain
-from reports.spec.blocks import TableSpec
+from reports.model.blocks import TableSpec
 from reports.workbook.layout import HEADER_ROW, Layout
 from tests.cover import charts, quantities, samples_with
 from tests.workbook.made import coarse_model, coarse_opened

@@ -14,7 +14,7 @@ from lxml import etree
 
 from reports.inputs.fields import to_mapping
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.blocks import ScalarTable
+from reports.model.blocks import ScalarTable
 from reports.tables.registry import build_model
 from reports.workbook import motion, what_if
 from reports.workbook.caches import sheet_parts

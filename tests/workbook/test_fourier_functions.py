@@ -7,7 +7,7 @@ import pytest
 
 from reports.formula.excel import compile_formula
 from reports.formula.numeric import evaluate
-from reports.spec.shape import FIRING
+from reports.model.shape import FIRING
 from reports.workbook.layout import Layout, RowReferences, at_row
 from tests.workbook.made import model
 

@@ -17,7 +17,7 @@ from kshm.mechanics.kinematics import displacement_exact
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.to_si.engine import engine_and_cycle
-from reports.spec.evaluation import evaluate_model
+from reports.model.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from reports.workbook.caches import sheet_parts
 from reports.workbook.motion import SHEET

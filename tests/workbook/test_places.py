@@ -16,8 +16,8 @@ from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_text
 from reports.inputs.own_engine import own_engine
 from reports.inputs.own_file import file_text
-from reports.spec.blocks import Model, ScalarTable, TableSpec
-from reports.spec.evaluation import Values
+from reports.model.blocks import Model, ScalarTable, TableSpec
+from reports.model.evaluation import Values
 from reports.tables.registry import build_model
 from reports.workbook import styles
 from reports.workbook.chapters import CHAPTERS, chapter_of, diagrams_of, heading, ordered, place_of

@@ -5,7 +5,7 @@ from __future__ import annotations
 import formualizer
 import pytest
 
-from reports.spec.evaluation import evaluate_model
+from reports.model.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from reports.workbook.layout import HEADER_ROW, Layout
 from reports.workbook.what_if import SHEET

@@ -14,9 +14,9 @@ import pytest
 
 from reports.inputs.fields import Field, key_text, set_value, to_mapping
 from reports.inputs.load import load_mapping
+from reports.model.blocks import NO, YES
 from reports.shared.errors import InputError
 from reports.shared.russian import capital, uncapital
-from reports.spec.judged import NO, YES
 from reports.tables.registry import build_model
 from reports.workbook.inputs import options, shown
 from reports.workbook.layout import INPUT_SHEET, Layout

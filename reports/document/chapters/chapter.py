@@ -19,9 +19,9 @@ from reports.document.text.terms import Terms, with_unit
 from reports.inputs.checks.grid import GridError
 from reports.inputs.firing import order_text, strokes_at
 from reports.inputs.sections.input_file import EngineSection, InputFile
+from reports.model.blocks import Grid, Model
+from reports.model.shape import Shape
 from reports.shared.russian import NBSP, fixed, joined, runs
-from reports.spec.blocks import Grid, Model
-from reports.spec.shape import Shape
 
 if TYPE_CHECKING:
     from jinja2 import Environment

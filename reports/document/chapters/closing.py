@@ -20,9 +20,9 @@ from reports.document.text.symbols import remark_html, titled_html
 from reports.document.text.terms import Terms
 from reports.inputs.checks.flywheel import flywheel_remark
 from reports.inputs.checks.grid import remark_on
+from reports.model.blocks import NO, YES
+from reports.model.shape import Shape, pin_table, rays_table, rods_table
 from reports.shared.russian import NBSP, capital, fixed
-from reports.spec.judged import NO, YES
-from reports.spec.shape import Shape, pin_table, rays_table, rods_table
 from reports.tables.verdicts import check_value, reasons_of
 
 _TEXT = "— Текст : непосредственный"

@@ -14,8 +14,8 @@ from reports.document.page.writer import TablePlan
 from reports.document.text import numbers
 from reports.document.text.symbols import inline_html, titled_html
 from reports.document.text.terms import Terms
+from reports.model.blocks import ScalarTable
 from reports.shared.russian import MINUS, capital, fixed
-from reports.spec.blocks import ScalarTable
 from reports.tables.cycle_names import friction_by_speed, is_boosted, section_of
 from reports.tables.cycle_ranges import UNCHECKED
 

@@ -20,10 +20,9 @@ from reports.inputs.checks.indicated import indicated_of
 from reports.inputs.sections.gas import RoundedGasSection, TableGasSection
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.geometry import sizes_of
+from reports.model.blocks import NO, Grid, ScalarTable
+from reports.model.context import diagram_kind
 from reports.shared.russian import fixed
-from reports.spec.blocks import Grid, ScalarTable
-from reports.spec.context import diagram_kind
-from reports.spec.judged import NO
 
 _POINTS = (
     "phi_c_deg", "p_start", "p_c_end", "gas_max_pressure_mpa", "cyc_p_z",

@@ -8,8 +8,8 @@ import numpy as np
 from markupsafe import Markup
 
 from reports.document.text.terms import Terms, with_unit
+from reports.model.shape import Shape, pin_name
 from reports.shared.russian import fixed
-from reports.spec.shape import Shape, pin_name
 
 _PRESSURE = 2  # decimals of the greatest pressure in a sentence
 _NOTHING = 2e-3  # of what it is measured by: no table and no curve shows it

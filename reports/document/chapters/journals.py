@@ -17,8 +17,8 @@ from reports.document.page.blocks import Column, TableBlock, symbol_head, table_
 from reports.document.page.spec_tables import grid_table
 from reports.document.page.writer import Figure, TablePlan
 from reports.document.text.terms import Terms
+from reports.model.shape import pin_figure, pin_table, rays_table
 from reports.shared.russian import capital, fixed, joined
-from reports.spec.shape import pin_figure, pin_table, rays_table
 
 _FORCES = ("C1", "C2", "C3", "C4", "C5", "C6", "C7", "C8", "C9", "C10", "C11", "C12", "C13",
            "C14", "C15", "C4x", "C5x")  # fmt: skip

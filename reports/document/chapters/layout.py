@@ -10,7 +10,7 @@ from reports.document.chapters.chapter import Chapter
 from reports.document.figures.shaft import engine_scheme
 from reports.document.page.writer import Figure
 from reports.inputs.sections.input_file import LAYOUTS
-from reports.spec.shape import rods_table
+from reports.model.shape import rods_table
 
 
 def scheme_text(chapter: Chapter) -> Markup:

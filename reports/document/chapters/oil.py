@@ -16,9 +16,9 @@ from reports.document.page.writer import TablePlan
 from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms
 from reports.inputs.sections.bearings import MATERIALS
+from reports.model.blocks import Grid
+from reports.model.shape import Scope
 from reports.shared.russian import NBSP, capital, fixed
-from reports.spec.blocks import Grid
-from reports.spec.parts import Scope
 from reports.tables.oil_members import FilmCase, film_cases
 
 _REYNOLDS = (

@@ -22,9 +22,9 @@ from reports.formula.tex import input_symbol_tex
 from reports.inputs.fields import Field
 from reports.inputs.sections.gas import TableGasSection
 from reports.inputs.sections.input_file import InputFile
+from reports.model.context import diagram_kind
+from reports.model.shape import Shape
 from reports.shared.russian import joined
-from reports.spec.context import diagram_kind
-from reports.spec.shape import Shape
 from reports.tables.unused import unused
 
 POINTS_FILE = "диаграмма.csv"  # all points of a diagram, attached to the PDF

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.shape import Shape
+from reports.model.shape import Shape
 from reports.tables.cycle_names import section_of
 
 _ALWAYS = {"notation", "introduction", "inputs", "conclusion", "sources"}

@@ -14,8 +14,8 @@ from reports.document.page.blocks import Column, TableBlock, symbol_head, table_
 from reports.document.page.writer import TablePlan
 from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms
+from reports.model.blocks import YES
 from reports.shared.russian import fixed, short
-from reports.spec.judged import YES
 from reports.tables.verdicts import reasons_of
 
 _MOST_PANELS = 2

@@ -16,8 +16,8 @@ from reports.document.text import numbers
 from reports.document.text.terms import Terms, with_unit
 from reports.formula.tex import number_tex
 from reports.inputs.checks.flywheel import INERTIAS, lighter_than
+from reports.model.charts import Series
 from reports.shared.russian import fixed, short
-from reports.spec.charts import Series
 from reports.tables.torsion_members import ray_of
 
 _HOLZER = (

@@ -9,7 +9,7 @@ from reports.document.text.terms import Terms
 from reports.drawing.parts import Mechanism, Throw, mechanism_drawing, throw_drawing
 from reports.drawing.primitives import Canvas, Item, bounds, moved
 from reports.drawing.svg import svg_of
-from reports.spec.shape import Shape
+from reports.model.shape import Shape
 
 _THROW, _MECHANISM = (98.0, 92.0), (52.0, 92.0)  # width and height of both on the figure [mm]
 _BETWEEN, _LETTERS = 8.0, 2.5

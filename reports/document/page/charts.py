@@ -20,9 +20,9 @@ from reports.document.text.spoken import spoken
 from reports.document.text.terms import Terms
 from reports.document.text.tex import GREEK
 from reports.formula.numeric import evaluate
+from reports.model.blocks import TIE
+from reports.model.charts import ChartSpec, Series
 from reports.shared.russian import NBSP, fixed
-from reports.spec.charts import ChartSpec, Series
-from reports.spec.extremes import TIE
 
 HEIGHT = 76.0  # mm
 _LETTER = "A-Za-zΑ-Ωα-ω"

@@ -12,9 +12,9 @@ from reports.document.page.blocks import Column, TableBlock, symbol_head, table_
 from reports.document.text import numbers
 from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms
+from reports.model.blocks import Grid
 from reports.shared.russian import capital
 from reports.shared.signs import cleaned
-from reports.spec.blocks import Grid
 
 _NO_ANGLE = 1e-6  # deg
 

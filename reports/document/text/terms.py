@@ -21,10 +21,10 @@ from reports.formula.numeric import evaluate
 from reports.inputs.checks.grid import GridError, grid_errors
 from reports.inputs.fields import Field
 from reports.inputs.to_si.engine import smallness_of
+from reports.model.blocks import Model, Node
+from reports.model.evaluation import Values
+from reports.model.shape import TIMING
 from reports.shared.russian import NBSP, fixed
-from reports.spec.blocks import Model, Node
-from reports.spec.evaluation import Values
-from reports.spec.shape import TIMING
 
 # Symbols that would be ambiguous within a formula.
 _SYMBOLS = {

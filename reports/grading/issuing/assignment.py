@@ -15,9 +15,9 @@ from reports.formula.parse import names, parse
 from reports.grading.issuing.given import LIVE, NUMBER, states, with_own_shifts
 from reports.grading.issuing.rubric import Rubric
 from reports.inputs.messages import likely_word
+from reports.model.blocks import Block, Column, Grid, Model, Scalar, TableSpec
+from reports.model.evaluation import Graph, graph_of, nodes_of
 from reports.shared.errors import InputError, Problem
-from reports.spec.blocks import Block, Column, Grid, Model, Scalar, TableSpec
-from reports.spec.graph import Graph, graph_of, nodes_of
 
 _LIKE = re.compile(r"\s*\(\d+\)$")  # sheets of one kind: «П4.3 (2)»
 _COPY = 0.3

@@ -11,9 +11,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from reports.spec.blocks import Block, Model, TableSpec
-from reports.spec.evaluation import Evaluation
-from reports.spec.graph import Graph, nodes_of
+from reports.model.blocks import Block, Model, TableSpec
+from reports.model.evaluation import Evaluation, Graph, nodes_of
 
 NUMBER, LIVE, HIDDEN = "number", "live", "hidden"
 _PHASE = "phase_deg"

@@ -16,9 +16,9 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from kshm.nomenclature.quantity import Quantity
 from reports.grading.issuing.assignment import Assignment
-from reports.spec.blocks import Block, Grid, Model, TableSpec, scalars_of
-from reports.spec.charts import ChartSpec
-from reports.spec.evaluation import Evaluation, Values
+from reports.model.blocks import Block, Grid, Model, TableSpec, scalars_of
+from reports.model.charts import ChartSpec
+from reports.model.evaluation import Evaluation, Values
 from reports.workbook import styles
 from reports.workbook.inputs import shown
 from reports.workbook.layout import CONTENTS_SHEET, INPUT_SHEET, Cell, Layout, check_names

@@ -21,9 +21,8 @@ from lxml import etree
 
 from reports.formula.parse import SCALE_FUNCTIONS, parse
 from reports.grading.issuing.assignment import Assignment, Item
+from reports.model.evaluation import Evaluation, node_of
 from reports.shared.errors import InputError, Problem
-from reports.spec.evaluation import Evaluation
-from reports.spec.graph import node_of
 from reports.workbook.caches import sheet_parts
 
 _DIGITS = 4  # that are compared within one place: as few as a table prints

@@ -20,8 +20,8 @@ from reports.grading.judging.rows import moved, row_indices, slips, told
 from reports.grading.judging.tolerances import apart, close, tolerance
 from reports.grading.reading.student import Student, known_values
 from reports.inputs.sections.input_file import METHODS
+from reports.model.evaluation import Evaluation
 from reports.shared.russian import fixed, short
-from reports.spec.evaluation import Evaluation
 
 _FACTORS = (10.0, 60.0, 100.0, 1000.0, 1e4, 1e5, 1e6, 1e9)
 _OTHERS = 200  # variants that are tried

@@ -30,6 +30,8 @@ from reports.grading.reading.student import Student
 from reports.grading.reading.submissions import Submission
 from reports.inputs.fields import cell_name
 from reports.inputs.ranges import Range
+from reports.model.blocks import TURN
+from reports.model.evaluation import Evaluation
 from reports.recalculation.evaluate import Engine
 from reports.recalculation.forms import Forms
 from reports.recalculation.grid import BadBook, Grid
@@ -37,8 +39,6 @@ from reports.recalculation.language import UnknownFormula
 from reports.recalculation.read import read_grid
 from reports.shared.errors import InputError
 from reports.shared.russian import short
-from reports.spec.blocks import TURN
-from reports.spec.evaluation import Evaluation
 from reports.workbook.intake import check_data
 from reports.workbook.layout import Layout
 from reports.workbook.package import Package

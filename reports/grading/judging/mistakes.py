@@ -23,9 +23,9 @@ from reports.grading.judging.rewriting import (
     summands,
     without_radians,
 )
+from reports.model.blocks import Model, TableSpec
+from reports.model.evaluation import node_of
 from reports.shared.russian import short
-from reports.spec.blocks import Model, TableSpec
-from reports.spec.graph import node_of
 
 _PRODUCTS = 4  # of a formula, in which it may divide instead
 Mistake = tuple[str, Callable[[ast.expr], ast.AST]]

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reports.grading.judging.judgement import Array, Judgement
-from reports.spec.blocks import TableSpec
+from reports.model.blocks import TableSpec
 
 _LEAST = 3  # values of an item that one of them is told apart from
 

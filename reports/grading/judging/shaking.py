@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from reports.grading.issuing.assignment import Item
 from reports.grading.judging.trials import Trial
 from reports.grading.reading.student import Student
+from reports.model.evaluation import Evaluation
 from reports.recalculation.bench import Bench
 from reports.recalculation.grid import Grid
 from reports.recalculation.language import UnknownFormula
-from reports.spec.evaluation import Evaluation
 
 Array = NDArray[np.float64]
 _LEAST, _NOISE = 1e-6, 1e-9  # share of a number, and what is left of A − A

@@ -13,7 +13,7 @@ from reports.formula.numeric import evaluate_tree
 from reports.formula.parse import parse
 from reports.grading.issuing.assignment import Item
 from reports.grading.reading.student import Student
-from reports.spec.evaluation import Evaluation
+from reports.model.evaluation import Evaluation
 
 Array = NDArray[np.float64]
 

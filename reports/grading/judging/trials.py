@@ -22,7 +22,7 @@ from reports.grading.issuing.register import Issued
 from reports.grading.judging.tolerances import apart
 from reports.inputs.fields import Field, cell_name
 from reports.inputs.ranges import Range
-from reports.spec.evaluation import Evaluation
+from reports.model.evaluation import Evaluation
 
 _TRIES = 12
 _LEAST, _MOST = 0.02, 0.08  # how much the third set changes a number

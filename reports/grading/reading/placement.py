@@ -10,11 +10,11 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from reports.grading.issuing.handout import anchor_name, cell_name
+from reports.model.blocks import Model, TableSpec
 from reports.recalculation.evaluate import NUMBER, Engine
 from reports.recalculation.grid import Grid
 from reports.recalculation.language import UnknownFormula
 from reports.shared.russian import capital
-from reports.spec.blocks import Model, TableSpec
 from reports.workbook.layout import KEY_COLUMN, SYMBOL_COLUMN, TITLE_COLUMN, VALUE_COLUMN, Layout
 
 _SEARCH_ROWS = 2000

@@ -14,10 +14,10 @@ from reports.grading.issuing.handout import fill_cells
 from reports.grading.reading.addresses import address
 from reports.grading.reading.placement import Place
 from reports.grading.reading.student import Changed, Student
+from reports.model.blocks import TableSpec
 from reports.recalculation.formulas import Formula, formula_at
 from reports.recalculation.grid import Column, Run
 from reports.recalculation.language import unquoted
-from reports.spec.blocks import TableSpec
 from reports.workbook.inputs import shown
 from reports.workbook.layout import Cell, Layout, RowReferences, at_row
 

@@ -19,13 +19,13 @@ from reports.grading.reading.ground import through
 from reports.grading.reading.matching import own_properties
 from reports.grading.reading.restoring import restore
 from reports.grading.reading.student import LOST, Student
+from reports.model.blocks import Model
 from reports.recalculation.evaluate import BLANK, ERROR, NUMBER, TEXT
 from reports.recalculation.grid import BadBook
 from reports.recalculation.language import UnknownFormula
 from reports.recalculation.read import read_grid, worksheets
 from reports.recalculation.sheets import MAIN, parse_xml
 from reports.shared.errors import InputError, Problem
-from reports.spec.blocks import Model
 from reports.tables.registry import build_model
 from reports.workbook.inputs import shown
 from reports.workbook.intake import check_package

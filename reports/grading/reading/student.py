@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.reading.placement import Place, Placement, find_places
 from reports.grading.reading.typed import DATE, as_meant, carried, dates, number_of
+from reports.model.evaluation import Evaluation
 from reports.recalculation.bench import Cells, needed, pinned
 from reports.recalculation.evaluate import BLANK, ERROR, NUMBER, Engine
 from reports.recalculation.formulas import is_doubtful
 from reports.recalculation.grid import Area, Grid, Run
 from reports.recalculation.language import UnknownFormula
-from reports.spec.evaluation import Evaluation
 from reports.workbook.layout import Cell, Layout
 from reports.workbook.package import Package
 

@@ -10,7 +10,7 @@ from tempfile import mkdtemp
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
-from reports.spec.evaluation import Values, evaluate_model
+from reports.model.evaluation import Values, evaluate_model
 from reports.workbook.layout import Layout
 from tests.cover import ALL
 from tests.grading.classroom import registered

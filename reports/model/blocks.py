@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -12,7 +12,7 @@ from kshm.arrays import Columns
 from kshm.nomenclature.quantity import Quantity, quantity
 from reports.inputs.fields import Field
 from reports.inputs.sections.input_file import InputFile
-from reports.spec.charts import ChartSpec
+from reports.model.charts import ChartSpec
 
 _BEFORE = re.compile(r"\bprevious\(")
 _POINT = re.compile(r"gas_point_\d+_(?P<unit>deg|mpa)(?P<regime>_R\d+)?")
@@ -212,7 +212,7 @@ class Model:
 
     @cached_property
     def programs(self) -> dict[str, Any]:
-        """How nodes are calculated, as ``reports.spec.evaluation`` finds it out."""
+        """How nodes are calculated, as ``reports.model.evaluation`` finds it out."""
         return {}
 
     def with_inputs(self, input_file: InputFile, inputs: tuple[Field, ...]) -> Model:
@@ -241,3 +241,82 @@ def scalars_of(block: Block) -> Iterator[Scalar]:
     elif isinstance(block, Grid):
         for row in block.rows:
             yield from (cell for cell in row.cells if cell is not None)
+
+
+YES, NO = "да", "НЕТ"
+
+
+def judged(
+    value_key: str,
+    key: str,
+    value: str,
+    test: str,
+    note: str,
+    source: str = "проверка",
+    words: tuple[str, str] = (YES, NO),
+) -> tuple[Scalar, Scalar]:
+    """A value and whether it passes; ``{value}`` in the test stands for it."""
+    good, bad = words
+    verdict = f'"{good}" if {test.format(value=value_key)} else "{bad}"'
+    return (
+        Scalar(value_key, value, source, note=note, of="check_value"),
+        Scalar(key, verdict, note=note, of="check"),
+    )
+
+
+def allowed(
+    id_: str, title: str, sheet: str, limit: str, lines: Iterable[tuple[str, str, str]]
+) -> ScalarTable:
+    """Key, formula and name of values that are held to an input, ``>= name`` or ``<= name``."""
+    scalars = [
+        scalar
+        for key, value, note in lines
+        for scalar in judged(f"value_{key}", f"allowed_{key}", value, f"{{value}} {limit}", note,
+                             "сравнение с допускаемым")
+    ]  # fmt: skip
+    return ScalarTable(id_, title, sheet, tuple(scalars), verdicts=(YES, NO))
+
+
+# Equal extremes may differ in the last bit between spreadsheet programs.
+TIE = "0.000001"
+
+
+def extreme_columns(column: str, name: str) -> tuple[Column, ...]:
+    """Helper columns: the angle where the value is the extreme, the last angle elsewhere."""
+    high, low = f"{name}_max", f"{name}_min"
+    return (
+        Column(
+            "at_max_deg",
+            f"phi_deg if {column} > {high} - {TIE} else col_last(phi_deg)",
+            "вспомогательный",
+            helper=True,
+        ),
+        Column(
+            "at_min_deg",
+            f"phi_deg if {column} < {low} + {TIE} else col_last(phi_deg)",
+            "вспомогательный",
+            helper=True,
+        ),
+    )
+
+
+def extreme_scalars(table: str, column: str, name: str, source: str) -> tuple[Scalar, ...]:
+    """Largest and smallest value of a column and their angles."""
+    return (
+        Scalar(f"{name}_max", f"col_max({table}.{column})", source),
+        Scalar(f"phi_{name}_max_deg", f"col_min({table}.at_max_deg)", source),
+        Scalar(f"{name}_min", f"col_min({table}.{column})", source),
+        Scalar(f"phi_{name}_min_deg", f"col_min({table}.at_min_deg)", source),
+    )
+
+
+def corners(
+    grid: str, title: str, sheet: str, box: str, size: str, of: str = "box",
+    source: str = "оси диаграммы",
+) -> Grid:  # fmt: skip
+    """Corners that keep both axes of a diagram equal whatever its values become."""
+    cells = (
+        Scalar(f"{box}{n}", text, source, of=of) for n, text in enumerate((f"-{size}", size), 1)
+    )
+    row = GridRow(of, tuple(cells))
+    return Grid(grid, title, sheet, ("−", "+"), (row,))

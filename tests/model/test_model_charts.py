@@ -4,13 +4,23 @@ from __future__ import annotations
 
 import pytest
 
-from reports.spec.charts import PHI, Series, line, only, over_phi, polar, wear_chart
+from reports.model.charts import PHI, ChartLines, ChartSpec, Series
 from reports.tables.registry import build_model
 from tests.conftest import sample, sample_names
 
 
+def made(word: str, head: str, *lines: str) -> ChartSpec:
+    chart = ChartLines.opened(word, head, "лист")
+    for line in lines:
+        first, _, rest = line.partition(" ")
+        chart = chart.take(first, rest)
+    return chart.made()
+
+
 def test_columns_over_the_angle_of_their_table() -> None:
-    chart = over_phi("c", "лист", "Момент", "M, Н·м", "t.M_Nm", *only("report", "u.M_Nm"))
+    chart = made(
+        "chart", "c over phi_deg: Момент", "y M, Н·м", "curve t.M_Nm", "curve u.M_Nm report"
+    )
     assert chart.x_is_angle
     assert (chart.x_title, chart.words) == (PHI, "Момент")
     assert chart.drawn_by("workbook") == (Series("t.phi_deg", "t.M_Nm"),)
@@ -19,7 +29,7 @@ def test_columns_over_the_angle_of_their_table() -> None:
 
 
 def test_corners_of_a_polar_diagram_are_the_workbooks() -> None:
-    chart = polar("c", "лист", "", ("x", "y"), "box.box", Series("t.x", "t.y"), y_reversed=True)
+    chart = made("polar", "c in box.box: Д", "x x", "y y", "curve t.x t.y", "y_reversed")
     assert chart.equal_axes
     assert (chart.x_reversed, chart.y_reversed, chart.x_is_angle) == (False, True, False)
     assert [s.invisible for s in chart.drawn_by("workbook")] == [False, True]
@@ -27,8 +37,8 @@ def test_corners_of_a_polar_diagram_are_the_workbooks() -> None:
 
 
 def test_other_charts_count_no_angle() -> None:
-    assert not line("c", "лист", "", ("λ", "φ, °"), Series("t.l", "t.y")).x_is_angle
-    assert wear_chart("c", "лист", "", "g", "hole_deg").x_reversed
+    assert not made("chart", "c: Д", "x λ", "y φ, °", "curve t.l t.y").x_is_angle
+    assert made("wear", "c in g: Д", "hole hole_deg").x_reversed
 
 
 @pytest.mark.parametrize("name", sample_names())

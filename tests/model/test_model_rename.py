@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from reports.spec.blocks import Column, Grid, Scalar, ScalarTable, TableSpec
-from reports.spec.charts import Series, over_phi, wear_chart
-from reports.spec.listing import grid_row
-from reports.spec.rename import copied, copied_chart, renamed, substituted
+from reports.model.blocks import Column, Grid, GridRow, Scalar, ScalarTable, TableSpec
+from reports.model.charts import ChartSpec, Series
+from reports.model.rename import copied, copied_chart, renamed, substituted
 
 
 def second(name: str) -> str:
@@ -38,15 +37,19 @@ def test_a_copied_table_keeps_its_columns() -> None:
 def test_copied_scalars_remember_their_quantity() -> None:
     made = copied(ScalarTable("s", "", "", (Scalar("a", "b"),)), second)
     assert made == ScalarTable("s_R2", "", "", (Scalar("a_R2", "b_R2", of="a"),))
-    grid = copied(Grid("g", "", "", ("1", "2"), (grid_row("q", ("b", None), ""),)), second)
+    grid = copied(
+        Grid("g", "", "", ("1", "2"), (GridRow("q", (Scalar("q1", "b", of="q"), None)),)), second
+    )
     assert isinstance(grid, Grid)
     assert grid.rows[0].cells == (Scalar("q1_R2", "b_R2", of="q"), None)
 
 
 def test_charts_follow_their_tables() -> None:
-    chart = copied_chart(over_phi("c", "лист", "", "", "t.y", levels=("a",)), second)
+    chart = copied_chart(
+        ChartSpec("c", "лист", "", "line", (Series("t.phi_deg", "t.y"),), levels=("a",)), second
+    )
     assert chart.series == (Series("t_R2.phi_deg", "t_R2.y"),)
     assert chart.levels == ("a_R2",)
-    wear = wear_chart("c", "лист", "", "g", "hole", ("-t.x", "t.y"))
+    wear = ChartSpec("c", "лист", "", "wear", (), hole="hole", contact=("-t.x", "t.y"))
     assert copied_chart(wear, second).hole == "hole_R2"
     assert copied_chart(wear, second).contact == ("-t_R2.x", "t_R2.y")

@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TypeVar
 
-from reports.spec.blocks import Block, Column, Grid, Scalar, ScalarTable, TableSpec
-from reports.spec.charts import ChartSpec
+from reports.model.blocks import Block, Column, Grid, Scalar, ScalarTable, TableSpec
+from reports.model.charts import ChartSpec
 
 Names = Callable[[str], str]
 Kind = TypeVar("Kind", Scalar, Column)

@@ -15,8 +15,8 @@ from reports.document.text.terms import Terms
 from reports.formula.numeric import evaluate
 from reports.formula.parse import names
 from reports.formula.tex import NotPrintable, chosen, to_tex
-from reports.spec.blocks import Node
-from reports.spec.evaluation import evaluate_model
+from reports.model.blocks import Node
+from reports.model.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from tests.conftest import sample
 

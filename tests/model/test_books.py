@@ -8,13 +8,12 @@ from pathlib import Path
 import pytest
 
 from reports.inputs.load import load_toml
+from reports.model.blocks import Grid, ScalarTable, TableSpec
+from reports.model.book_text import BookError, BookLine, Shelf, book_faults, house_shelf
+from reports.model.books import read_book
+from reports.model.context import names_of
+from reports.model.shape import Part, Scope
 from reports.shared.resources import samples_dir
-from reports.spec.blocks import Grid, ScalarTable, TableSpec
-from reports.spec.book_check import book_faults
-from reports.spec.book_text import BookError, BookLine, Shelf, house_shelf
-from reports.spec.books import read_book
-from reports.spec.context import names_of
-from reports.spec.parts import Part, Scope
 from reports.tables.registry import build_model
 
 PAGE = Path(__file__).parents[2] / "docs" / "books.md"

@@ -6,11 +6,11 @@ import pytest
 
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.spec.blocks import ScalarTable
-from reports.spec.book_text import BookError, Shelf
-from reports.spec.books import read_book
-from reports.spec.context import names_of
-from reports.spec.parts import Scope
+from reports.model.blocks import ScalarTable
+from reports.model.book_text import BookError, Shelf
+from reports.model.books import read_book
+from reports.model.context import names_of
+from reports.model.shape import Scope
 from tests.conftest import sample
 
 

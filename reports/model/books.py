@@ -13,9 +13,23 @@ from kshm.nomenclature.quantity import UNITS
 from reports.formula.parse import FormulaError, parse
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.solved import solved
-from reports.spec.blocks import TURN, Block, Column, Grid, GridRow, Scalar, ScalarTable
-from reports.spec.blocks import TableSpec as Table
-from reports.spec.book_text import (
+from reports.model.blocks import (
+    NO,
+    TURN,
+    YES,
+    Block,
+    Column,
+    Grid,
+    GridRow,
+    Scalar,
+    ScalarTable,
+    corners,
+    extreme_columns,
+    extreme_scalars,
+    judged,
+)
+from reports.model.blocks import TableSpec as Table
+from reports.model.book_text import (
     BookError,
     BookLine,
     Shelf,
@@ -23,13 +37,9 @@ from reports.spec.book_text import (
     house_shelf,
     lines_of,
 )
-from reports.spec.chart_lines import ChartLines
-from reports.spec.charts import ChartSpec
-from reports.spec.extremes import extreme_columns, extreme_scalars
-from reports.spec.judged import NO, YES, judged
-from reports.spec.listing import corners
-from reports.spec.parts import Part, stepped
-from reports.spec.rename import renamed
+from reports.model.charts import ChartLines, ChartSpec
+from reports.model.rename import renamed
+from reports.model.shape import Part, stepped
 
 Kind = TypeVar("Kind", Scalar, Column)
 _VALUE = re.compile(

@@ -11,10 +11,10 @@ from pydantic import BaseModel
 
 from kshm.nomenclature.quantity import ray_key, roman
 from reports.inputs.sections.gas import RoundedGasSection, TableGasSection
+from reports.model import shape
+from reports.model.blocks import TIE
+from reports.model.shape import Scope
 from reports.shared.russian import short
-from reports.spec import shape
-from reports.spec.extremes import TIE
-from reports.spec.parts import Scope
 
 
 @dataclass(frozen=True, slots=True)

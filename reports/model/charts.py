@@ -1,12 +1,107 @@
-"""Charts as books write them, read into their descriptions."""
+"""What a chart is: one description from which the workbook and the report draw it."""
 
 from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field, replace
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal
 
-from reports.spec.charts import PHI, ChartSpec, Series
+from reports.shared.russian import NBSP
+
+PHI = "φ, ° ПКВ"
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """A curve: columns or grid rows as ``table.key``; ``name`` overrides the symbol.
+
+    ``only`` says who draws it where workbook and report differ.  An invisible curve keeps the
+    limits of both axes of the workbook's chart equal; a point is a run of one.
+    """
+
+    x: str
+    y: str
+    name: str = ""
+    only: Literal["", "workbook", "report"] = ""
+    invisible: bool = False
+    point: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class ChartSpec:
+    """A chart beside its table; without a sheet it stands in the report alone.
+
+    Attributes:
+        kind: lines over an abscissa, path of a vector, wear diagram, scheme in a unit square.
+        figure: its number in the textbook.
+        caption: what the report says where that is more than the title.
+        x_tex: name and unit of the report's abscissa where they are not its column's.
+        y_tex: name and unit of the report's ordinate where they are not the workbook's.
+        x_is_angle: the abscissa is a crank angle [deg].
+        stems: the abscissa is an order: nothing lies between two, each value stands alone.
+        x_step: the abscissa's step where the programs do not choose it, 1 where it counts things.
+        x_reversed: positive x to the left, as the axes of the journals run.
+        y_reversed: positive y downwards.
+        from_zero: the report's ordinate takes zero in.
+        levels: scalars and inputs that the report draws across, such as a mean.
+        extremes: the report marks the greatest and the least value of the first curve.
+        hole: scalar with the angle of the oil hole in a wear diagram [deg].
+        contact: signed columns of x and y from the axis to where the force acts in a wear
+            diagram.
+        poles: points below the origin from which the report's vector is measured: symbol and
+            expression of the ordinate.
+        group: what the report says of this chart and the others that share a figure with it.
+        panel: what it says of this one.
+        number: number of the figure in the report, where one is written.
+    """
+
+    id: str
+    sheet: str
+    title: str
+    kind: Literal["line", "polar", "wear", "scheme"]
+    series: tuple[Series, ...]
+    x_title: str = ""
+    y_title: str = ""
+    figure: str = ""
+    caption: str = ""
+    x_tex: str = ""
+    y_tex: str = ""
+    x_is_angle: bool = False
+    stems: bool = False
+    x_step: float | None = None
+    x_reversed: bool = False
+    y_reversed: bool = False
+    from_zero: bool = True
+    levels: tuple[str, ...] = ()
+    extremes: bool = False
+    hole: str = ""
+    contact: tuple[str, ...] = ()
+    poles: tuple[tuple[str, str], ...] = ()
+    group: str = ""
+    panel: str = ""
+    number: str = ""
+
+    @property
+    def heading(self) -> str:
+        """Title of the workbook's chart: the report's number, the textbook's in brackets."""
+        own = f"Рис.{NBSP}{self.number}. " if self.number else ""
+        textbook = f" [рис.{NBSP}{self.figure}]" if self.figure else ""
+        return f"{own}{self.title}{textbook}"
+
+    @property
+    def equal_axes(self) -> bool:
+        """Whether both axes have one scale: the plot is square."""
+        return self.kind != "line"
+
+    @property
+    def words(self) -> str:
+        """Caption of the report's figure."""
+        return self.caption or self.title
+
+    def drawn_by(self, place: Literal["workbook", "report"]) -> tuple[Series, ...]:
+        """Curves that the workbook or the report draws."""
+        return tuple(s for s in self.series if s.only in ("", place))
+
 
 _HEAD = re.compile(
     r"(?P<id>\w+)(?P<report> report)?(?: over (?P<over>\w+)| in (?P<box>[\w.]+))?: (?P<title>.+)"

@@ -11,6 +11,8 @@ from functools import cached_property
 from kshm.engine.arrangement import Arrangement, pin_counts, pins, rods_beside, throws
 from reports.inputs.firing import arrangement_of
 from reports.inputs.sections.input_file import GeometrySection, InputFile
+from reports.model.blocks import Block
+from reports.model.charts import ChartSpec
 
 FIRING = "scheme.cyl_theta"  # the beginnings of all power strokes, side by side
 TIMING = "timing_deg"  # helper column: the angle in the cycle counted on from the piston's TDC
@@ -244,3 +246,47 @@ def pin_name(number: int) -> str:
 def cylinder_table_id(number: int) -> str:
     """Id of the table with the forces of a cylinder."""
     return "P4_1" if number == 1 else f"cylinder_{number}"
+
+
+@dataclass(frozen=True)
+class Scope:
+    """The input that a model is for, and what follows from it for all tables."""
+
+    input: InputFile
+
+    @cached_property
+    def shape(self) -> Shape:
+        """Layout of the engine."""
+        return Shape.of(self.input)
+
+    @cached_property
+    def cycle(self) -> tuple[float, ...]:
+        """Crank angles of a cycle [deg]."""
+        return self._angles(self.shape.period)
+
+    @cached_property
+    def turn(self) -> tuple[float, ...]:
+        """Crank angles of a turn [deg]."""
+        return self._angles(360)
+
+    @property
+    def forced(self) -> bool:
+        """Whether phases of the forces are given, as the printed П4.3 needs them."""
+        return self.input.crankshaft.force_offsets_deg is not None
+
+    def _angles(self, last: int) -> tuple[float, ...]:
+        step = self.input.calculation.step_deg
+        return tuple(float(angle) for angle in range(0, last + step, step))
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """Blocks of a subject and the charts that stand beside them."""
+
+    blocks: tuple[Block, ...] = ()
+    charts: tuple[ChartSpec, ...] = ()
+
+
+def stepped(first: float, last: float, step: float) -> tuple[float, ...]:
+    """Rows of a table on a grid of its own."""
+    return tuple(round(first + step * i, 6) for i in range(round((last - first) / step) + 1))

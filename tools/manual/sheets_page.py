@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from reports.formula.excel import compile_formula
 from reports.inputs.load import load_toml
 from reports.inputs.template import list_samples
+from reports.model.blocks import Block, Grid, Model, ScalarTable, TableSpec
 from reports.shared.resources import samples_dir
 from reports.shared.russian import capital
-from reports.model.blocks import Block, Grid, Model, ScalarTable, TableSpec
 from reports.tables.registry import build_model
 from reports.workbook.layout import FIRST_ROW, Layout, RowReferences, at_row
 from tools.manual.markdown import code, escaped, table

@@ -59,6 +59,11 @@ class Shelf:
                 return path.read_text(encoding="utf-8"), path
         raise jinja2.TemplateNotFound(name)
 
+    def texts(self) -> Iterator[tuple[str, str]]:
+        """Names of all books and their texts."""
+        names = {path.stem for folder in self.folders for path in folder.glob("*.book")}
+        yield from ((name, self.source(f"{name}.book")[0]) for name in sorted(names))
+
     def environment(self) -> jinja2.Environment:
         """Where books are rendered: those that are not trusted in a sandbox."""
 

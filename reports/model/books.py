@@ -47,7 +47,8 @@ _VALUE = re.compile(
     r"(?: = (?P<expr>.*?))?(?: \| (?P<source>.*?)(?: \| (?P<note>.*))?)?"
 )
 _HEADS = {
-    "sheet": (r"(?P<title>.+)", "sheet НАЗВАНИЕ"),
+    "place": (r"(?:before|chain|after) \d+", "place after 150"),
+    "sheet": (r"(?P<title>.+?)(?: in .+ \d+: .+)?", "sheet НАЗВАНИЕ in ГЛАВА НОМЕР: ЗАГОЛОВОК"),
     "list": (r'(?P<id>\w+)(?P<verdicts> verdicts(?: "(?P<good>.*)" "(?P<bad>.*)")?)?'
              r": (?P<title>.+)",
              "list ИМЯ: ЗАГОЛОВОК"),
@@ -159,6 +160,8 @@ class _Reader:
         about = {key: value or "" for key, value in found.groupdict().items()}
         if word == "sheet":
             self._sheet = about["title"].strip()
+        elif word == "place":
+            pass  # read before any engine, see reports.model.contents
         elif word == "box":
             self._blocks.append(
                 corners(about["id"], about["title"], self._sheet, about["key"], about["size"],

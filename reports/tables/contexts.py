@@ -38,7 +38,7 @@ class Surface:
 
     table: str
     number: str
-    sheet: str
+    which: str  # which sheet of its kind
     name: str
     of: str  # which one, in the genitive's end
     size: str
@@ -55,7 +55,7 @@ def _surfaces(scope: Scope) -> dict[str, Any]:
     pins = [
         Surface(
             rays_table(n), "14" if n == 1 else f"14.Ш{n}",
-            "Износ ш.ш" if n == 1 else f"Износ ш.ш ({n})", f"pin{pin_name(n)}",
+            "" if n == 1 else f" ({n})", f"pin{pin_name(n)}",
             f" {n}" if several else "", f"{pin_table(n)}.Rpin_MPa", f"-{pin_table(n)}.Krod_MPa",
             f"-{pin_table(n)}.T_MPa", True, pin_figure("fig52", n),
             ("pin", shape.throw_of(shape.pins[n - 1][0])),
@@ -64,7 +64,7 @@ def _surfaces(scope: Scope) -> dict[str, Any]:
     ]  # fmt: skip
     mains = [
         Surface(
-            f"table_14_main_{k}", f"14.{k}", f"Износ к.ш ({k})", f"main{k}", f" {k}",
+            f"table_14_main_{k}", f"14.{k}", f" ({k})", f"main{k}", f" {k}",
             f"P4_3_{k}.R_MPa", f"P4_3_{k}.Ry_MPa", f"P4_3_{k}.Rx_MPa", False, f"fig54_{k}",
             ("main", k),
         )

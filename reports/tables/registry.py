@@ -9,6 +9,7 @@ from reports.inputs.fields import Value, iter_fields, tables_shape
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import smallness_of
 from reports.model.blocks import Model
+from reports.model.contents import contents_of
 from reports.model.rename import sized, substituted
 from reports.model.shape import Part, Scope
 from reports.tables.contexts import books
@@ -18,31 +19,19 @@ from reports.tables.regimes import comparison, regime_models
 from reports.tables.stand_ins import mass_stand_ins, size_stand_ins
 from reports.tables.verdicts import accepted_checks
 
-# Books in the order of their sheets.
-BEFORE = ("scheme", "cycle", "cycle_results", "cycle_speed")
-# Chapters 1 and 2: all that speed and gas decide, and more; every regime has them.
-CHAIN = (
-    "mechanism", "rod_masses", "kinematics", "articulated", "gas", "cylinders", "torques",
-    "crankpins", "throws", "journals", "wear", "summary",
-)  # fmt: skip
-AFTER = (
-    "balance", "balance_orders", "firing", "inertia", "torque_orders", "piston_motion",
-    "reference", "bearings", "continuous", "two_term", "torsion", "oil", "safety",
-)  # fmt: skip
-
 
 def build_model(model: InputFile, remarks: tuple[str, ...] = ()) -> Model:
     """Specifications of every table, scalar and chart for the input's structure.
 
     ``remarks`` are lines about the input, told beside the checks.
     """
-    scope, regimes = Scope(model), regime_models(model, chain)
+    scope, house, regimes = Scope(model), contents_of(), regime_models(model, chain)
     parts = (
-        books(scope, BEFORE),
+        books(scope, house.parts["before"]),
         chain(model),
         comparison(model, regimes),
         *(regime.part() for regime in regimes),
-        books(scope, AFTER),
+        books(scope, house.parts["after"]),
     )
     blocks = tuple(block for part in parts for block in part.blocks)
     charts = tuple(chart for part in parts for chart in part.charts)
@@ -78,5 +67,5 @@ def stand_ins(model: InputFile) -> dict[str, str]:
 
 def chain(model: InputFile) -> Part:
     """Blocks and charts that a regime has too."""
-    part = books(Scope(model), CHAIN)
+    part = books(Scope(model), contents_of().parts["chain"])
     return Part(substituted(part.blocks, stand_ins(model)), part.charts)

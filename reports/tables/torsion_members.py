@@ -58,21 +58,19 @@ class TrainMasses:
         return throws.index(throw) + 1 if throw in throws else 0
 
     @property
-    def bisections(self) -> tuple[tuple[str, str, str, str, str, int], ...]:
-        """Tables that halve: id, number, title, sheet, variant of the train, number of the mode."""
+    def bisections(self) -> tuple[tuple[str, str, str, str, int], ...]:
+        """Tables that halve: id, number, title, variant of the train, number of the mode."""
         found = [
-            (f"torsion_f{m}", f"К.{m}", f"Частота {m}: деление отрезка пополам",
-             f"Крутильная частота {m}", "", m)
+            (f"torsion_f{m}", f"К.{m}", f"Частота {m}: деление отрезка пополам", "", m)
             for m in self.modes
-        ]  # fmt: skip
-        found.append(("torsion_f1_other", "К.м", "Первая частота с другим маховиком",
-                      "Частоты вариантов", "other", 1))  # fmt: skip
+        ]
+        other = "Первая частота с другим маховиком"
+        found.append(("torsion_f1_other", "К.м", other, "other", 1))
         if not self.own:
             found += [
-                (f"torsion_f1_{key}", "К.ж", f"Первая частота при жёсткости: {name}",
-                 "Частоты вариантов", key, 1)
+                (f"torsion_f1_{key}", "К.ж", f"Первая частота при жёсткости: {name}", key, 1)
                 for key, name in FORMULAS.items()
-            ]  # fmt: skip
+            ]
         return tuple(found)
 
 

@@ -205,9 +205,8 @@ def _sheets(sheet: Worksheet, titles: Sequence[str], model: Model, row: int) -> 
             sheet.cell(row, column).fill = PatternFill("solid", fgColor=chapter.colour)
         for title in group:
             row += 1
-            blocks = [block for block in model.blocks if block.sheet == title]
             link(sheet, Cell(sheet.title, row, 1), title, title)
-            sheet.cell(row, 2, heading(title, blocks)).style = styles.LINE
+            sheet.cell(row, 2, heading(title)).style = styles.LINE
     return row + 1
 
 

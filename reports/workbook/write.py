@@ -137,7 +137,7 @@ def _heading(sheet: Worksheet, title: str) -> None:
 
 def _blocks(sheet: Worksheet, model: Model, writer: Writer) -> None:
     blocks = [block for block in model.blocks if block.sheet == sheet.title]
-    _heading(sheet, heading(sheet.title, blocks))
+    _heading(sheet, heading(sheet.title))
     for block in blocks:
         if isinstance(block, TableSpec):
             writer.table(sheet, block)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import shutil
 import tomllib
 from pathlib import Path
 
@@ -12,7 +13,10 @@ import pytest
 from reports.grading.issuing.issue import assignment_for
 from reports.grading.judging.marking import Marker
 from reports.grading.reading.submissions import Submission
-from reports.tables import registry
+from reports.model import book_text
+from reports.model.contents import contents_of
+from reports.shared.resources import templates_dir
+from reports.workbook.chapters import place_of
 from tests.grading.classroom import issue_class
 from tests.grading.fill import filled_book
 from tests.manual.pages import DOCS, ROOT, blocks
@@ -24,13 +28,24 @@ SHEET = "Опрокидывание"
 
 
 @pytest.fixture(scope="module")
-def example():
+def example(tmp_path_factory):
+    """What the page runs, with its book among those of the house."""
+    templates = tmp_path_factory.mktemp("templates")
+    shutil.copytree(templates_dir() / "tables", templates / "tables")
+    (written,) = blocks(PAGE, "book")
+    (templates / "tables" / "tilting.book").write_text(written, encoding="utf-8")
+    kept = (contents_of, place_of)
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(ROOT)
+        patch.setattr(book_text, "templates_dir", lambda: templates)
+        for each in kept:
+            each.cache_clear()
         names: dict[str, object] = {}
         for block in blocks(PAGE, "python"):
             exec(block, names)
         yield names
+    for each in kept:
+        each.cache_clear()
 
 
 def test_the_sheet_has_live_formulas(example):
@@ -51,11 +66,11 @@ def test_the_report_takes_the_formula_from_the_description(example):
     assert len(example["printed"].rows) == 25  # each third of 73 and the last
 
 
-def test_the_table_is_graded_by_its_name_in_the_rubric(example, monkeypatch, tmp_path):
+def test_the_table_is_graded_by_its_name_in_the_rubric(example, tmp_path):
+    assert SHEET in example["model"].sheets
     (rubric,) = blocks(PAGE, "toml")
     assert "tilting" in tomllib.loads(rubric)["work"]["fill"]
 
-    monkeypatch.setattr(registry, "AFTER", (*registry.AFTER, example["tilting"]))
     register = issue_class(tmp_path, 1, rubric).register
     (book,) = register.books
     handout = (tmp_path / "issued" / book.folder / book.file).read_bytes()

@@ -25,6 +25,8 @@ def write_waves(sheet: Worksheet, writer: Writer) -> None:
         _write_run(sheet, writer, run)
     for grid, found in layout.orders.items():
         table, column = layout.columns[found.angle]
+        if table.id not in writer.values.columns:  # a work-book has some tables only
+            continue
         angles = writer.values.columns[table.id][table.columns[0].key][:-1].tolist()
         place = layout.waves[grid]
         rows = range(FIRST_ROW, FIRST_ROW + len(angles))
@@ -54,8 +56,10 @@ def _write_run(sheet: Worksheet, writer: Writer, run: str) -> None:
     """Angles of a run side by side, below them a row an order."""
     layout = writer.layout
     keys, top = layout.keys_of_run(run), layout.run_waves[run]
-    given = {field.name: field.value for field in layout.model.inputs}
-    angles = [float(writer.values.scalars.get(key, given.get(key))) for key in keys]  # type: ignore[arg-type]
+    known = {field.name: field.value for field in layout.model.inputs} | writer.values.scalars
+    if not all(key in known for key in keys):  # a work-book has some lists only
+        return
+    angles = [float(known[key]) for key in keys]
     cells = layout.cells_of_run(run)
     sheet.cell(top - 1, 1, cells[0].sheet).style = styles.SUBTITLE
     for column, (cell, angle) in enumerate(zip(cells, angles, strict=True), 2):

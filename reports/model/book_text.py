@@ -91,7 +91,8 @@ def _compiled(folder: Path) -> jinja2.BytecodeCache | None:
 
 
 @lru_cache(maxsize=8)
-def _environment(shelf: Shelf) -> jinja2.Environment:
+def environment_of(shelf: Shelf) -> jinja2.Environment:
+    """The environment of a shelf, made once."""
     return shelf.environment()
 
 
@@ -141,7 +142,7 @@ def _printed(value: object) -> object:
 
 def _rendered(name: str, shelf: Shelf, names: Mapping[str, object]) -> str:
     try:
-        return _environment(shelf).get_template(name).render(names)
+        return environment_of(shelf).get_template(name).render(names)
     except jinja2.TemplateSyntaxError as error:
         book = error.name or name
         raise BookError(book, error.lineno, 1, f"условие Jinja2 не разобрано: {error.message}",

@@ -20,6 +20,7 @@ from reports.inputs.sections.input_file import METHODS
 from reports.inputs.to_si.gas import places
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, to_estimate
 from reports.inputs.units import MM
+from reports.model.book_text import BookLine
 from reports.model.books import read_book
 from reports.model.context import names_of
 from reports.model.shape import Part, Scope, pin_figure, pin_name, pin_table, rays_table
@@ -185,10 +186,11 @@ _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
 }
 
 
-def book_part(book: str, scope: Scope) -> Part:
-    """Blocks and charts of a book of the house."""
+def book_part(book: str, scope: Scope, places: dict[str, BookLine] | None = None) -> Part:
+    """Blocks and charts of a book of the house; ``places`` takes the lines of its nodes."""
     further = _OF_BOOK.get(book)
-    return read_book(f"{book}.book", names_of(scope, **(further(scope) if further else {})))
+    names = names_of(scope, **(further(scope) if further else {}))
+    return read_book(f"{book}.book", names, places=places)
 
 
 def books(scope: Scope, names: Iterable[str]) -> Part:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from unittest import mock
 
 from reports.inputs.load import load_toml
-from reports.model import rename
+from reports.model import book_text, rename
 from reports.shared.resources import samples_dir
 from reports.tables.registry import build_model
 from tests.bench._figure import Figure, interleaved, median, ratio
@@ -27,9 +27,25 @@ def all_renamed() -> None:
         every()
 
 
+def read_anew() -> None:
+    """Every book read as by a new process."""
+    book_text.environment_of.cache_clear()
+    build_model(INPUTS[0])
+
+
+def compiled_anew() -> None:
+    """The same, and no compiled book is kept."""
+    with mock.patch.object(book_text, "_compiled", lambda folder: None):
+        read_anew()
+    book_text.environment_of.cache_clear()
+
+
 def figures() -> Iterator[Figure]:
     """Figures."""
     times = interleaved({"now": every, "all": all_renamed}, rounds=5)
     yield Figure("таблицы всех образцов: процессор", median(times["now"]), "с",
                  f"{len(INPUTS)} образцов")  # fmt: skip
     yield Figure("каждое выражение переписано / как есть", ratio(times, "all", "now"), "раз")
+    times = interleaved({"kept": read_anew, "anew": compiled_anew}, rounds=5)
+    yield Figure("книги таблиц, первый двигатель процесса: процессор", median(times["kept"]), "с")
+    yield Figure("скомпилированные книги / каждая заново", ratio(times, "kept", "anew"), "раз")

@@ -11,10 +11,15 @@ from reports.inputs.load import load_toml
 from reports.model.blocks import Grid, ScalarTable, TableSpec
 from reports.model.book_text import BookError, BookLine, Shelf, book_faults, house_shelf
 from reports.model.books import read_book
+from reports.model.contents import contents_of
 from reports.model.context import names_of
 from reports.model.shape import Part, Scope
 from reports.shared.resources import samples_dir
+from reports.tables.contexts import book_part
 from reports.tables.registry import build_model
+from reports.workbook.chapters import place_of
+from tests.conftest import sample, sample_names
+from tests.layouts import MAKERS, made
 
 PAGE = Path(__file__).parents[2] / "docs" / "books.md"
 EXAMPLES = re.findall(r"```book\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
@@ -126,3 +131,23 @@ def test_numbers_are_short_and_macros_stand_on_one_line(tmp_path: Path):
     )
     (block,) = read(text, tmp_path).blocks
     assert isinstance(block, ScalarTable) and block.scalars[0].expr == "3 /2 + 0.25"
+
+
+@pytest.mark.parametrize("name", sample_names())
+def test_books_of_the_house_name_what_there_is(name: str):
+    """No formula of a sample names what the model has not, none needs itself."""
+    scope, places = Scope(sample(name)), {}
+    model = build_model(scope.input)
+    for part in contents_of().parts.values():
+        for book in part:
+            book_part(book, scope, places)
+    assert len(places) > 100
+    assert [str(fault) for fault in book_faults(model, places, house_shelf())] == []
+
+
+def test_every_sheet_of_every_layout_has_its_place():
+    for name in (*sample_names(), *MAKERS):
+        model = build_model(sample(name) if name in sample_names() else made(name))
+        assert all(place_of(sheet) for sheet in model.sheets)
+    with pytest.raises(LookupError):
+        place_of("Ничей лист")

@@ -1,4 +1,4 @@
-"""Open workbooks in LibreOffice as a person does, type into one cell of each, save.
+"""Open workbooks in LibreOffice as a person does, type into one cell of each, read all cells.
 
 Run by the system's Python, which has ``uno``: ``edited.py PROFILE < JOBS``.
 """
@@ -21,13 +21,22 @@ def prop(name, value):
     return made
 
 
-def edit(desktop, source, sheet, cell, value, target):
+def edit(desktop, source, sheet, cell, value):
+    """Rows of values by sheet after the first edit."""
     address = Path(source).resolve().as_uri()
     document = desktop.loadComponentFromURL(address, "_blank", 0, (prop("Hidden", True),))
-    document.getSheets().getByName(sheet).getCellRangeByName(cell).setValue(value)
-    saved = (prop("FilterName", "Calc MS Excel 2007 XML"),)
-    document.storeToURL(Path(target).resolve().as_uri(), saved)
+    sheets = document.getSheets()
+    sheets.getByName(sheet).getCellRangeByName(cell).setValue(value)
+    found = {}
+    for name in sheets.getElementNames():
+        page = sheets.getByName(name)
+        cursor = page.createCursor()
+        cursor.gotoEndOfUsedArea(False)
+        last = cursor.getRangeAddress()
+        used = page.getCellRangeByPosition(0, 0, last.EndColumn, last.EndRow)
+        found[name] = used.getDataArray()
     document.close(True)
+    return found
 
 
 def main(profile):
@@ -50,8 +59,7 @@ def main(profile):
     desktop = context.ServiceManager.createInstanceWithContext(
         "com.sun.star.frame.Desktop", context
     )
-    for job in json.load(sys.stdin):
-        edit(desktop, *job)
+    json.dump([edit(desktop, *job) for job in json.load(sys.stdin)], sys.stdout)
     with contextlib.suppress(Exception):  # the bridge breaks when the office goes
         desktop.terminate()
     office.wait(30)
